@@ -1,0 +1,114 @@
+// Realises the resources of a set of graphs, records each plan once per frame slot, resubmits, reads
+// timestamps. The only part of the graph that needs a device.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "graph/plan.h"
+#include "vulkan/frame_slots.h"
+#include "vulkan/pipeline.h"
+#include "vulkan/resources.h"
+
+namespace drape::graph {
+
+/// The physical images and buffers, by name, shared by all plans of a scene. What no plan uses is not made.
+class ResourcePool {
+  public:
+    /// Sums all sizes first and throws VulkanError before allocating when they exceed the budget. Usage
+    /// flags are what the plans' uses need, plus transfer for set-up and tests. A resource that several
+    /// graphs declare must be declared equally (GraphError otherwise). Persistent and constant images
+    /// start zeroed, in GENERAL; buffers start zeroed.
+    ResourcePool(const vulkan::Device& device, std::span<const std::pair<const Graph*, const Plan*>> plans);
+
+    const vulkan::Device& device() const { return device_; }
+    bool has(const std::string& name) const;
+    const vulkan::Image& image(const std::string& name) const;  ///< GraphError when there is none
+    /// `slot` matters for host_input and host_output buffers only.
+    const vulkan::Buffer& buffer(const std::string& name, std::uint32_t slot = 0) const;
+
+  private:
+    const vulkan::Device& device_;
+    std::map<std::string, vulkan::Image> images_;
+    std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
+};
+
+enum class TimestampMode { none, stages, passes };
+
+/// Given to a pass's execute function. Every access is compared with what the pass declared.
+class PassContext {
+  public:
+    VkCommandBuffer commands() const { return commands_; }
+    std::uint32_t slot() const { return slot_; }
+    /// Throw GraphError, naming pass and resource, when the pass did not declare the handle.
+    const vulkan::Image& image(Handle handle) const;
+    const vulkan::Buffer& buffer(Handle handle) const;
+
+    /// Binds the pipeline, pushes every declared use that has a binding, and the push constants. Throws
+    /// GraphError when the pipeline's descriptors and the declared bindings differ (binding missing on
+    /// either side, image against buffer, read against write, format).
+    void bind(const vulkan::Pipeline& pipeline, std::span<const std::byte> push_constants = {});
+    template <class T>
+    void bind(const vulkan::Pipeline& pipeline, const T& push_constants) {
+        bind(pipeline, std::as_bytes(std::span<const T, 1>(&push_constants, 1)));
+    }
+    /// `bind`, then dispatch enough workgroups for width x height invocations.
+    template <class T>
+    void dispatch(const vulkan::ComputePipeline& pipeline, const T& push_constants, std::uint32_t width,
+                  std::uint32_t height) {
+        bind(pipeline, push_constants);
+        dispatch_groups(pipeline, width, height);
+    }
+
+  private:
+    friend class Recorder;
+    PassContext(VkCommandBuffer commands, std::uint32_t slot, const Graph& graph, const Pass& pass,
+                const ResourcePool& pool)
+        : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
+    void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
+    const Use& use_of(Handle handle) const;
+    VkCommandBuffer commands_;
+    std::uint32_t slot_;
+    const Graph& graph_;
+    const Pass& pass_;
+    const ResourcePool& pool_;
+};
+
+/// One timed bracket of one frame.
+struct Timing {
+    std::string name;  ///< stage, or pass label
+    double milliseconds = 0;
+};
+
+/// Removes barriers on purpose: for the canary test that a planted hazard is reported.
+using BarrierFilter = std::function<bool(const PlannedPass&, const Barrier&)>;
+
+/// A plan recorded into one command buffer per frame slot.
+class RecordedPlan {
+  public:
+    /// `keep` (default: all) may drop barriers: canary tests only.
+    RecordedPlan(const Graph& graph, const Plan& plan, const ResourcePool& pool, TimestampMode timestamps,
+                 const BarrierFilter& keep = {});
+    ~RecordedPlan();
+    RecordedPlan(const RecordedPlan&) = delete;
+    RecordedPlan& operator=(const RecordedPlan&) = delete;
+
+    VkCommandBuffer commands(std::uint32_t slot) const { return commands_[slot]; }
+    /// Of the slot's last finished submit, in order, summed by name (stages) or by label (passes). Masked by
+    /// timestampValidBits, times timestampPeriod in double; empty when the device has no timestamps.
+    std::vector<Timing> timings(std::uint32_t slot) const;
+
+  private:
+    const vulkan::Device& device_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
+    std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};
+    std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;  ///< name, first and last query
+};
+
+}  // namespace drape::graph

@@ -1,0 +1,145 @@
+// The render graph as declared: resources by versioned handles, passes with declared access.
+// Building and planning are pure: no device, tested without one. `plan.h` turns a Graph into a Plan,
+// `executor.h` records a Plan once and resubmits it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#define VK_NO_PROTOTYPES
+#include <vulkan/vulkan_core.h>
+
+namespace drape::graph {
+
+/// A mistake of the programmer who declares passes: stale handle, undeclared access, read of nothing.
+/// The text names the pass and the resource.
+class GraphError : public std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+enum class Access : std::uint8_t {
+    compute_read,    ///< storage image or storage buffer
+    compute_write,   ///< storage image or storage buffer
+    vertex_read,     ///< storage image or storage buffer
+    fragment_read,   ///< storage image or storage buffer
+    index_read,      ///< index buffer
+    color_write,     ///< colour attachment (write, or load and write)
+    depth_write,     ///< depth attachment (test and write)
+    resolve_write,   ///< resolve target of a multisampled colour attachment
+    transfer_read,
+    transfer_write,
+    host_read,       ///< after the frame's fence; makes device writes visible to the host
+};
+bool is_write(Access access);
+
+/// How long a resource's contents live, and how many copies there are.
+enum class Lifetime : std::uint8_t {
+    transient,   ///< within a frame; its contents do not outlive the plan
+    persistent,  ///< the state: carried from frame to frame; its final version is always wanted
+    constant,    ///< set-up writes it once; no pass may write it
+    host_input,  ///< buffer: the host writes it before each submit; one copy per frame slot; no pass writes
+    host_output, ///< buffer: the host reads it after the frame; one copy per frame slot; always wanted
+};
+
+struct ImageDeclaration {
+    std::string name;  ///< unique within the graph, e.g. "banner/position"; the physical image goes by it
+    VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    std::uint32_t width = 1, height = 1;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    Lifetime lifetime = Lifetime::transient;
+};
+
+struct BufferDeclaration {
+    std::string name;
+    std::uint64_t byte_count = 0;
+    Lifetime lifetime = Lifetime::transient;
+};
+
+/// A resource at a version. Writing returns a new handle and retires the old one.
+struct Handle {
+    std::uint32_t resource = UINT32_MAX;
+    std::uint32_t version = 0;
+    bool valid() const { return resource != UINT32_MAX; }
+    bool operator==(const Handle&) const = default;
+};
+
+struct Resource {
+    std::string name;
+    bool is_image = false;
+    ImageDeclaration image;    ///< when is_image
+    BufferDeclaration buffer;  ///< otherwise
+    Lifetime lifetime = Lifetime::transient;
+    std::uint32_t version = 0;  ///< newest
+    std::uint64_t byte_count() const;  ///< of one copy: texels x texel size x samples, or the buffer's size
+};
+
+/// One declared use. `binding`: the descriptor it is bound to (set 0), none for attachments and transfers.
+struct Use {
+    Handle handle;  ///< the version read, or the version this write makes
+    Access access;
+    std::optional<std::uint32_t> binding;
+};
+
+class PassContext;  // executor.h
+
+struct Pass {
+    std::string name;   ///< "banner/spring row even (substep 3)"
+    std::string stage;  ///< what timestamps bracket by default: "simulate", "normals", "raster", "readback"
+    std::string label;  ///< name without the counters: passes of one label are summed in profiles
+    std::vector<Use> uses;
+    std::function<void(PassContext&)> execute;
+};
+
+struct Skipped {
+    std::string what, reason;
+};
+
+class Graph;
+
+/// Given to a pass's set-up function; the only way to declare access.
+class PassSetup {
+  public:
+    /// Declares a read of this version. Reading and then writing one resource in one pass is how a
+    /// read-modify-write is said; write then read throws.
+    Handle read(Handle handle, Access access, std::optional<std::uint32_t> binding = {});
+    /// Declares a write; returns the new version. The contents not written stay (no implied clear).
+    [[nodiscard]] Handle write(Handle handle, Access access, std::optional<std::uint32_t> binding = {});
+
+  private:
+    friend class Graph;
+    PassSetup(Graph& graph, Pass& pass) : graph_(graph), pass_(pass) {}
+    Graph& graph_;
+    Pass& pass_;
+};
+
+struct PassName {
+    std::string name, stage, label;
+};
+
+class Graph {
+  public:
+    /// Declares a resource; throws GraphError when the name is taken or the lifetime does not fit.
+    Handle image(const ImageDeclaration& declaration);
+    Handle buffer(const BufferDeclaration& declaration);
+    /// Runs `setup` now, keeps `execute` for recording.
+    void add_pass(PassName name, const std::function<void(PassSetup&)>& setup,
+                  std::function<void(PassContext&)> execute);
+    /// Says in every dump that something was left out on purpose, and why.
+    void skip(std::string what, std::string reason);
+
+    const std::vector<Resource>& resources() const { return resources_; }
+    const std::vector<Pass>& passes() const { return passes_; }
+    const std::vector<Skipped>& skipped() const { return skipped_; }
+
+  private:
+    friend class PassSetup;
+    std::vector<Resource> resources_;
+    std::vector<Pass> passes_;
+    std::vector<Skipped> skipped_;
+};
+
+}  // namespace drape::graph

@@ -1,0 +1,57 @@
+// From declarations to a plan: culling, barriers, lifetimes, sizes. A pure function of the Graph.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+
+namespace drape::graph {
+
+/// Stages and accesses one use touches, and the layout an image must be in for it.
+struct AccessScope {
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 accesses;
+    VkImageLayout layout;
+};
+AccessScope access_scope(Access access);
+
+struct Barrier {
+    std::uint32_t resource;
+    VkPipelineStageFlags2 source_stages, destination_stages;
+    VkAccessFlags2 source_accesses, destination_accesses;
+    VkImageLayout old_layout, new_layout;  ///< equal when the layout does not change (and for buffers)
+    std::string reason;  ///< "banner/displacement: write by force -> read by spring row even"
+};
+
+struct PlannedPass {
+    std::uint32_t pass;             ///< index into Graph::passes()
+    std::vector<Barrier> barriers;  ///< to be executed before it
+};
+
+struct Lifespan {
+    std::uint32_t first = UINT32_MAX, last = 0;  ///< indices into Plan::passes; first > last: not used
+    bool used() const { return first <= last; }
+};
+
+struct Plan {
+    std::vector<PlannedPass> passes;    ///< in execution order = declaration order
+    std::vector<Barrier> final_barriers;  ///< after the last pass: device writes to the host
+    std::vector<Lifespan> lifespans;    ///< per resource of the graph
+    std::vector<Skipped> skipped;       ///< the graph's own, then what culling removed and why
+    std::uint64_t byte_count = 0;       ///< of all used resources, copies per frame slot counted
+};
+
+/// Culls every pass whose written versions nobody wanted reads (wanted: the final versions of persistent
+/// and host_output resources, transitively), then derives the barriers. A plan may follow any plan of the
+/// same resources, so the first use of every persistent resource waits for all earlier work (also
+/// write-after-read), transients included because their memory is reused; host inputs need none (a
+/// submit makes host writes visible). Images rest in GENERAL between plans; transients start UNDEFINED.
+/// Throws GraphError when a wanted pass reads a transient version nobody wrote.
+Plan make_plan(const Graph& graph);
+
+/// What runs, what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.
+std::string dump(const Graph& graph, const Plan& plan, const std::string& format);
+
+}  // namespace drape::graph

@@ -1,0 +1,187 @@
+// The plain values a scene file holds. No Vulkan, no parsing: `scene_reader.h` fills these, everything
+// else reads them. SI units, degrees, y up; every default here is the documented default of the schema.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drape {
+
+using Vec3 = std::array<double, 3>;
+
+/// One key of a key-framed rigid motion. Angles in degrees about x, then y, then z; several turns are
+/// allowed because paths interpolate the angles component by component.
+struct MotionKey {
+    double time = 0.0;  ///< seconds
+    Vec3 translate{0, 0, 0};
+    Vec3 rotate{0, 0, 0};
+};
+
+/// Catmull-Rom through the keys with zero end slopes; holds its ends. Empty = at rest.
+struct MotionPath {
+    std::vector<MotionKey> keys;  ///< strictly increasing in time
+    bool moves() const { return keys.size() > 1; }
+};
+
+struct TimeSettings {
+    double fps = 60.0;
+    std::uint32_t frame_count = 1;  ///< frames 0 .. frame_count-1; frame 0 is the initial state
+};
+
+/// Gust: an extra wind along `velocity`'s direction, a function of time and seed written in the schema.
+struct Gust {
+    double amplitude = 0.0;  ///< m/s
+    double period = 1.0;     ///< s
+    std::uint32_t seed = 0;
+};
+
+struct Wind {
+    Vec3 velocity{0, 0, 0};    ///< m/s
+    Gust gust;
+    double air_density = 1.2;  ///< kg/m^3
+    double drag = 1.0;         ///< Cd
+    double lift = 0.5;         ///< Cl
+    bool blows() const { return velocity != Vec3{0, 0, 0}; }
+};
+
+/// Where the flat cloth starts: particle (column 0, row 0) and the unit directions of growing column, row.
+struct Placement {
+    Vec3 origin{0, 0, 0};
+    Vec3 u{1, 0, 0};
+    Vec3 v{0, -1, 0};
+};
+
+struct Stiffness {
+    bool rigid = false;      ///< stretch and shear inextensible: the slides' springs
+    double stretch = 1000.0; ///< N/m
+    double shear = 100.0;    ///< N/m
+    double bend = 0.0;       ///< N m
+};
+
+/// Inclusive box of particle indices (column, row).
+struct IndexBox {
+    std::array<std::uint32_t, 2> first{};
+    std::array<std::uint32_t, 2> last{};
+};
+
+/// Particles held by the scene. `edge`, `corner` and `at` of the scene file are resolved to an IndexBox by
+/// the reader, so that nothing later needs to know the four spellings.
+struct Pin {
+    IndexBox particles;
+    std::optional<double> release;  ///< s; from then on the particle is free and keeps its velocity
+    MotionPath path;
+    std::optional<Vec3> pivot;      ///< metres; rotation centre; default: centroid of the pinned particles
+};
+
+enum class Pattern { plain, checker };
+
+struct Appearance {
+    Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
+    Vec3 back{0.60, 0.10, 0.10};
+    Pattern pattern = Pattern::checker;
+};
+
+struct Cloth {
+    std::string name;
+    std::array<std::uint32_t, 2> grid{2, 2};  ///< particles: columns, rows
+    std::array<double, 2> size{1, 1};         ///< metres along columns, rows
+    Placement placement;
+    double areal_density = 0.2;  ///< kg/m^2
+    Stiffness stiffness;
+    double damping = 0.0;    ///< 1/s
+    double friction = 0.3;   ///< Coulomb coefficient of the cloth's own side
+    double thickness = 0.005;///< m, distance kept from colliders
+    Vec3 velocity{0, 0, 0};  ///< m/s
+    std::vector<IndexBox> holes;  ///< boxes of particle indices whose inner cells are missing
+    std::vector<Pin> pins;
+    Appearance appearance;
+};
+
+/// What every collider has beside its shape. `rotate` and `path` rotate about the collider's own centre
+/// (a plane's: the foot point normal * offset); a path is applied on top of the rest pose.
+struct ColliderCommon {
+    double friction = 0.3;
+    Vec3 rotate{0, 0, 0};  ///< degrees, rest pose
+    MotionPath path;
+    Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
+};
+
+struct PlaneCollider : ColliderCommon {
+    Vec3 normal{0, 1, 0};  ///< unit length after reading; outside: normal . x >= offset
+    double offset = 0.0;
+};
+struct SphereCollider : ColliderCommon {
+    Vec3 center{0, 0, 0};
+    double radius = 1.0;
+};
+struct BoxCollider : ColliderCommon {
+    Vec3 center{0, 0, 0};
+    Vec3 half_extents{0.5, 0.5, 0.5};
+};
+struct EllipsoidCollider : ColliderCommon {
+    Vec3 center{0, 0, 0};
+    Vec3 radii{0.5, 0.5, 0.5};
+};
+
+struct Colliders {
+    std::vector<PlaneCollider> planes;
+    std::vector<SphereCollider> spheres;
+    std::vector<BoxCollider> boxes;
+    std::vector<EllipsoidCollider> ellipsoids;
+    bool empty() const { return planes.empty() && spheres.empty() && boxes.empty() && ellipsoids.empty(); }
+};
+
+enum class SolverMethod { automatic, relax };
+enum class CollideWhen { iteration, substep };
+
+struct SolverSettings {
+    SolverMethod method = SolverMethod::automatic;  ///< `auto` means relax until more solvers exist
+    std::uint32_t substeps = 20;
+    std::uint32_t iterations = 1;
+    CollideWhen collide = CollideWhen::iteration;
+};
+
+struct Camera {
+    Vec3 position{0, 1.5, 3};
+    Vec3 target{0, 1, 0};
+    double fov = 40.0;  ///< vertical, degrees
+};
+
+struct DirectionalLight {
+    Vec3 direction{-0.4, -1.0, -0.6};  ///< the way the light travels; unit length after reading
+    Vec3 color{1, 1, 1};               ///< sRGB 0..1
+    double intensity = 1.0;
+};
+
+struct ImageSettings {
+    std::array<std::uint32_t, 2> size{1280, 720};
+    std::uint32_t samples = 4;  ///< 1 or 4
+    Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
+};
+
+/// A check the scene promises to meet: read by the scene tests, ignored by the simulation. The name picks
+/// the check, the numbers are its limits.
+struct Oracle {
+    std::string check;
+    std::vector<std::pair<std::string, double>> limits;
+};
+
+struct SceneDescription {
+    std::string name;
+    TimeSettings time;
+    Vec3 gravity{0, -9.81, 0};
+    Wind wind;
+    std::vector<Cloth> cloths;
+    Colliders colliders;
+    SolverSettings solver;
+    Camera camera;
+    std::vector<DirectionalLight> lights{DirectionalLight{}};  ///< at most 4
+    Vec3 ambient{0.35, 0.37, 0.40};                            ///< linear radiance factor 0..1
+    ImageSettings image;
+    std::vector<Oracle> oracles;
+};
+
+}  // namespace drape

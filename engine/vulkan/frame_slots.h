@@ -1,0 +1,33 @@
+// Two frames in flight behind one small type: fences, one queue, no timeline semaphores (lavapipe.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "vulkan/device.h"
+
+namespace drape::vulkan {
+
+inline constexpr std::uint32_t frame_slot_count = 2;
+
+/// Slot k may be submitted again only after `wait(k)`. Destruction waits for all.
+class FrameSlots {
+  public:
+    explicit FrameSlots(const Device& device);
+    ~FrameSlots();
+    FrameSlots(const FrameSlots&) = delete;
+    FrameSlots& operator=(const FrameSlots&) = delete;
+
+    /// Blocks until the last submit of the slot has finished (at once when there was none). Throws
+    /// VulkanError on device loss.
+    void wait(std::uint32_t slot);
+    void submit(std::uint32_t slot, VkCommandBuffer commands);
+    bool pending(std::uint32_t slot) const { return pending_[slot]; }
+
+  private:
+    const Device& device_;
+    std::array<VkFence, frame_slot_count> fences_{};
+    std::array<bool, frame_slot_count> pending_{};
+};
+
+}  // namespace drape::vulkan

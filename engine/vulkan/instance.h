@@ -1,0 +1,68 @@
+// Instance, validation log and the list of devices.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "vulkan/error.h"
+
+namespace drape::vulkan {
+
+/// Counts validation messages (warnings and errors) and keeps their texts; thread-safe. The performance
+/// warning about copies in GENERAL is filtered (the design keeps storage images in GENERAL on purpose).
+class ValidationLog {
+  public:
+    void add(std::string message_id, std::string text);
+    std::uint64_t count() const { return count_; }
+    std::vector<std::string> messages() const;
+    void clear();
+
+  private:
+    std::atomic<std::uint64_t> count_ = 0;
+    mutable std::mutex mutex_;
+    std::vector<std::string> messages_;
+};
+
+struct InstanceOptions {
+    bool validation = false;  ///< core + synchronization validation; throws when the layer is missing
+    bool print_messages = true;  ///< echo each message on stderr
+};
+
+struct DeviceInfo {
+    std::uint32_t index = 0;
+    std::string name, type, driver, driver_version, api_version;
+    std::array<std::uint8_t, 16> uuid{};
+    std::string uuid_text() const;
+    bool usable = true;
+    std::string unusable_reason;  ///< which requirement it lacks
+};
+
+class Instance {
+  public:
+    explicit Instance(const InstanceOptions& options);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    VkInstance handle() const { return handle_; }
+    bool validation() const { return validation_; }
+    ValidationLog& validation_log() const { return *log_; }
+    /// Every physical device, in the loader's order, with the reason a device cannot be used.
+    std::vector<DeviceInfo> devices() const;
+    VkPhysicalDevice physical_device(std::uint32_t index) const;
+
+  private:
+    struct Echo;
+    VkInstance handle_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    bool validation_ = false;
+    std::unique_ptr<ValidationLog> log_;
+    std::unique_ptr<Echo> echo_;
+};
+
+}  // namespace drape::vulkan

@@ -1,0 +1,87 @@
+// Images and buffers: memory, one view, a name; RAII, movable. Host-visible buffers stay mapped.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "vulkan/device.h"
+
+namespace drape::vulkan {
+
+/// Bytes of one texel; throws VulkanError for a format Drape does not use.
+std::uint32_t texel_size(VkFormat format);
+
+struct ImageDescription {
+    std::string name;
+    VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    std::uint32_t width = 1, height = 1;
+    VkImageUsageFlags usage = 0;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+};
+
+class Image {
+  public:
+    Image(const Device& device, const ImageDescription& description);
+    ~Image();
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&&) = delete;
+
+    VkImage handle() const { return handle_; }
+    VkImageView view() const { return view_; }
+    VkImageAspectFlags aspect() const;
+    const ImageDescription& description() const { return description_; }
+    std::uint64_t byte_count() const { return byte_count_; }  ///< as allocated
+
+  private:
+    const Device* device_;
+    ImageDescription description_;
+    VkImage handle_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    std::uint64_t byte_count_ = 0;
+};
+
+enum class BufferHome {
+    device,     ///< device local
+    upload,     ///< host writes, device reads; mapped, coherent
+    readback,   ///< device writes, host reads; mapped, coherent, cached when there is such memory
+};
+
+struct BufferDescription {
+    std::string name;
+    std::uint64_t byte_count = 0;
+    VkBufferUsageFlags usage = 0;
+    BufferHome home = BufferHome::device;
+};
+
+class Buffer {
+  public:
+    Buffer(const Device& device, const BufferDescription& description);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&&) = delete;
+
+    VkBuffer handle() const { return handle_; }
+    const BufferDescription& description() const { return description_; }
+    /// The mapped bytes; empty for BufferHome::device.
+    std::span<std::byte> mapped() const { return {mapped_, mapped_ ? description_.byte_count : 0}; }
+
+  private:
+    const Device* device_;
+    BufferDescription description_;
+    VkBuffer handle_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    std::byte* mapped_ = nullptr;
+    std::uint64_t allocated_ = 0;
+};
+
+/// Set-up and test transfers, each its own submit and wait. Images are taken to (and left in) GENERAL;
+/// `bytes` is tightly packed rows. An upload discards what the image held.
+void upload(const Device& device, const Image& image, std::span<const std::byte> bytes);
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
+void download(const Device& device, const Image& image, std::span<std::byte> bytes);
+void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
+
+}  // namespace drape::vulkan

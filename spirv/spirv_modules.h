@@ -1,0 +1,18 @@
+// The table that embed.cmake writes: every committed module by name.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace drape {
+
+struct SpirvModule {
+    std::string_view name;  ///< "spring.comp"
+    std::span<const std::uint32_t> words;
+};
+
+/// Sorted by name.
+std::span<const SpirvModule> spirv_modules();
+
+}  // namespace drape
