@@ -1,0 +1,161 @@
+#include "cloth/cloth_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fmt/format.h"
+
+namespace drape {
+
+namespace {
+
+glsl::vec4 texel(const Vec3& v, float w) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), w};
+}
+
+/// phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
+double damping_mean(double damping, double h) { return damping > 0 ? -std::expm1(-damping * h) / (damping * h) : 1.0; }
+
+/// Displacement of the substep before the start that makes damped ballistic flight exact (physics.md 3):
+/// d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
+double start_displacement(double velocity, double acceleration, double damping, double h) {
+    const double ch = damping * h;
+    if (ch < 1e-5)
+        return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
+    const double growth = std::expm1(ch) / damping;
+    return velocity * growth + acceleration / damping * (h - growth);
+}
+
+double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
+
+/// Spring constant (N/m) and rest length (m) of a direction on cells dx x dy (design.md 5).
+std::pair<double, double> spring_constants(const SpringDirection& direction, const Stiffness& stiffness, double dx,
+                                           double dy) {
+    if (direction.family == SpringFamily::shear)
+        return {stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy), std::hypot(dx, dy)};
+    return direction.offset.y == 0 ? std::pair{stiffness.stretch * dy / dx, dx}
+                                   : std::pair{stiffness.stretch * dx / dy, dy};
+}
+
+}  // namespace
+
+ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
+    : name(scene.cloths[cloth_index].name),
+      grid(scene.cloths[cloth_index].grid[0], scene.cloths[cloth_index].grid[1], scene.cloths[cloth_index].holes) {
+    const Cloth& cloth = scene.cloths[cloth_index];
+    spacing[0] = cloth.size[0] / (grid.columns() - 1);
+    spacing[1] = cloth.size[1] / (grid.rows() - 1);
+    inner_mass = cloth.areal_density * spacing[0] * spacing[1];
+    substep_length = 1.0 / (scene.time.fps * scene.solver.substeps);
+    masked = !grid.whole() || !options.skip;
+    place(cloth, scene.gravity);
+    hold_pins(cloth);
+    add_springs(cloth, scene.solver.iterations, options);
+    set_constants(scene, cloth);
+}
+
+void ClothModel::place(const Cloth& cloth, const Vec3& gravity) {
+    Vec3 start;
+    for (std::size_t k = 0; k < 3; ++k)
+        start[k] = start_displacement(cloth.velocity[k], gravity[k], cloth.damping, substep_length);
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            Vec3 at = cloth.placement.origin;
+            for (std::size_t k = 0; k < 3; ++k)
+                at[k] += column * spacing[0] * cloth.placement.u[k] + row * spacing[1] * cloth.placement.v[k];
+            const float weight = grid.relative_inverse_mass(column, row);
+            free_weight.push_back(weight);
+            position.push_back(texel(at, weight));
+            displacement.push_back(weight > 0 ? texel(start, 0) : glsl::vec4{});
+            if (masked) stiffness.push_back(grid.spring_shares(column, row));
+        }
+    if (!masked) skipped.push_back({name + "/stiffness", "no holes or cuts: the grid's extent gives every stiffness"});
+}
+
+void ClothModel::hold_pins(const Cloth& cloth) {
+    // A later pin overrides an earlier one on the particles that they share.
+    std::vector<int> owner(grid.particle_count(), -1);
+    for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin) {
+        const IndexBox& box = cloth.pins[pin].particles;
+        for (std::uint32_t row = box.first[1]; row <= box.last[1]; ++row)
+            for (std::uint32_t column = box.first[0]; column <= box.last[0]; ++column)
+                owner[grid.particle(column, row)] = static_cast<int>(pin);
+    }
+    std::vector<int> dynamic_index(cloth.pins.size(), -1);
+    std::vector<std::vector<std::uint32_t>> held(cloth.pins.size());
+    for (std::uint32_t particle = 0; particle < owner.size(); ++particle) {
+        if (owner[particle] < 0) continue;
+        position[particle].w = 0;
+        displacement[particle] = {};
+        held[static_cast<std::size_t>(owner[particle])].push_back(particle);
+    }
+    for (std::size_t index = 0; index < cloth.pins.size(); ++index) {
+        const Pin& pin = cloth.pins[index];
+        const bool moves = !pin.path.keys.empty();
+        if ((!moves && !pin.release) || held[index].empty()) continue;
+        has_motion = has_motion || moves;
+        has_release = has_release || pin.release.has_value();
+        Vec3 centroid{};
+        for (const std::uint32_t particle : held[index]) {
+            centroid[0] += static_cast<double>(position[particle].x) / static_cast<double>(held[index].size());
+            centroid[1] += static_cast<double>(position[particle].y) / static_cast<double>(held[index].size());
+            centroid[2] += static_cast<double>(position[particle].z) / static_cast<double>(held[index].size());
+        }
+        for (const std::uint32_t particle : held[index]) {
+            const glsl::vec4 at = position[particle];
+            pinned.push_back({{at.x, at.y, at.z, free_weight[particle]},
+                              {static_cast<int>(particle % grid.columns()), static_cast<int>(particle / grid.columns()),
+                               static_cast<int>(dynamic_pins.size()), 0}});
+        }
+        dynamic_pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release});
+    }
+    if (!has_motion) skipped.push_back({name + "/pin motion", "no pin has a path"});
+    if (!has_release) skipped.push_back({name + "/pin release", "no pin is released"});
+}
+
+void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options) {
+    const double h2 = substep_length * substep_length;
+    for (const SpringPass& pass : spring_passes(grid.size())) {
+        const SpringDirection& direction = spring_directions[static_cast<std::size_t>(pass.direction)];
+        const auto [stiffness_constant, rest] = spring_constants(direction, cloth.stiffness, spacing[0], spacing[1]);
+        const std::string what = fmt::format("{}/spring {} {}", name, direction.name, pass.parity == 0 ? "even" : "odd");
+        if (!cloth.stiffness.rigid && stiffness_constant == 0) {
+            skipped.push_back({what, "zero stiffness"});
+            continue;
+        }
+        if (pass.empty()) {
+            skipped.push_back({what, "the grid has no such spring"});
+            continue;
+        }
+        const bool compliant = !cloth.stiffness.rigid;
+        multiplied[pass.direction] = compliant && (iterations > 1 || !options.skip);
+        const float compliance = compliant ? static_cast<float>(inner_mass / (stiffness_constant * h2)) : 0.0f;
+        springs.push_back({pass, {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
+                                  static_cast<float>(rest), compliance, pass.direction, 1}});
+    }
+    if (!multiplied[0] && !multiplied[1] && !multiplied[2] && !multiplied[3])
+        skipped.push_back({name + "/multipliers", cloth.stiffness.rigid ? "rigid springs need none"
+                                                                        : "one iteration per substep needs none"});
+}
+
+void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth) {
+    const double h = substep_length;
+    const double step = damping_mean(cloth.damping, h) * h * h;
+    const Vec3 gravity_step{step * scene.gravity[0], step * scene.gravity[1], step * scene.gravity[2]};
+    force = {grid.size(), static_cast<float>(-std::expm1(-cloth.damping * h)), static_cast<float>(step / inner_mass),
+             texel(gravity_step, 0)};
+    const Wind& w = scene.wind;
+    wind = {grid.size(), 0, static_cast<float>(1.0 / h), static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
+            static_cast<float>(0.5 * w.air_density * w.lift)};
+    // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
+    double extent = length(cloth.placement.origin) + std::hypot(cloth.size[0], cloth.size[1]);
+    const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
+    const Colliders& c = scene.colliders;
+    collision = {{0, 0, 0, 0},
+                 {count(c.planes), count(c.spheres), count(c.boxes), count(c.ellipsoids)},
+                 {static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
+                  static_cast<float>(2.4e-7 * extent), 0},
+                 {grid.size().x, grid.size().y, 0, 0}};
+}
+
+}  // namespace drape

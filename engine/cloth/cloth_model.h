@@ -1,0 +1,75 @@
+// One cloth of a scene as numbers: initial images, masks, spring constants, pins. Both the device and the C++
+// twin start from exactly these floats. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cloth/directions.h"
+#include "cloth/grid.h"
+#include "scene/scene_description.h"
+#include "shared/simulation_types.h"
+
+namespace drape {
+
+/// Something that a scene does not need and therefore does not get.
+struct SkippedWork {
+    std::string what, reason;
+};
+
+struct ModelOptions {
+    /// false: keep the exact skips' work (empty parities, masks of whole cloths, multipliers of single
+    /// iterations) to prove that skipping changes no bit.
+    bool skip = true;
+};
+
+/// One parity pass with its constants.
+struct SpringWork {
+    SpringPass pass;
+    glsl::SpringPush push;  ///< first_iteration is set per iteration
+};
+
+/// A pin that moves or lets go; pins at rest for ever are just w = 0.
+struct DynamicPin {
+    MotionPath path;
+    Vec3 pivot;                     ///< m
+    std::optional<double> release;  ///< s
+};
+
+struct ClothModel {
+    ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
+
+    std::string name;
+    Grid grid;
+    double spacing[2];      ///< m along columns, rows
+    double inner_mass;      ///< kg of a particle with four cells
+    double substep_length;  ///< s
+
+    // Initial images, one texel per particle, row by row.
+    std::vector<glsl::vec4> position;      ///< xyz m; w: relative inverse mass, 0 = pinned or without a cell
+    std::vector<glsl::vec4> displacement;  ///< xyz: x(0) - x(-h), the half-kick start; 0 where pinned
+    std::vector<float> free_weight;        ///< w without pins
+
+    bool masked = false;     ///< holes: stiffness and cell images exist
+    std::vector<glsl::vec4> stiffness;  ///< when masked: share per direction, by first particle
+    bool multiplied[4] = {}; ///< direction needs a multiplier image: compliant and iterated
+
+    std::vector<SpringWork> springs;  ///< in order of relaxation, needless ones left out
+    std::vector<DynamicPin> dynamic_pins;
+    std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
+    bool has_release = false, has_motion = false;
+
+    glsl::ForcePush force;
+    glsl::WindPush wind;            ///< substep is set per substep
+    glsl::CollisionPush collision;  ///< first is set per substep
+    std::vector<SkippedWork> skipped;
+
+  private:
+    void place(const Cloth& cloth, const Vec3& gravity);
+    void hold_pins(const Cloth& cloth);
+    void add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options);
+    void set_constants(const SceneDescription& scene, const Cloth& cloth);
+};
+
+}  // namespace drape

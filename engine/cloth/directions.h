@@ -1,0 +1,46 @@
+// The spring directions as a table, and the parity passes that relax them (physics.md 1: constraints are
+// coloured, not particles). A new direction is one row here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "shared/glsl_types.h"
+
+namespace drape {
+
+enum class SpringFamily { stretch, shear };
+
+struct SpringDirection {
+    std::string_view name;
+    glsl::ivec2 offset;  ///< from a spring's first particle to its second: columns, rows
+    int parity_axis;     ///< 0: springs alternate even/odd along columns, 1: along rows
+    SpringFamily family;
+};
+
+/// Row index = channel of the stiffness image.
+inline constexpr std::array<SpringDirection, 4> spring_directions{{
+    {"row", {1, 0}, 0, SpringFamily::stretch},
+    {"column", {0, 1}, 1, SpringFamily::stretch},
+    {"shear down-right", {1, 1}, 1, SpringFamily::shear},
+    {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
+}};
+
+/// One dispatch of the plain schedule: every second spring of one direction.
+struct SpringPass {
+    int direction;  ///< row of spring_directions = channel
+    int parity;     ///< 0 even, 1 odd
+    glsl::ivec2 pair_count;  ///< springs along columns, rows; either may be 0
+    bool empty() const { return pair_count.x == 0 || pair_count.y == 0; }
+};
+
+/// Both parities of a direction on a grid of columns x rows particles.
+SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
+
+/// The eight passes in the order of relaxation: rows, columns, diagonals; even before odd. Empty ones (an odd
+/// pass of a two-column grid) included.
+std::vector<SpringPass> spring_passes(glsl::ivec2 grid);
+
+}  // namespace drape

@@ -1,0 +1,52 @@
+// The grid on the CPU: which cells and triangles exist, and the masses and spring stiffnesses that follow
+// (design.md 5: each cell gives a quarter of its mass to each corner, half a spring to each side, and both its
+// diagonals). Pure.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/scene_description.h"
+#include "shared/glsl_types.h"
+
+namespace drape {
+
+/// Bits of a cell: its upper triangle (i,j) (i+1,j) (i,j+1) and lower one (i+1,j) (i+1,j+1) (i,j+1).
+inline constexpr std::uint32_t upper_triangle = 1, lower_triangle = 2;
+
+class Grid {
+  public:
+    /// `holes`: boxes of particle indices whose inner cells are missing.
+    Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> holes = {});
+
+    std::uint32_t columns() const { return columns_; }
+    std::uint32_t rows() const { return rows_; }
+    glsl::ivec2 size() const { return {static_cast<int>(columns_), static_cast<int>(rows_)}; }
+    std::size_t particle_count() const { return std::size_t{columns_} * rows_; }
+    std::uint32_t particle(std::uint32_t column, std::uint32_t row) const { return row * columns_ + column; }
+
+    /// Bits of cell (column, row); 0 outside the grid.
+    std::uint32_t cell(int column, int row) const;
+    /// (columns-1) x (rows-1), row by row.
+    const std::vector<std::uint32_t>& cells() const { return cells_; }
+    /// Whether every cell is whole: then no mask is needed anywhere.
+    bool whole() const { return whole_; }
+
+    /// Inverse mass relative to an inner particle: 4 / (cells around it); 1 inside, 2 on a border, 4 at a
+    /// corner, 0 for a particle without any cell.
+    float relative_inverse_mass(std::uint32_t column, std::uint32_t row) const;
+    /// Share of a spring's stiffness (0, 0.5 or 1) per direction of the table, owned by its first particle.
+    glsl::vec4 spring_shares(std::uint32_t column, std::uint32_t row) const;
+
+    /// Three particle indices per existing triangle, cell by cell, upper before lower.
+    std::vector<std::uint32_t> triangle_indices() const;
+
+  private:
+    float spring_share(int column, int row, std::size_t direction) const;
+    std::uint32_t columns_, rows_;
+    std::vector<std::uint32_t> cells_;
+    bool whole_ = true;
+};
+
+}  // namespace drape

@@ -1,0 +1,54 @@
+#include "cloth/schedule.h"
+
+namespace drape {
+
+SimulationModel::SimulationModel(const SceneDescription& description, const ModelOptions& options)
+    : scene(description), windy(description.wind.blows()) {
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+    const Colliders& c = scene.colliders;
+    collider_count = static_cast<int>(c.planes.size() + c.spheres.size() + c.boxes.size() + c.ellipsoids.size());
+}
+
+std::vector<Step> SimulationModel::frame_steps(const ClothModel& cloth) const {
+    std::vector<Step> steps;
+    const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
+    for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
+        const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t spring = 0) {
+            steps.push_back({kind, substep, iteration, spring});
+        };
+        if (cloth.has_release) add(StepKind::release);
+        if (windy) add(StepKind::wind);
+        add(StepKind::force);
+        if (cloth.has_motion) add(StepKind::pin);
+        for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
+            for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
+                add(StepKind::spring, iteration, spring);
+            const bool last = iteration + 1 == scene.solver.iterations;
+            if (collider_count > 0 && (per_iteration || last)) add(StepKind::collide, iteration);
+        }
+    }
+    steps.push_back({StepKind::advance, scene.solver.substeps, 0, 0});
+    return steps;
+}
+
+std::vector<SkippedWork> SimulationModel::skipped() const {
+    std::vector<SkippedWork> all;
+    if (!windy) all.push_back({"wind", "no wind in the scene"});
+    const Colliders& c = scene.colliders;
+    if (collider_count == 0) {
+        all.push_back({"collision", "no colliders in the scene"});
+    } else {
+        const auto absent = [&](const char* kind, bool empty) {
+            if (empty) all.push_back({std::string("collision with ") + kind, "the scene has none: specialised away"});
+        };
+        absent("planes", c.planes.empty());
+        absent("spheres", c.spheres.empty());
+        absent("boxes", c.boxes.empty());
+        absent("ellipsoids", c.ellipsoids.empty());
+        if (collider_count == 1) all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
+    }
+    for (const ClothModel& cloth : cloths) all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
+    return all;
+}
+
+}  // namespace drape

@@ -1,0 +1,40 @@
+// Which passes make a frame, in which order: the method `relax` (the slides' algorithm outline) as a plain list.
+// The device's solver adds one graph pass per step, the C++ twin runs one function per step. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cloth/cloth_model.h"
+
+namespace drape {
+
+enum class StepKind { release, wind, force, pin, spring, collide, advance };
+
+struct Step {
+    StepKind kind;
+    std::uint32_t substep;
+    std::uint32_t iteration;  ///< spring and collide
+    std::uint32_t spring;     ///< spring: index into ClothModel::springs
+};
+
+/// The whole scene, ready to be simulated.
+struct SimulationModel {
+    explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
+
+    SceneDescription scene;
+    std::vector<ClothModel> cloths;
+    bool windy;
+    int collider_count;
+    /// Rounds over all colliders per collision step: one collider cannot overlap another.
+    std::uint32_t collision_rounds() const { return collider_count > 1 ? 32 : 1; }
+
+    /// Steps of one frame of one cloth: per substep release, wind, force, pin motion, then per iteration the
+    /// springs direction by direction and parity by parity, and collisions; at the end X += d.
+    std::vector<Step> frame_steps(const ClothModel& cloth) const;
+    /// What no cloth of this scene needs, and what each cloth does not need.
+    std::vector<SkippedWork> skipped() const;
+};
+
+}  // namespace drape

@@ -1,0 +1,151 @@
+#include "passes/cloth_solver.h"
+
+#include <cstring>
+
+#include "passes/collision_pass.h"
+#include "passes/force_pass.h"
+#include "passes/normal_pass.h"
+#include "passes/pin_pass.h"
+#include "passes/spring_pass.h"
+#include "passes/wind_pass.h"
+
+namespace drape {
+
+using graph::Lifetime;
+
+namespace {
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+template <class T>
+void write_buffer(const graph::ResourcePool& pool, std::uint32_t slot, const std::string& name,
+                  const std::vector<T>& values) {
+    if (!pool.has(name)) return;
+    const std::span<const std::byte> bytes = bytes_of(values);
+    std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+std::string_view collider_kind_name(std::size_t kind) {
+    constexpr std::string_view names[] = {"planes", "spheres", "boxes", "ellipsoids"};
+    return names[kind];
+}
+
+ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
+    : model_(model), pipelines_(device) {}
+
+void ClothSolver::declare(graph::Graph& graph, bool drawn) {
+    cloths_.clear();
+    inputs_ = {};
+    for (const SkippedWork& work : model_.skipped()) graph.skip(work.what, work.reason);
+    const SceneDescription& scene = model_.scene;
+    if (model_.windy)
+        inputs_.wind = graph.buffer({"wind", scene.solver.substeps * sizeof(glsl::vec4), Lifetime::host_input});
+    for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
+        if (const std::size_t count = collider_record_count(scene, static_cast<ColliderKind>(kind)))
+            inputs_.colliders[kind] = graph.buffer({std::string("colliders/") + std::string(collider_kind_name(kind)),
+                                                    count * sizeof(glsl::Collider), Lifetime::host_input});
+    for (std::size_t index = 0; index < model_.cloths.size(); ++index)
+        declare_cloth(graph, model_.cloths[index], index, drawn);
+}
+
+void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, bool drawn) {
+    const auto image = [&](const std::string& part, Lifetime lifetime, VkFormat format, std::uint32_t smaller = 0) {
+        return graph.image({model.name + "/" + part, format, model.grid.columns() - smaller,
+                            model.grid.rows() - smaller, VK_SAMPLE_COUNT_1_BIT, lifetime});
+    };
+    constexpr VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    ClothState state;
+    state.model = &model;
+    state.index = index;
+    state.position = image("position", Lifetime::persistent, vec4);
+    state.displacement = image("displacement", Lifetime::persistent, vec4);
+    state.position_rest = image("position rest", Lifetime::persistent, vec4);
+    state.displacement_rest = image("displacement rest", Lifetime::persistent, vec4);
+    if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
+    if (drawn) state.normal = image("normal", Lifetime::transient, vec4);
+    if (model.masked) {
+        state.stiffness = image("stiffness", Lifetime::constant, vec4);
+        state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
+    }
+    for (std::size_t direction = 0; direction < 4; ++direction)
+        if (model.multiplied[direction])
+            state.multiplier[direction] = image("multiplier " + std::string(spring_directions[direction].name),
+                                                Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
+    if (drawn)
+        state.triangles = graph.buffer({model.name + "/triangles",
+                                        model.grid.triangle_indices().size() * sizeof(std::uint32_t),
+                                        Lifetime::constant});
+    if (!model.pinned.empty()) {
+        state.pinned = graph.buffer({model.name + "/pinned particles",
+                                     model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
+        state.pin_motions = graph.buffer({model.name + "/pin motions",
+                                          model.dynamic_pins.size() * model_.scene.solver.substeps *
+                                              sizeof(glsl::PinMotion),
+                                          Lifetime::host_input});
+    }
+    cloths_.push_back(state);
+}
+
+void ClothSolver::add_simulation(graph::Graph& graph) {
+    for (ClothState& state : cloths_)
+        for (const Step& step : model_.frame_steps(*state.model)) add_step(graph, state, step);
+}
+
+void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
+    switch (step.kind) {
+        case StepKind::release: return add_pin_release(graph, pipelines_, state, step);
+        case StepKind::wind: return add_wind(graph, pipelines_, state, inputs_, step);
+        case StepKind::force: return add_force(graph, pipelines_, state, step);
+        case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
+        case StepKind::spring: return add_spring(graph, pipelines_, state, step);
+        case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
+        case StepKind::advance: return add_advance(graph, pipelines_, state);
+    }
+}
+
+void ClothSolver::add_normals(graph::Graph& graph) {
+    for (ClothState& state : cloths_) drape::add_normals(graph, pipelines_, state);
+}
+
+void ClothSolver::upload(const graph::ResourcePool& pool) const {
+    const auto image = [&](const ClothModel& cloth, const char* part, auto bytes) {
+        const std::string name = cloth.name + "/" + part;
+        if (pool.has(name)) vulkan::upload(pool.device(), pool.image(name), bytes);
+    };
+    const auto buffer = [&](const ClothModel& cloth, const char* part, auto bytes) {
+        const std::string name = cloth.name + "/" + part;
+        if (pool.has(name)) vulkan::upload(pool.device(), pool.buffer(name), bytes);
+    };
+    for (const ClothModel& cloth : model_.cloths) {
+        const std::vector<glsl::vec4> zero(cloth.grid.particle_count());
+        image(cloth, "position", bytes_of(cloth.position));
+        image(cloth, "displacement", bytes_of(cloth.displacement));
+        image(cloth, "position rest", bytes_of(zero));
+        image(cloth, "displacement rest", bytes_of(zero));
+        if (cloth.masked) {
+            image(cloth, "stiffness", bytes_of(cloth.stiffness));
+            image(cloth, "cells", bytes_of(cloth.grid.cells()));
+        }
+        buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
+        buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
+    }
+}
+
+void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const {
+    const FrameInputs inputs = frame_inputs(model_, frame);
+    if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
+    for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
+        if (!inputs.colliders[kind].empty())
+            write_buffer(pool, slot, std::string("colliders/") + std::string(collider_kind_name(kind)),
+                         inputs.colliders[kind]);
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+        if (!inputs.pins[cloth].empty())
+            write_buffer(pool, slot, model_.cloths[cloth].name + "/pin motions", inputs.pins[cloth]);
+}
+
+}  // namespace drape

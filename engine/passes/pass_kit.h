@@ -1,0 +1,60 @@
+// What every simulation pass shares: the cloth's images as graph handles, the scene's host inputs, and the
+// pipelines made so far.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cloth/frame_inputs.h"
+#include "graph/executor.h"
+
+namespace drape {
+
+/// Compute pipelines by module and constants, made when first asked for and checked then.
+class PipelineCache {
+  public:
+    explicit PipelineCache(const vulkan::Device& device) : device_(device) {}
+    const vulkan::ComputePipeline& get(const vulkan::ShaderInterface& shader,
+                                       const std::vector<vulkan::SpecializationConstant>& constants = {});
+    std::size_t size() const { return pipelines_.size(); }
+
+  private:
+    const vulkan::Device& device_;
+    std::map<std::string, std::unique_ptr<vulkan::ComputePipeline>> pipelines_;
+};
+
+/// Newest handles of one cloth's resources within the graph being built. Images have one texel per particle.
+///   position       rgba32f  xyz: position at the start of the substep, m; at a frame's end the state itself.
+///                           w: relative inverse mass; written by the set-up and by `pin release` alone
+///   displacement   rgba32f  xyz: motion within the substep, m (X + d is where the particle is now); w 0
+///   *_rest         rgba32f  what rounding lost of the two (compensated sums)
+///   wind_force     rgba32f  N; scenes with wind
+///   normal         rgba32f  unit normal of the front; only when something is drawn
+///   multiplier     r32f     XPBD multiplier per direction, by first particle; compliant and iterated springs
+///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
+///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
+struct ClothState {
+    const ClothModel* model = nullptr;
+    std::size_t index = 0;
+    graph::Handle position, displacement, position_rest, displacement_rest;
+    graph::Handle wind_force, normal, stiffness, cells;
+    std::array<graph::Handle, 4> multiplier;
+    graph::Handle triangles;              ///< index buffer
+    graph::Handle pinned, pin_motions;    ///< dynamic pins
+    graph::PassName pass_name(const std::string& pass, const std::string& stage) const;
+    graph::PassName step_name(const std::string& pass, const Step& step) const;
+};
+
+/// Host inputs of the whole scene.
+struct SceneInputs {
+    graph::Handle wind;
+    std::array<graph::Handle, collider_kind_count> colliders;  ///< invalid where the scene has none of the kind
+};
+
+/// Declares read then write of one image at two bindings and stores the new handle.
+void update(graph::PassSetup& setup, graph::Handle& handle, std::uint32_t read_binding, std::uint32_t write_binding);
+
+}  // namespace drape

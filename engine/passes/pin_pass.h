@@ -1,0 +1,14 @@
+// Pins that move along key frames, and pins that let go.
+#pragma once
+
+#include "passes/pass_kit.h"
+
+namespace drape {
+
+/// Before the force: sets w of released particles (reads and writes position).
+void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+
+/// After the force: displacement of held particles to their pin's motion (reads position, writes displacement).
+void add_pin_motion(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+
+}  // namespace drape

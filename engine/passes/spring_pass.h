@@ -1,0 +1,11 @@
+// One parity of one spring direction, plain schedule: one invocation per spring.
+#pragma once
+
+#include "passes/pass_kit.h"
+
+namespace drape {
+
+/// Reads position, reads and writes displacement; stiffness and multiplier where the cloth has them.
+void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+
+}  // namespace drape

@@ -1,0 +1,82 @@
+#include "passes/struct_layouts.h"
+
+#include <cstddef>
+
+#include "shared/simulation_types.h"
+
+namespace drape::layouts {
+
+using namespace glsl;
+
+namespace {
+
+constexpr vulkan::MemberLayout spring_push_members[] = {
+    {"grid", offsetof(SpringPush, grid)},
+    {"pair_count", offsetof(SpringPush, pair_count)},
+    {"offset", offsetof(SpringPush, offset)},
+    {"parity_axis", offsetof(SpringPush, parity_axis)},
+    {"parity", offsetof(SpringPush, parity)},
+    {"rest_length", offsetof(SpringPush, rest_length)},
+    {"compliance", offsetof(SpringPush, compliance)},
+    {"channel", offsetof(SpringPush, channel)},
+    {"first_iteration", offsetof(SpringPush, first_iteration)},
+};
+constexpr vulkan::MemberLayout force_push_members[] = {
+    {"grid", offsetof(ForcePush, grid)},
+    {"damping_loss", offsetof(ForcePush, damping_loss)},
+    {"force_step", offsetof(ForcePush, force_step)},
+    {"gravity_step", offsetof(ForcePush, gravity_step)},
+};
+constexpr vulkan::MemberLayout wind_push_members[] = {
+    {"grid", offsetof(WindPush, grid)},
+    {"substep", offsetof(WindPush, substep)},
+    {"inverse_step", offsetof(WindPush, inverse_step)},
+    {"drag_coefficient", offsetof(WindPush, drag_coefficient)},
+    {"lift_coefficient", offsetof(WindPush, lift_coefficient)},
+};
+constexpr vulkan::MemberLayout collision_push_members[] = {
+    {"first", offsetof(CollisionPush, first)},
+    {"count", offsetof(CollisionPush, count)},
+    {"contact", offsetof(CollisionPush, contact)},
+    {"grid", offsetof(CollisionPush, grid)},
+};
+constexpr vulkan::MemberLayout pin_push_members[] = {
+    {"particle_count", offsetof(PinPush, particle_count)},
+    {"motion_first", offsetof(PinPush, motion_first)},
+};
+constexpr vulkan::MemberLayout grid_push_members[] = {
+    {"grid", offsetof(GridPush, grid)},
+};
+constexpr vulkan::MemberLayout collider_members[] = {
+    {"pose_x", offsetof(Collider, pose_x)},
+    {"pose_y", offsetof(Collider, pose_y)},
+    {"pose_z", offsetof(Collider, pose_z)},
+    {"change_x", offsetof(Collider, change_x)},
+    {"change_y", offsetof(Collider, change_y)},
+    {"change_z", offsetof(Collider, change_z)},
+    {"shape", offsetof(Collider, shape)},
+};
+constexpr vulkan::MemberLayout pinned_particle_members[] = {
+    {"rest", offsetof(PinnedParticle, rest)},
+    {"index", offsetof(PinnedParticle, index)},
+};
+constexpr vulkan::MemberLayout pin_motion_members[] = {
+    {"row_x", offsetof(PinMotion, row_x)},
+    {"row_y", offsetof(PinMotion, row_y)},
+    {"row_z", offsetof(PinMotion, row_z)},
+    {"held", offsetof(PinMotion, held)},
+};
+
+}  // namespace
+
+const vulkan::StructLayout spring_push{"SpringPush", sizeof(SpringPush), spring_push_members};
+const vulkan::StructLayout force_push{"ForcePush", sizeof(ForcePush), force_push_members};
+const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
+const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
+const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};
+const vulkan::StructLayout grid_push{"GridPush", sizeof(GridPush), grid_push_members};
+const vulkan::StructLayout collider{"Collider", sizeof(Collider), collider_members};
+const vulkan::StructLayout pinned_particle{"PinnedParticle", sizeof(PinnedParticle), pinned_particle_members};
+const vulkan::StructLayout pin_motion{"PinMotion", sizeof(PinMotion), pin_motion_members};
+
+}  // namespace drape::layouts

@@ -1,0 +1,11 @@
+// Layouts of the structs shared by GLSL and C++, as C++ sees them; reflection compares them with the SPIR-V.
+#pragma once
+
+#include "vulkan/shader_interface.h"
+
+namespace drape::layouts {
+
+extern const vulkan::StructLayout spring_push, force_push, wind_push, collision_push, pin_push, grid_push;
+extern const vulkan::StructLayout collider, pinned_particle, pin_motion;
+
+}  // namespace drape::layouts

@@ -1,0 +1,17 @@
+// The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
+#pragma once
+
+#include "shared/simulation_types.h"
+
+namespace drape::glsl {
+
+#include "include/vector.h"
+
+#include "include/colliders.h"
+#include "include/pin.h"
+#include "include/spring.h"
+#include "include/triangles.h"
+#include "include/verlet.h"
+#include "include/wind.h"
+
+}  // namespace drape::glsl

@@ -1,0 +1,213 @@
+#include "reference/twin.h"
+
+#include "reference/kernels.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }
+vec4 texel(const vec3& v, float w = 0.0f) { return {v.x, v.y, v.z, w}; }
+
+std::size_t at(const Grid& grid, ivec2 p) {
+    return static_cast<std::size_t>(p.y) * grid.columns() + static_cast<std::size_t>(p.x);
+}
+
+float component(const vec4& v, int channel) { return channel == 0 ? v.x : channel == 1 ? v.y : channel == 2 ? v.z : v.w; }
+
+/// Calls visit(cell, which) for the existing triangles around a particle, in the shaders' order.
+template <class Visit>
+void for_triangles_around(const Grid& grid, ivec2 particle, const Visit& visit) {
+    for (int k = 0; k < triangles_around_particle; ++k) {
+        const ivec4 around = triangle_around(k);
+        const ivec2 cell{particle.x + around.x, particle.y + around.y};
+        if (grid.cell(cell.x, cell.y) & static_cast<std::uint32_t>(around.z)) visit(cell, around.z);
+    }
+}
+
+}  // namespace
+
+Twin::Twin(const SimulationModel& model) : model_(model) {
+    for (const ClothModel& cloth : model.cloths) {
+        TwinCloth state;
+        const std::size_t count = cloth.grid.particle_count();
+        state.position = cloth.position;
+        state.displacement = cloth.displacement;
+        state.position_rest.resize(count);
+        state.displacement_rest.resize(count);
+        state.normal.resize(count);
+        if (model.windy) state.wind_force.resize(count);
+        for (std::size_t direction = 0; direction < 4; ++direction)
+            if (cloth.multiplied[direction]) state.multiplier[direction].resize(count);
+        cloths_.push_back(std::move(state));
+    }
+}
+
+void Twin::run_frame(std::uint32_t frame) {
+    const FrameInputs inputs = frame_inputs(model_, frame);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth)
+        for (const Step& step : model_.frame_steps(model_.cloths[cloth])) run_step(cloth, step, inputs);
+}
+
+void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs) {
+    const ClothModel& model = model_.cloths[cloth];
+    TwinCloth& state = cloths_[cloth];
+    switch (step.kind) {
+        case StepKind::release: return release(model, state, inputs.pins[cloth], step.substep);
+        case StepKind::wind: return wind(model, state, inputs, step.substep);
+        case StepKind::force: return force(model, state, step.substep > 0);
+        case StepKind::pin: return pin(model, state, inputs.pins[cloth], step.substep);
+        case StepKind::spring: return spring(model, state, step);
+        case StepKind::collide: return collide(model, state, inputs, step.substep);
+        case StepKind::advance: return advance(state);
+    }
+}
+
+void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
+                   std::uint32_t substep) {
+    const std::size_t first = substep * model.dynamic_pins.size();
+    for (const PinnedParticle& pin : model.pinned) {
+        if (motions[first + static_cast<std::size_t>(pin.index.z)].held.x != 0.0f) continue;
+        vec4& position = state.position[at(model.grid, {pin.index.x, pin.index.y})];
+        if (position.w == 0.0f) position.w = pin.rest.w;
+    }
+}
+
+void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
+    const vec3 velocity = xyz(inputs.wind[substep]);
+    const bool advance = substep > 0;
+    const WindPush& push = model.wind;
+    const auto now = [&](std::size_t index) {
+        const vec3 start = xyz(state.position[index]);
+        return advance ? start + xyz(state.displacement[index]) : start;
+    };
+    for (int y = 0; y < push.grid.y; ++y)
+        for (int x = 0; x < push.grid.x; ++x) {
+            vec3 sum{0, 0, 0};
+            for_triangles_around(model.grid, {x, y}, [&](ivec2 cell, int which) {
+                std::size_t corner[3];
+                for (int k = 0; k < 3; ++k) {
+                    const ivec2 offset = triangle_corner(which, k);
+                    corner[k] = at(model.grid, {cell.x + offset.x, cell.y + offset.y});
+                }
+                sum = add_wind_share(sum, now(corner[0]), now(corner[1]), now(corner[2]),
+                                     xyz(state.displacement[corner[0]]), xyz(state.displacement[corner[1]]),
+                                     xyz(state.displacement[corner[2]]), push.inverse_step, velocity,
+                                     push.drag_coefficient, push.lift_coefficient);
+            });
+            state.wind_force[at(model.grid, {x, y})] = texel(sum);
+        }
+}
+
+void Twin::force(const ClothModel& model, TwinCloth& state, bool advance) {
+    const ForcePush& push = model.force;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const vec4 position = state.position[i];
+        const vec3 displacement = xyz(state.displacement[i]);
+        if (advance) {
+            const CompensatedSum advanced = compensated_add(xyz(position), displacement, xyz(state.position_rest[i]));
+            state.position[i] = texel(advanced.value, position.w);
+            state.position_rest[i] = texel(advanced.rest);
+        }
+        if (position.w == 0.0f) continue;
+        const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
+        const vec3 increment = verlet_increment(displacement, xyz(push.gravity_step), applied, position.w,
+                                                push.force_step, push.damping_loss);
+        const CompensatedSum predicted = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
+        state.displacement[i] = texel(predicted.value);
+        state.displacement_rest[i] = texel(predicted.rest);
+    }
+}
+
+void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
+               std::uint32_t substep) {
+    const std::size_t first = substep * model.dynamic_pins.size();
+    for (const PinnedParticle& pin : model.pinned) {
+        const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
+        if (motion.held.x == 0.0f) continue;
+        const std::size_t i = at(model.grid, {pin.index.x, pin.index.y});
+        state.displacement[i] = texel(pin_displacement(motion, xyz(pin.rest), xyz(state.position[i])));
+    }
+}
+
+void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const SpringPush& push = model.springs[step.spring].push;
+    std::vector<float>& multipliers = state.multiplier[static_cast<std::size_t>(push.channel)];
+    for (int py = 0; py < push.pair_count.y; ++py)
+        for (int px = 0; px < push.pair_count.x; ++px) {
+            const ivec2 owner = spring_owner({px, py}, push.offset, push.parity_axis, push.parity);
+            const std::size_t first = at(model.grid, owner);
+            const std::size_t second = at(model.grid, {owner.x + push.offset.x, owner.y + push.offset.y});
+            const float share = model.masked ? component(model.stiffness[first], push.channel)
+                                             : border_stiffness(owner, push.offset, push.grid);
+            const float multiplier = multipliers.empty() || step.iteration == 0 ? 0.0f : multipliers[first];
+            const float weight_first = state.position[first].w, weight_second = state.position[second].w;
+            const vec3 moved_first = xyz(state.displacement[first]), moved_second = xyz(state.displacement[second]);
+            const vec3 edge =
+                spring_edge(xyz(state.position[first]), xyz(state.position[second]), moved_first, moved_second);
+            const SpringResult result = project_spring(edge, weight_first + weight_second, push.rest_length, share,
+                                                       push.compliance, multiplier);
+            state.displacement[first] = texel(moved_by(moved_first, result.correction, -weight_first));
+            state.displacement[second] = texel(moved_by(moved_second, result.correction, weight_second));
+            if (!multipliers.empty()) multipliers[first] = result.multiplier;
+        }
+}
+
+void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
+    const CollisionPush& push = model.collision;
+    const ivec4 first = first_colliders(model_.scene, substep);
+    const std::size_t firsts[4] = {static_cast<std::size_t>(first.x), static_cast<std::size_t>(first.y),
+                                   static_cast<std::size_t>(first.z), static_cast<std::size_t>(first.w)};
+    const int counts[4] = {push.count.x, push.count.y, push.count.z, push.count.w};
+    using ContactFunction = Contact (*)(Collider, vec3, vec3, float, float);
+    constexpr ContactFunction contacts[4] = {plane_contact, sphere_contact, box_contact, ellipsoid_contact};
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        if (state.position[i].w == 0.0f) continue;
+        const vec3 start = xyz(state.position[i]);
+        vec3 displacement = xyz(state.displacement[i]);
+        for (std::uint32_t round = 0; round < model_.collision_rounds(); ++round) {
+            float deepest = 0.0f;
+            for (std::size_t kind = 0; kind < 4; ++kind)
+                for (int k = 0; k < counts[kind]; ++k) {
+                    const Collider& collider = inputs.colliders[kind][firsts[kind] + static_cast<std::size_t>(k)];
+                    const Contact contact =
+                        contacts[kind](collider, start, displacement, push.contact.x, push.contact.y);
+                    displacement = contact.displacement;
+                    deepest = contact.depth > deepest ? contact.depth : deepest;
+                }
+            if (!(deepest > push.contact.z)) break;
+        }
+        state.displacement[i] = texel(displacement);
+    }
+}
+
+void Twin::advance(TwinCloth& state) {
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const CompensatedSum advanced =
+            compensated_add(xyz(state.position[i]), xyz(state.displacement[i]), xyz(state.position_rest[i]));
+        state.position[i] = texel(advanced.value, state.position[i].w);
+        state.position_rest[i] = texel(advanced.rest);
+    }
+}
+
+void Twin::normals(std::size_t index) {
+    const Grid& grid = model_.cloths[index].grid;
+    TwinCloth& state = cloths_[index];
+    for (int y = 0; y < grid.size().y; ++y)
+        for (int x = 0; x < grid.size().x; ++x) {
+            vec3 sum{0, 0, 0};
+            for_triangles_around(grid, {x, y}, [&](ivec2 cell, int which) {
+                vec3 corner[3];
+                for (int k = 0; k < 3; ++k) {
+                    const ivec2 offset = triangle_corner(which, k);
+                    corner[k] = xyz(state.position[at(grid, {cell.x + offset.x, cell.y + offset.y})]);
+                }
+                sum = add_area_vector(sum, corner[0], corner[1], corner[2]);
+            });
+            state.normal[at(grid, {x, y})] = texel(unit_or_zero(sum));
+        }
+}
+
+}  // namespace drape

@@ -1,0 +1,48 @@
+// The C++ twin: every plain simulation pass in plain C++, with the shaders' own functions, in the shaders'
+// order of operations. On a device with IEEE arithmetic (lavapipe) its images equal the device's bit for bit;
+// that the passes are *right* is shown elsewhere, against closed forms in double precision.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cloth/frame_inputs.h"
+#include "cloth/schedule.h"
+
+namespace drape {
+
+/// The images of one cloth, one texel per particle, row by row (units: metres, newtons).
+struct TwinCloth {
+    std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
+    std::array<std::vector<float>, 4> multiplier;  ///< per spring direction, where the model needs one
+};
+
+class Twin {
+  public:
+    explicit Twin(const SimulationModel& model);
+
+    /// Simulates from frame-1 to `frame`, step by step of the schedule.
+    void run_frame(std::uint32_t frame);
+    /// One step of one cloth.
+    void run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs);
+    void normals(std::size_t cloth);
+
+    const TwinCloth& cloth(std::size_t index) const { return cloths_[index]; }
+    TwinCloth& cloth(std::size_t index) { return cloths_[index]; }
+
+  private:
+    void release(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
+                 std::uint32_t substep);
+    void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
+    void force(const ClothModel& model, TwinCloth& state, bool advance);
+    void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
+             std::uint32_t substep);
+    void spring(const ClothModel& model, TwinCloth& state, const Step& step);
+    void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
+    void advance(TwinCloth& state);
+
+    const SimulationModel& model_;
+    std::vector<TwinCloth> cloths_;
+};
+
+}  // namespace drape

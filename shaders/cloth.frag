@@ -1,0 +1,8 @@
+// A cloth, without shadows.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/raster_types.h"
+#include "include/raster_frame.h"
+#include "include/shading.h"
+#include "include/raster_lights.h"
+#include "include/cloth_shade.h"

@@ -1,0 +1,24 @@
+// Colliders as their true shapes, one instance each, and the backdrop as one large triangle at the far end.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/raster_types.h"
+#include "include/raster_frame.h"
+#include "include/collider_mesh.h"
+layout(location = 0) out vec3 world;
+layout(location = 1) out vec3 surface_normal;
+layout(location = 2) out vec2 on_plane;
+layout(location = 3) flat out vec4 albedo;      // w: distance of the grid's lines on a plane
+
+void main() {
+    ColliderInstance collider = colliders[gl_InstanceIndex];
+    MeshVertex mesh = mesh_vertex(collider, gl_VertexIndex);
+    world = placed(collider, mesh.position);
+    surface_normal = turned(collider, mesh.normal);
+    on_plane = mesh.position.xz;
+    albedo = vec4(collider.color.xyz, collider.shape.y);
+    gl_Position = clip_position(world);
+    if (collider_kind == kind_backdrop) {
+        vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
+        gl_Position = vec4(corner, 0.99999994, 1.0);  // the last depth before the cleared 1
+    }
+}

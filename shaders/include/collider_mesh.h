@@ -1,0 +1,61 @@
+// Vertices of the colliders' true shapes from gl_VertexIndex, in local coordinates.
+#ifndef DRAPE_COLLIDER_MESH_H
+#define DRAPE_COLLIDER_MESH_H
+
+layout(constant_id = 0) const int collider_kind = kind_backdrop;
+layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstance colliders[]; };
+
+struct MeshVertex {
+    vec3 position;
+    vec3 normal;  // any length
+};
+
+/// Corner (0 or 1 along each axis) of vertex 0..5 of a quad's two triangles, counter-clockwise.
+ivec2 quad_corner(int vertex) {
+    return ivec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1 : 0, vertex == 2 || vertex == 4 || vertex == 5 ? 1 : 0);
+}
+
+MeshVertex ellipsoid_vertex(vec3 radii, int vertex) {
+    int quad = vertex / 6;
+    ivec2 corner = ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6);
+    const float pi = 3.14159265358979;
+    float polar = pi * float(corner.y) / float(sphere_rows);
+    float azimuth = 2.0 * pi * float(corner.x) / float(sphere_columns);
+    vec3 unit = vec3(sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth));
+    return MeshVertex(unit * radii, unit / radii);
+}
+
+MeshVertex box_vertex(vec3 half_extents, int vertex) {
+    int face = vertex / 6;
+    int axis = face / 2;
+    float side = face % 2 == 0 ? 1.0 : -1.0;
+    vec2 corner = vec2(quad_corner(vertex % 6)) * 2.0 - 1.0;
+    vec3 normal = vec3(0.0);
+    normal[axis] = side;
+    vec3 unit = normal;
+    unit[(axis + 1) % 3] = corner.x * side;
+    unit[(axis + 2) % 3] = corner.y;
+    return MeshVertex(unit * half_extents, normal);
+}
+
+/// Local y is the plane's normal.
+MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
+    vec2 corner = center + (vec2(quad_corner(vertex)) * 2.0 - 1.0) * half_side;
+    return MeshVertex(vec3(corner.x, 0.0, corner.y), vec3(0.0, 1.0, 0.0));
+}
+
+MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
+    if (collider_kind == kind_ellipsoid) return ellipsoid_vertex(collider.shape.xyz, vertex);
+    if (collider_kind == kind_box) return box_vertex(collider.shape.xyz, vertex);
+    return plane_vertex(collider.shape.x, collider.shape.zw, vertex);
+}
+
+vec3 turned(ColliderInstance collider, vec3 local) {
+    return vec3(dot(collider.pose_x.xyz, local), dot(collider.pose_y.xyz, local), dot(collider.pose_z.xyz, local));
+}
+
+vec3 placed(ColliderInstance collider, vec3 local) {
+    return turned(collider, local) + vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+}
+
+#endif

@@ -1,0 +1,186 @@
+// Signed distances of the four collider kinds in their local frames, and the contact with friction.
+// Positive distance is outside. Each gives the closest surface point's outward normal.
+#ifndef DRAPE_COLLIDERS_H
+#define DRAPE_COLLIDERS_H
+
+#include "include/vector.h"
+
+struct SurfacePoint {
+    vec3 normal;     // unit, outward, local frame
+    float distance;  // m, negative inside
+};
+
+SHARED vec3 local_point(Collider collider, vec3 world) {
+    precise vec3 from_center = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+    precise vec3 local = vec3(collider.pose_x.x, collider.pose_x.y, collider.pose_x.z) * from_center.x +
+                         vec3(collider.pose_y.x, collider.pose_y.y, collider.pose_y.z) * from_center.y +
+                         vec3(collider.pose_z.x, collider.pose_z.y, collider.pose_z.z) * from_center.z;
+    return local;
+}
+
+SHARED vec3 world_direction(Collider collider, vec3 local) {
+    return vec3(ordered_dot(vec3(collider.pose_x.x, collider.pose_x.y, collider.pose_x.z), local),
+                ordered_dot(vec3(collider.pose_y.x, collider.pose_y.y, collider.pose_y.z), local),
+                ordered_dot(vec3(collider.pose_z.x, collider.pose_z.y, collider.pose_z.z), local));
+}
+
+/// How far the collider's material at `local` moved during the substep, world frame, metres.
+SHARED vec3 surface_displacement(Collider collider, vec3 local) {
+    precise vec3 turned =
+        vec3(ordered_dot(vec3(collider.change_x.x, collider.change_x.y, collider.change_x.z), local),
+             ordered_dot(vec3(collider.change_y.x, collider.change_y.y, collider.change_y.z), local),
+             ordered_dot(vec3(collider.change_z.x, collider.change_z.y, collider.change_z.z), local));
+    precise vec3 moved = turned + vec3(collider.change_x.w, collider.change_y.w, collider.change_z.w);
+    return moved;
+}
+
+SHARED SurfacePoint sphere_surface(vec3 local, float radius) {
+    precise float squared = ordered_dot(local, local);
+    if (!(squared > 0.0f)) return SurfacePoint(vec3(0.0f, 1.0f, 0.0f), -radius);
+    precise float from_center = sqrt(squared);
+    precise vec3 normal = local / from_center;
+    precise float distance = from_center - radius;
+    return SurfacePoint(normal, distance);
+}
+
+/// Outside: nearest point of the box. Inside: nearest face.
+SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
+    vec3 side = vec3(local.x < 0.0f ? -1.0f : 1.0f, local.y < 0.0f ? -1.0f : 1.0f, local.z < 0.0f ? -1.0f : 1.0f);
+    precise vec3 beyond = local * side - half_extents;
+    if (beyond.x > 0.0f || beyond.y > 0.0f || beyond.z > 0.0f) {
+        precise vec3 outside = vec3(beyond.x > 0.0f ? beyond.x : 0.0f, beyond.y > 0.0f ? beyond.y : 0.0f,
+                                    beyond.z > 0.0f ? beyond.z : 0.0f);
+        precise float distance = sqrt(ordered_dot(outside, outside));
+        if (distance > 0.0f) {  // else underflow: on the surface, let the nearest face decide below
+            precise vec3 normal = outside * side / distance;
+            return SurfacePoint(normal, distance);
+        }
+    }
+    if (beyond.x >= beyond.y && beyond.x >= beyond.z) return SurfacePoint(vec3(side.x, 0.0f, 0.0f), beyond.x);
+    if (beyond.y >= beyond.z) return SurfacePoint(vec3(0.0f, side.y, 0.0f), beyond.y);
+    return SurfacePoint(vec3(0.0f, 0.0f, side.z), beyond.z);
+}
+
+/// F(s) + 1 of Eberly's root problem, per axis: ratio (e/e_min)^2, scaled coordinate y/e.
+SHARED vec3 ellipsoid_terms(vec3 ratio, vec3 scaled, float s) {
+    precise vec3 terms = ratio * scaled / (ratio + vec3(s, s, s));
+    return terms;
+}
+
+/// Closest point on the ellipsoid sum (x_i/radii_i)^2 = 1 to `local`. Eberly, "Distance from a Point to an
+/// Ellipse, an Ellipsoid, or a Hyperellipsoid": foot_i = r_i y_i / (s + r_i) with r_i = (e_i/e_min)^2 at the
+/// largest root of g(s) = sum (r_i z_i / (s + r_i))^2 - 1, z_i = y_i / e_i. g is convex and falling right of
+/// -1, so Newton from s = z_min - 1 (where g >= 0) rises monotonically to the root; it stops when it no longer
+/// rises (at most 16 steps; 10 are needed in double precision).
+SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
+    float smallest = radii.x < radii.y ? radii.x : radii.y;
+    smallest = radii.z < smallest ? radii.z : smallest;
+    // A coordinate of exactly zero along the smallest axis has no start value: shift it by less than rounding.
+    precise float tiny = 1.0e-7f * smallest;
+    vec3 magnitude = vec3(abs(local.x), abs(local.y), abs(local.z));
+    magnitude = vec3(magnitude.x < tiny ? tiny : magnitude.x, magnitude.y < tiny ? tiny : magnitude.y,
+                     magnitude.z < tiny ? tiny : magnitude.z);
+    precise vec3 relative = radii / smallest;
+    precise vec3 ratio = relative * relative;
+    precise vec3 scaled = magnitude / radii;
+    float along_smallest = radii.x == smallest ? scaled.x : (radii.y == smallest ? scaled.y : scaled.z);
+    precise float s = along_smallest - 1.0f;
+    for (int step = 0; step < 16; ++step) {
+        precise vec3 terms = ellipsoid_terms(ratio, scaled, s);
+        precise float value = ordered_dot(terms, terms) - 1.0f;
+        precise vec3 slopes = terms * terms / (ratio + vec3(s, s, s));
+        precise float slope = 2.0f * (slopes.x + slopes.y + slopes.z);
+        precise float next = s + value / slope;
+        if (!(next > s)) break;
+        s = next;
+    }
+    precise vec3 foot = ratio * magnitude / (ratio + vec3(s, s, s));
+    return vec3(local.x < 0.0f ? -foot.x : foot.x, local.y < 0.0f ? -foot.y : foot.y,
+                local.z < 0.0f ? -foot.z : foot.z);
+}
+
+/// The normal is the surface's own at the foot point (gradient), good however close the point is.
+SHARED SurfacePoint ellipsoid_surface(vec3 local, vec3 radii) {
+    vec3 foot = ellipsoid_foot(local, radii);
+    precise vec3 gradient = foot / (radii * radii);
+    precise vec3 normal = gradient / sqrt(ordered_dot(gradient, gradient));
+    precise float distance = ordered_dot(local - foot, normal);
+    return SurfacePoint(normal, distance);
+}
+
+/// Whether the point is farther than `reach` from the ellipsoid's bounding box: then no root is needed.
+SHARED bool beyond_bounds(vec3 local, vec3 radii, float reach) {
+    precise vec3 bound = radii + vec3(reach, reach, reach);
+    return abs(local.x) > bound.x || abs(local.y) > bound.y || abs(local.z) > bound.z;
+}
+
+/// Displacement after contact: moved out by `depth` along `normal`, and the motion relative to the surface
+/// along the tangent reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a) h^2 of
+/// a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): metres.
+SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
+    precise vec3 relative = displacement - surface;
+    precise float along = ordered_dot(relative, normal);
+    precise vec3 tangent = relative - normal * along;
+    precise float squared = ordered_dot(tangent, tangent);
+    precise float grip = friction * depth;
+    precise vec3 pushed = displacement + normal * depth;
+    if (!(squared > 0.0f) || !(grip > 0.0f)) return pushed;
+    precise float sliding = sqrt(squared);
+    precise float kept = sliding > grip ? grip / sliding : 1.0f;
+    precise vec3 slowed = pushed - tangent * kept;
+    return slowed;
+}
+
+struct Contact {
+    vec3 displacement;
+    float depth;  // m; 0 when there was no contact
+};
+
+SHARED vec3 moved_position(vec3 start, vec3 displacement) {
+    precise vec3 now = start + displacement;
+    return now;
+}
+
+/// Contact with a surface whose nearest point has `normal` (world) at signed `distance`; `local` is the
+/// particle in the collider's frame.
+SHARED Contact resolve_contact(Collider collider, vec3 local, vec3 normal, float distance, vec3 displacement,
+                               float thickness, float friction) {
+    precise float depth = thickness - distance;
+    if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
+    precise float pair_friction = friction * collider.shape.w;
+    vec3 surface = surface_displacement(collider, local);
+    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth);
+}
+
+SHARED Contact plane_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
+    vec3 now = moved_position(start, displacement);
+    vec3 normal = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    precise vec3 from_foot = now - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+    float distance = ordered_dot(from_foot, normal);
+    return resolve_contact(collider, local_point(collider, now), normal, distance, displacement, thickness, friction);
+}
+
+SHARED Contact sphere_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
+    vec3 local = local_point(collider, moved_position(start, displacement));
+    SurfacePoint surface = sphere_surface(local, collider.shape.x);
+    vec3 normal = world_direction(collider, surface.normal);
+    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
+}
+
+SHARED Contact box_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
+    vec3 local = local_point(collider, moved_position(start, displacement));
+    SurfacePoint surface = box_surface(local, vec3(collider.shape.x, collider.shape.y, collider.shape.z));
+    vec3 normal = world_direction(collider, surface.normal);
+    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
+}
+
+SHARED Contact ellipsoid_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
+    vec3 local = local_point(collider, moved_position(start, displacement));
+    vec3 radii = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    if (beyond_bounds(local, radii, thickness)) return Contact(displacement, 0.0f);
+    SurfacePoint surface = ellipsoid_surface(local, radii);
+    vec3 normal = world_direction(collider, surface.normal);
+    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
+}
+
+#endif

@@ -1,0 +1,62 @@
+// The one projection of a spring (distance constraint), used by every schedule, and which spring a pass's
+// invocation owns. Sources: Jakobsen 2001 (relaxation, weighted by inverse mass), Macklin et al. 2016
+// "XPBD" eq. 18 (compliance and multiplier).
+#ifndef DRAPE_SPRING_H
+#define DRAPE_SPRING_H
+
+#include "include/vector.h"
+
+/// First particle (column, row) of spring `pair` of a parity pass; the second is `offset` away. An offset to
+/// the left starts one column in.
+SHARED ivec2 spring_owner(ivec2 pair, ivec2 offset, int parity_axis, int parity) {
+    int x = parity_axis == 0 ? 2 * pair.x + parity : pair.x;
+    int y = parity_axis == 1 ? 2 * pair.y + parity : pair.y;
+    return ivec2(offset.x < 0 ? x + 1 : x, y);
+}
+
+/// Share of a spring's stiffness that the cells beside it give: springs lying along a border have one cell
+/// instead of two; a diagonal belongs to one cell alone and always has all of it.
+SHARED float border_stiffness(ivec2 owner, ivec2 offset, ivec2 grid) {
+    if (offset.y == 0 && (owner.y == 0 || owner.y == grid.y - 1)) return 0.5f;
+    if (offset.x == 0 && (owner.x == 0 || owner.x == grid.x - 1)) return 0.5f;
+    return 1.0f;
+}
+
+/// second - first in displacement form: the difference of the start positions is exact where it matters, so
+/// the edge carries the rounding of the edge's length, not of the distance from the origin (the position form
+/// loses a factor of ten in the swing test).
+SHARED vec3 spring_edge(vec3 position_first, vec3 position_second, vec3 displacement_first,
+                        vec3 displacement_second) {
+    precise vec3 edge = (position_second - position_first) + (displacement_second - displacement_first);
+    return edge;
+}
+
+SHARED vec3 moved_by(vec3 displacement, vec3 correction, float weight) {
+    precise vec3 moved = displacement + correction * weight;
+    return moved;
+}
+
+struct SpringResult {
+    vec3 correction;   // to be added to the second particle times its w, subtracted from the first times its w
+    float multiplier;  // new XPBD multiplier, scaled by m_inner / h^2
+};
+
+/// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `stiffness`
+/// in [0, 1] scales the spring's stiffness, 0 = no spring; `compliance` = m_inner / (k h^2), 0 = rigid.
+/// delta lambda = -(s C + a lambda) / (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator
+/// times s, so that s = 0 is no division by zero. A rigid spring between two fixed particles, and one of zero
+/// length (no direction), are left alone.
+SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float stiffness, float compliance,
+                                   float multiplier) {
+    precise float length_squared = ordered_dot(edge, edge);
+    precise float denominator = stiffness * weight_sum + compliance;
+    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), multiplier);
+    precise float current = sqrt(length_squared);
+    precise float numerator = stiffness * (current - rest_length) + compliance * multiplier;
+    precise float change = -numerator / denominator;
+    precise vec3 correction = edge * (change / current);
+    precise float updated = multiplier + change;
+    return SpringResult(correction, updated);
+}
+
+#endif

@@ -1,0 +1,45 @@
+// Body of the spring passes, plain schedule: one invocation per spring of a parity pass, so no particle is
+// touched twice. MASKED: the stiffness comes from an image (holes, cuts). MULTIPLIED: compliant springs
+// relaxed more than once per substep keep their XPBD multiplier.
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SpringPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+#endif
+#ifdef MULTIPLIED
+layout(set = 0, binding = 4, r32f) uniform readonly image2D multiplier_in;
+layout(set = 0, binding = 5, r32f) uniform writeonly image2D multiplier_out;
+#endif
+
+void main() {
+    ivec2 pair = ivec2(gl_GlobalInvocationID.xy);
+    if (pair.x >= push.pair_count.x || pair.y >= push.pair_count.y) return;
+    ivec2 first = spring_owner(pair, push.offset, push.parity_axis, push.parity);
+    ivec2 second = first + push.offset;
+    vec4 position_first = imageLoad(position, first);
+    vec4 position_second = imageLoad(position, second);
+    vec3 displacement_first = imageLoad(displacement_in, first).xyz;
+    vec3 displacement_second = imageLoad(displacement_in, second).xyz;
+#ifdef MASKED
+    float stiffness = imageLoad(stiffness_image, first)[push.channel];
+#else
+    float stiffness = border_stiffness(first, push.offset, push.grid);
+#endif
+    float multiplier = 0.0f;
+#ifdef MULTIPLIED
+    if (push.first_iteration == 0) multiplier = imageLoad(multiplier_in, first).x;
+#endif
+    vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
+    SpringResult result = project_spring(edge, position_first.w + position_second.w, push.rest_length, stiffness,
+                                         push.compliance, multiplier);
+    vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
+    vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
+    imageStore(displacement_out, first, vec4(moved_first, 0.0f));
+    imageStore(displacement_out, second, vec4(moved_second, 0.0f));
+#ifdef MULTIPLIED
+    imageStore(multiplier_out, first, vec4(result.multiplier, 0.0f, 0.0f, 0.0f));
+#endif
+}

@@ -1,0 +1,30 @@
+// Verlet in displacement form with compensated sums (physics.md 2.2 and 3, "damped free fall").
+// State: X = position at the start of the substep, d = displacement of the substep, and what rounding lost
+// of each (`*_rest`), so that 1e5 substeps do not drift.
+#ifndef DRAPE_VERLET_H
+#define DRAPE_VERLET_H
+
+struct CompensatedSum {
+    vec3 value;
+    vec3 rest;  // exact sum - value
+};
+
+/// a + b + rest with the rounding error kept: Knuth's TwoSum, exact for any magnitudes.
+SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 rest) {
+    precise vec3 addend = b + rest;
+    precise vec3 sum = a + addend;
+    precise vec3 back = sum - a;
+    precise vec3 lost = (a - (sum - back)) + (addend - back);
+    return CompensatedSum(sum, lost);
+}
+
+/// Displacement of the next substep before constraints: d' = e^(-c h) d + phi h^2 (g + w F / m), written as
+/// an increment to d. `damping_loss` = 1 - e^(-c h); `gravity_step` = phi h^2 g; `force_step` = phi h^2 / m.
+SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, float inverse_mass,
+                             float force_step, float damping_loss) {
+    precise vec3 forced = gravity_step + force * (inverse_mass * force_step);
+    precise vec3 increment = forced - displacement * damping_loss;
+    return increment;
+}
+
+#endif

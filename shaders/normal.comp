@@ -1,0 +1,7 @@
+// Normals of a cloth.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/triangles.h"
+#include "include/wind.h"
+#include "include/normal_pass.h"

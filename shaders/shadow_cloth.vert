@@ -1,0 +1,14 @@
+// A cloth as the first light sees it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/raster_types.h"
+#include "include/raster_frame.h"
+#include "include/shadow_clip.h"
+layout(push_constant) uniform Push { ClothPush push; };
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
+
+void main() {
+    int columns = int(push.grid.x);
+    ivec2 texel = ivec2(gl_VertexIndex % columns, gl_VertexIndex / columns);
+    gl_Position = shadow_clip(imageLoad(position, texel).xyz);
+}

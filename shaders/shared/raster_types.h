@@ -1,0 +1,59 @@
+// Structs that the raster shaders and the C++ side share. std430; every member's offset is checked by
+// reflection when a pipeline is made. Colours are linear, lengths in metres.
+#ifndef DRAPE_RASTER_TYPES_H
+#define DRAPE_RASTER_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+const int light_limit = 4;
+
+/// Collider kinds: the specialization constant of the collider shaders. The backdrop is drawn with them so
+/// that the ground can fade into it by one function.
+const int kind_backdrop = 0;
+const int kind_plane = 1;
+const int kind_ellipsoid = 2;  // and sphere: three equal radii
+const int kind_box = 3;
+
+/// A unit sphere's mesh: segments around and from pole to pole.
+const int sphere_columns = 96;
+const int sphere_rows = 48;
+
+/// Texels of the square shadow map's side.
+const int shadow_map_size = 2048;
+
+/// What all draws of a frame share.
+struct FrameConstants {
+    vec4 clip_from_world[4];    // rows
+    vec4 shadow_from_world[3];  // rows: x, y in texels, z 0 (near the light) .. 1
+    vec4 eye;                   // xyz: camera position; w: number of lights
+    vec4 ambient;               // xyz: linear; w: size of a shadow texel, m
+    vec4 background;            // xyz: linear; w: height of the picture, pixels
+    vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
+    vec4 to_light[4];           // xyz: unit, towards the light
+    vec4 light_radiance[4];     // xyz: linear colour times intensity
+};
+
+/// A collider of any kind as drawn.
+struct ColliderInstance {
+    vec4 pose_x, pose_y, pose_z;  // rows of world from local; w: centre
+    vec4 shape;                   // ellipsoid: radii; box: half extents; plane: half side of the quad drawn,
+                                  // distance of the grid's lines, local x and z of the quad's centre
+    vec4 color;
+};
+
+struct ClothPush {
+    uvec4 grid;      // columns, rows, 1 when checkered, 0
+    vec4 size;       // x, y: metres along columns, rows; z: side of a checker square, m
+    vec4 front;      // colour of the side the normals point to
+    vec4 back;
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

@@ -1,0 +1,85 @@
+// Structs that the simulation's shaders and the C++ side share. std430; every member's offset is checked by
+// reflection when a pipeline is made (engine/passes/interfaces.cpp).
+#ifndef DRAPE_SIMULATION_TYPES_H
+#define DRAPE_SIMULATION_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// Workgroups are rows along x: 64x1 is among the best shapes on the default device and coalesces on GPUs.
+const int workgroup_width = 64;
+
+/// One parity pass of one spring direction (engine/cloth/directions.h).
+struct SpringPush {
+    ivec2 grid;         // columns, rows
+    ivec2 pair_count;   // springs of this pass along columns, rows
+    ivec2 offset;       // from a spring's first particle to its second
+    int parity_axis;    // 0: pairs alternate along columns, 1: along rows
+    int parity;         // 0 even, 1 odd
+    float rest_length;  // m
+    float compliance;   // m_inner / (k h^2), dimensionless; 0 = rigid
+    int channel;        // of the stiffness image: row, column, shear down-right, shear down-left
+    int first_iteration;  // 1: the multiplier starts at zero (it is written, not read)
+};
+
+struct ForcePush {
+    ivec2 grid;
+    float damping_loss;  // q = 1 - exp(-c h)
+    float force_step;    // phi h^2 / m_inner: displacement per newton on an inner particle
+    vec4 gravity_step;   // xyz: phi h^2 g, metres; w unused
+};
+
+struct WindPush {
+    ivec2 grid;
+    int substep;               // index into the wind buffer
+    float inverse_step;        // 1 / h
+    float drag_coefficient;    // air_density (Cd - Cl) / 2
+    float lift_coefficient;    // air_density Cl / 2
+};
+
+struct CollisionPush {
+    ivec4 first;   // first collider of this substep: planes, spheres, boxes, ellipsoids
+    ivec4 count;   // colliders of each kind
+    vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction
+                   // coefficient; z: depth, m, under which a contact asks for no further round; w unused
+    ivec4 grid;    // columns, rows, 0, 0
+};
+
+struct PinPush {
+    int particle_count;
+    int motion_first;  // first motion of this substep
+};
+
+struct GridPush {
+    ivec2 grid;
+};
+
+/// A collider at the end of one substep, of any kind. The rotation's rows are world from local, their w is the
+/// centre; `change` is this pose minus the pose one substep earlier (computed in double on the host, so a
+/// collider at rest has exact zeros there and friction against it cannot creep).
+struct Collider {
+    vec4 pose_x, pose_y, pose_z;
+    vec4 change_x, change_y, change_z;
+    vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii. w: sqrt(friction)
+};
+
+/// A particle that the scene pins with a motion or a release.
+struct PinnedParticle {
+    vec4 rest;  // xyz: position at rest, metres; w: its inverse mass once released
+    ivec4 index;  // column, row, motion, 0
+};
+
+/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1).
+struct PinMotion {
+    vec4 row_x, row_y, row_z;
+    vec4 held;  // x: 1 while held at the start of this substep, 0 from its release on
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

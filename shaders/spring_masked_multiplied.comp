@@ -1,0 +1,8 @@
+// Relaxes one parity of one spring direction; stiffness from an image, with XPBD multipliers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/spring.h"
+#define MASKED
+#define MULTIPLIED
+#include "include/spring_pass.h"
