@@ -1,0 +1,14 @@
+#pragma once
+
+#include <json/value.h>
+
+#include <string>
+
+namespace drape {
+
+// JSON text of a value: two spaces of indentation, what fits on one line stays on one line, keys sorted,
+// doubles with the fewest digits that read back as the same double (JsonCpp's own writers have one precision
+// for all numbers). Ends with a newline. Throws OutputError naming the key when a double is not finite.
+std::string json_text(const Json::Value& value);
+
+}  // namespace drape

@@ -1,0 +1,152 @@
+#include "output/manifest.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <json/value.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/json_text.h"
+
+namespace drape {
+
+namespace {
+
+Json::Value texts(const std::vector<std::string>& values) {
+    Json::Value array(Json::arrayValue);
+    for (const std::string& value : values) array.append(value);
+    return array;
+}
+
+Json::Value number(double value, const std::string& what) {
+    if (!std::isfinite(value))
+        throw OutputError(fmt::format("manifest: {} is not a finite number ({})", what, value));
+    return value;
+}
+
+Json::Value scene_json(const Manifest::Scene& scene) {
+    Json::Value json;
+    json["path"] = scene.path;
+    json["name"] = scene.name;
+    json["hash"] = scene.hash;
+    json["overrides"] = texts(scene.overrides);
+    return json;
+}
+
+Json::Value device_json(const Manifest::Device& device) {
+    Json::Value json;
+    json["name"] = device.name;
+    json["driver"] = device.driver;
+    json["driver_version"] = device.driver_version;
+    json["api_version"] = device.api_version;
+    json["uuid"] = device.uuid;
+    return json;
+}
+
+Json::Value frames_json(const Manifest::Frames& frames) {
+    Json::Value json;
+    json["start"] = Json::Int64(frames.start);
+    json["end"] = Json::Int64(frames.end);
+    json["step"] = Json::Int64(frames.step);
+    json["count"] = Json::UInt64(frames.count);
+    json["fps"] = number(frames.fps, "frames.fps");
+    return json;
+}
+
+Json::Value files_json(const std::vector<FileRecord>& files) {
+    Json::Value array(Json::arrayValue);
+    for (const FileRecord& file : files) {
+        Json::Value json;
+        json["name"] = file.name;
+        json["bytes"] = Json::UInt64(file.bytes);
+        json["hash"] = file.hash;
+        array.append(std::move(json));
+    }
+    return array;
+}
+
+Json::Value statistics_json(const std::vector<Manifest::FrameStatistics>& statistics) {
+    Json::Value array(Json::arrayValue);
+    for (const auto& [frame, values] : statistics) {
+        Json::Value json;
+        json["frame"] = Json::Int64(frame);
+        for (const auto& [name, value] : values) {
+            if (name == "frame") throw OutputError("manifest: a statistic may not be named 'frame'");
+            json[name] = number(value, fmt::format("statistic '{}' of frame {}", name, frame));
+        }
+        array.append(std::move(json));
+    }
+    return array;
+}
+
+Json::Value skipped_json(const std::vector<Manifest::Skipped>& skipped) {
+    Json::Value array(Json::arrayValue);
+    for (const auto& [what, reason] : skipped) {
+        Json::Value json;
+        json["what"] = what;
+        json["reason"] = reason;
+        array.append(std::move(json));
+    }
+    return array;
+}
+
+Json::Value run_json(const Manifest& manifest) {
+    Json::Value json;
+    json["created"] = manifest.created;
+    json["command_line"] = texts(manifest.command_line);
+    if (manifest.frame_time) {
+        Json::Value& time = json["frame_ms"];
+        time["median"] = number(manifest.frame_time->median, "the median frame time");
+        time["min"] = number(manifest.frame_time->minimum, "the shortest frame time");
+        time["max"] = number(manifest.frame_time->maximum, "the longest frame time");
+    }
+    for (const auto& [stage, median] : manifest.stage_median_ms) {
+        json["stage_median_ms"][stage] = number(median, fmt::format("the time of stage '{}'", stage));
+    }
+    return json;
+}
+
+}  // namespace
+
+std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double> milliseconds) {
+    if (milliseconds.empty()) return std::nullopt;
+    std::vector<double> sorted(milliseconds.begin(), milliseconds.end());
+    std::ranges::sort(sorted);
+    const size_t middle = sorted.size() / 2;
+    const double median = sorted.size() % 2 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+    return Manifest::FrameTime{median, sorted.front(), sorted.back()};
+}
+
+std::string utc_timestamp(std::chrono::system_clock::time_point time) {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
+std::string manifest_json(const Manifest& manifest) {
+    Json::Value json;
+    json["format"] = std::string(manifest_format);
+    json["program_version"] = manifest.program_version;
+    json["status"] = manifest.status;
+    json["scene"] = scene_json(manifest.scene);
+    json["device"] = device_json(manifest.device);
+    json["frames"] = frames_json(manifest.frames);
+    json["solver"]["method"] = manifest.solver.method;
+    json["solver"]["substeps"] = manifest.solver.substeps;
+    json["solver"]["iterations"] = manifest.solver.iterations;
+    json["validation"]["enabled"] = manifest.validation.enabled;
+    json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
+    json["skipped"] = skipped_json(manifest.skipped);
+    json["files"] = files_json(manifest.files);
+    json["statistics"] = statistics_json(manifest.statistics);
+    json["run"] = run_json(manifest);
+    return json_text(json);
+}
+
+void write_manifest(OutputFolder& folder, const Manifest& manifest) {
+    const std::string text = manifest_json(manifest);
+    folder.sync();  // "done" must not reach the disk before the names of the files it lists
+    write_file(folder, std::string(manifest_file_name), bytes_of(text));
+    folder.sync();
+}
+
+}  // namespace drape

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output/atomic_file.h"
+#include "output/output_folder.h"
+
+namespace drape {
+
+// What a run was and what it made. Written last: a folder with a manifest is finished.
+//
+// Two runs of the same program on the same scene and device give the same JSON but for the key "run" (when,
+// by which command line, how fast), which a comparison drops.
+struct Manifest {
+    struct Scene {
+        std::string path;
+        std::string name;
+        std::string hash;                    // xxh3_128_hex of the scene's text after the overrides
+        std::vector<std::string> overrides;  // "/json/pointer=value"
+    };
+    struct Device {
+        std::string name;
+        std::string driver;
+        std::string driver_version;
+        std::string api_version;
+        std::string uuid;
+    };
+    struct Frames {
+        std::int64_t start = 0;
+        std::int64_t end = 0;  // inclusive
+        std::int64_t step = 1;
+        std::uint64_t count = 0;
+        double fps = 0;
+    };
+    struct Solver {
+        std::string method;
+        std::uint32_t substeps = 0;
+        std::uint32_t iterations = 0;
+    };
+    struct Validation {
+        bool enabled = false;
+        std::uint64_t message_count = 0;
+    };
+    struct Skipped {
+        std::string what;  // a pass, a pipeline, an image, ...
+        std::string reason;
+    };
+    struct FrameTime {  // wall-clock milliseconds per frame
+        double median = 0;
+        double minimum = 0;
+        double maximum = 0;
+    };
+    struct FrameStatistics {
+        std::int64_t frame = 0;
+        std::map<std::string, double> values;  // names carry the unit where there is one: "kinetic_energy_j"
+    };
+
+    std::string program_version;
+    std::string status = "done";
+    Scene scene;
+    Device device;
+    Frames frames;
+    Solver solver;
+    Validation validation;
+    std::vector<Skipped> skipped;
+    std::vector<FileRecord> files;
+    std::vector<FrameStatistics> statistics;
+
+    // Under "run":
+    std::string created;  // utc_timestamp()
+    std::vector<std::string> command_line;
+    std::optional<FrameTime> frame_time;
+    std::map<std::string, double> stage_median_ms;  // stage -> median device milliseconds per frame
+};
+
+// Median, minimum and maximum; nothing for no frames.
+std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double> milliseconds);
+
+// "2024-05-31T12:00:00Z"
+std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chrono::system_clock::now());
+
+// UTF-8 JSON; doubles with the fewest digits that read back as the same double. Throws OutputError naming the
+// number when one is not finite (JSON has no such numbers, and a run that has one is not done).
+std::string manifest_json(const Manifest& manifest);
+
+// Writes manifest.json after all files of the run have reached the disk. Throws OutputError.
+void write_manifest(OutputFolder& folder, const Manifest& manifest);
+
+}  // namespace drape

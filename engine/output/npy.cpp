@@ -1,0 +1,84 @@
+#include "output/npy.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+#include <stdexcept>
+
+namespace drape {
+
+static_assert(std::endian::native == std::endian::little, "frames are written as they lie in memory");
+
+namespace {
+
+// One size whatever the frame count, so that the header can be corrected in place; a multiple of 64, so that
+// a memory map of the data is aligned. The longest dictionary is 101 bytes.
+constexpr size_t header_bytes = 128;
+
+std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
+                           std::uint32_t column_count) {
+    const auto frame_bytes = static_cast<long double>(row_count) * column_count * 3 * sizeof(float);
+    if (row_count == 0 || column_count == 0 ||
+        frame_bytes * static_cast<long double>(frame_count) >
+            static_cast<long double>(std::numeric_limits<std::int64_t>::max() - header_bytes)) {
+        throw std::invalid_argument(fmt::format("{}: no array of {} x {} x {} x 3 floats", name, frame_count,
+                                                row_count, column_count));
+    }
+    return row_count;
+}
+
+}  // namespace
+
+NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count,
+                     std::uint32_t row_count, std::uint32_t column_count)
+    : announced_count_(frame_count),
+      row_count_(checked_rows(name, frame_count, row_count, column_count)),
+      column_count_(column_count),
+      file_(folder, name) {
+    file_.append(bytes_of(header(frame_count)));
+}
+
+std::string NpyWriter::header(std::uint64_t frame_count) const {
+    std::string dictionary =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}, 3), }}", frame_count,
+                    row_count_, column_count_);
+    constexpr size_t preamble_bytes = 10;  // magic, version, length of the rest
+    dictionary.resize(header_bytes - preamble_bytes - 1, ' ');
+    dictionary += '\n';
+    std::string text("\x93NUMPY\x01\x00", 8);
+    text += static_cast<char>(dictionary.size() & 0xff);
+    text += static_cast<char>(dictionary.size() >> 8);
+    return text + dictionary;
+}
+
+void NpyWriter::append_frame(std::span<const float> xyz) {
+    const size_t expected = size_t{row_count_} * column_count_ * 3;
+    if (xyz.size() != expected) {
+        throw std::invalid_argument(
+            fmt::format("NPY frame {}: expected {} floats, got {}", written_count_, expected, xyz.size()));
+    }
+    file_.append(std::as_bytes(xyz));
+    ++written_count_;
+}
+
+void NpyWriter::append_frame_xyzw(std::span<const float> xyzw) {
+    if (xyzw.size() != size_t{row_count_} * column_count_ * 4) {
+        throw std::invalid_argument(fmt::format("NPY frame {}: expected {} floats, got {}", written_count_,
+                                                size_t{row_count_} * column_count_ * 4, xyzw.size()));
+    }
+    packed_.resize(xyzw.size() / 4 * 3);
+    for (size_t particle = 0; particle < xyzw.size() / 4; ++particle) {
+        for (size_t axis = 0; axis < 3; ++axis) packed_[3 * particle + axis] = xyzw[4 * particle + axis];
+    }
+    append_frame(packed_);
+}
+
+FileRecord NpyWriter::finish() {
+    if (written_count_ != announced_count_) {
+        file_.rewrite(0, bytes_of(header(written_count_)));
+    }
+    return file_.commit();
+}
+
+}  // namespace drape

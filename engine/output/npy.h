@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output/atomic_file.h"
+
+namespace drape {
+
+// Streams positions into a NumPy file: little-endian float32, C order, shape [frame, row, column, 3].
+// Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html (version 1.0). The file
+// appears at finish(); a writer that ends without it leaves nothing.
+class NpyWriter {
+  public:
+    // Throws std::invalid_argument when rows or columns are 0 or the array would exceed 2^63 bytes,
+    // OutputError.
+    NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count,
+              std::uint32_t row_count, std::uint32_t column_count);
+
+    // One frame: row_count * column_count particles, x y z each. Throws std::invalid_argument on another
+    // size.
+    void append_frame(std::span<const float> xyz);
+    // The same from x y z w; w is dropped.
+    void append_frame_xyzw(std::span<const float> xyzw);
+
+    std::uint64_t frame_count() const { return written_count_; }
+
+    // The header is corrected when fewer or more frames came than announced (an interrupted run).
+    FileRecord finish();
+
+  private:
+    std::string header(std::uint64_t frame_count) const;
+
+    std::uint64_t announced_count_;
+    std::uint64_t written_count_ = 0;
+    std::uint32_t row_count_;
+    std::uint32_t column_count_;
+    std::vector<float> packed_;
+    AtomicFile file_;
+};
+
+}  // namespace drape

@@ -1,0 +1,245 @@
+#include "output/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <json/json.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <system_error>
+
+namespace drape {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view temporary_mark = ".tmp-";
+
+bool all_digits(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_finished_file_name(std::string_view name) {
+    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy";
+    if (name == manifest_file_name) return true;
+    if (name.starts_with(frame) && name.ends_with(png)) {
+        name.remove_prefix(frame.size());
+        name.remove_suffix(std::min(png.size(), name.size()));
+        return name.size() >= 4 && all_digits(name);
+    }
+    return name == "positions.npy" ||
+           (name.starts_with(positions) && name.ends_with(npy) && name[positions.size()] == '_');
+}
+
+// The file names a manifest lists; nothing when the file is not a manifest of this program.
+std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_path) {
+    std::ifstream file(manifest_path, std::ios::binary);
+    Json::Value root;
+    std::string errors;
+    try {
+        if (!file || !Json::parseFromStream(Json::CharReaderBuilder(), file, &root, &errors))
+            return std::nullopt;
+        if (!root.isObject() || root["format"] != Json::Value(std::string(manifest_format)))
+            return std::nullopt;
+        std::set<std::string> names;
+        if (!root["files"].isArray()) return std::nullopt;
+        for (const Json::Value& entry : root["files"]) {
+            if (!entry.isObject() || !entry["name"].isString()) continue;
+            if (std::string name = entry["name"].asString(); is_plain_file_name(name))
+                names.insert(std::move(name));
+        }
+        return names;
+    } catch (const Json::Exception&) {  // nested too deeply
+        return std::nullopt;
+    }
+}
+
+struct Entry {
+    std::string name;
+    bool is_folder;
+};
+
+std::vector<Entry> list_entries(const fs::path& path) {
+    std::vector<Entry> entries;
+    std::error_code error;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code status_error;
+        const bool is_folder = entry->symlink_status(status_error).type() == fs::file_type::directory;
+        entries.push_back({entry->path().filename().string(), is_folder});
+    }
+    if (error) throw system_error_at("list output folder", path.string(), error.value());
+    std::ranges::sort(entries, {}, &Entry::name);
+    return entries;
+}
+
+void ignore_file_size_signal() {
+    struct sigaction action {};
+    if (sigaction(SIGXFSZ, nullptr, &action) == 0 && action.sa_handler == SIG_DFL) {
+        action.sa_handler = SIG_IGN;
+        sigaction(SIGXFSZ, &action, nullptr);
+    }
+}
+
+}  // namespace
+
+OutputError system_error_at(const std::string& action, const std::string& path, int errno_value) {
+    return OutputError(
+        fmt::format("cannot {} '{}': {}", action, path, std::generic_category().message(errno_value)));
+}
+
+bool is_plain_file_name(std::string_view name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
+           name.find('\0') == std::string_view::npos;
+}
+
+bool is_temporary_file_name(std::string_view name) {
+    const size_t mark = name.rfind(temporary_mark);
+    return mark != std::string_view::npos && all_digits(name.substr(mark + temporary_mark.size())) &&
+           is_finished_file_name(name.substr(0, mark));
+}
+
+bool is_output_file_name(std::string_view name) {
+    return is_finished_file_name(name) || is_temporary_file_name(name);
+}
+
+OutputFolder::OutputFolder(const fs::path& path, ExistingFiles existing) : path_(path) {
+    if (path.empty()) throw OutputError("the name of the output folder is empty");
+    ignore_file_size_signal();
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) {
+        const int error = errno;
+        if (error != ENOENT) throw system_error_at("use output folder", path.string(), error);
+        if (lstat(path.c_str(), &status) == 0) {
+            throw OutputError(
+                fmt::format("output folder '{}' is a symbolic link to '{}', which does not exist",
+                            path.string(), fs::read_symlink(path).string()));
+        }
+    } else if (!S_ISDIR(status.st_mode)) {
+        throw OutputError(fmt::format("output folder '{}' is a file, not a folder", path.string()));
+    }
+    try {
+        create_missing_folders();
+        open_and_lock();
+        check_content(existing);
+        check_writable();
+    } catch (...) {
+        remove_created_folders();
+        throw;
+    }
+}
+
+OutputFolder::~OutputFolder() { remove_created_folders(); }
+
+void OutputFolder::create_missing_folders() {
+    const fs::path absolute = fs::absolute(path_);
+    fs::path prefix;
+    for (const fs::path& component : absolute) {
+        prefix /= component;
+        if (component.empty() || component == "/") continue;
+        if (mkdir(prefix.c_str(), 0777) == 0) {
+            created_folders_.push_back(prefix);
+        } else if (const int error = errno; error != EEXIST) {
+            // A parent that exists may sit on a read-only file system, where mkdir says so before it says
+            // EEXIST.
+            std::error_code status_error;
+            if (fs::is_directory(prefix, status_error)) continue;
+            throw system_error_at("create output folder", prefix.string(), error);
+        }
+    }
+}
+
+// Only empty folders go: rmdir refuses the others, which then are the result of the run.
+void OutputFolder::remove_created_folders() noexcept {
+    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) {
+        if (rmdir(folder->c_str()) != 0) break;
+    }
+    created_folders_.clear();
+}
+
+void OutputFolder::open_and_lock() {
+    descriptor_ = FileDescriptor(open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!descriptor_) throw system_error_at("open output folder", path_.string(), errno);
+    is_locked_ = flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0;
+    if (!is_locked_ && errno == EWOULDBLOCK) {
+        throw OutputError(fmt::format("another drape is writing to output folder '{}'", path_.string()));
+    }
+}
+
+void OutputFolder::check_content(ExistingFiles existing) {
+    const std::vector<Entry> entries = list_entries(path_);
+    if (entries.empty()) return;
+    if (existing == ExistingFiles::refuse) {
+        throw OutputError(
+            fmt::format("output folder '{}' is not empty (it holds {}{}): use --overwrite to replace an "
+                        "earlier run's files, "
+                        "--resume to continue that run, or choose another folder",
+                        path_.string(), entries.front().name,
+                        entries.size() > 1 ? fmt::format(" and {} more", entries.size() - 1) : ""));
+    }
+    std::set<std::string> listed;
+    if (has_file(std::string(manifest_file_name))) {
+        // Programs of many kinds keep a manifest.json; ours would take the place of theirs.
+        const auto names = names_in_manifest(path_ / manifest_file_name);
+        if (!names) {
+            throw OutputError(fmt::format("'{}' was not written by drape: choose another output folder",
+                                          path_of(manifest_file_name)));
+        }
+        listed = *names;
+    }
+    for (const Entry& entry : entries) {
+        if (entry.is_folder) continue;
+        const bool goes = existing == ExistingFiles::resume
+                              ? is_temporary_file_name(entry.name) || entry.name == manifest_file_name
+                              : is_output_file_name(entry.name) || listed.contains(entry.name);
+        if (goes) files_to_remove_.push_back(entry.name);
+    }
+}
+
+void OutputFolder::check_writable() const {
+    // An unnamed file is the one probe that leaves nothing behind, even when killed in between.
+    const FileDescriptor probe(openat(descriptor_.get(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+    if (probe) return;
+    int error = errno;
+    if (error == EOPNOTSUPP || error == EISDIR || error == ENOENT || error == EINVAL) {
+        if (faccessat(descriptor_.get(), ".", W_OK | X_OK, AT_EACCESS) == 0) return;
+        error = errno;
+    }
+    throw system_error_at("write to output folder", path_.string(), error);
+}
+
+bool OutputFolder::has_file(const std::string& name) const {
+    struct stat status {};
+    return fstatat(descriptor_.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0;
+}
+
+void OutputFolder::begin_writing() {
+    const std::scoped_lock lock(writing_mutex_);
+    if (writing_begun_) return;
+    // The manifest first: a folder that lost some of its frames must not look done.
+    std::ranges::stable_partition(files_to_remove_,
+                                  [](const auto& name) { return name == manifest_file_name; });
+    for (const std::string& name : files_to_remove_) {
+        if (unlinkat(descriptor_.get(), name.c_str(), 0) != 0 && errno != ENOENT) {
+            throw system_error_at("remove the earlier run's file", path_of(name), errno);
+        }
+    }
+    writing_begun_ = true;
+}
+
+void OutputFolder::sync() const {
+    // EINVAL: a file system that cannot sync folders.
+    if (fsync(descriptor_.get()) != 0 && errno != EINVAL) {
+        throw system_error_at("write output folder", path_.string(), errno);
+    }
+}
+
+}  // namespace drape

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/file_descriptor.h"
+#include "output/output_error.h"
+
+namespace drape {
+
+inline constexpr std::string_view manifest_file_name = "manifest.json";
+// Value of the manifest's "format" key: how a later run knows that a manifest.json is drape's.
+inline constexpr std::string_view manifest_format = "drape manifest 1";
+
+// What to do with a folder that is not empty.
+enum class ExistingFiles {
+    refuse,
+    overwrite,  // remove what an earlier run wrote, leave every other file alone
+    resume,     // keep the earlier run's files, except its manifest ("done") and its unfinished temporaries
+};
+
+// The folder of one run. While this object lives the folder is locked against other drape processes and files
+// in it are reached through its descriptor, so that renaming the folder or changing the working directory
+// does no harm.
+//
+// The constructor checks everything (kind, lock, content, writability) and changes nothing but creating a
+// missing folder and its missing parents, which are removed again when it throws, or when the object ends and
+// no file was written. An earlier run's files go at the first write, not before: a run that fails while
+// starting loses nothing.
+//
+// Also ignores SIGXFSZ unless the program handles it, so that a file size limit arrives as an error, not as a
+// death.
+class OutputFolder {
+  public:
+    // Throws OutputError.
+    explicit OutputFolder(const std::filesystem::path& path, ExistingFiles existing = ExistingFiles::refuse);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    // Path of the file of this name, for messages.
+    std::string path_of(std::string_view name) const { return (path_ / name).string(); }
+    int descriptor() const { return descriptor_.get(); }
+
+    // False on a file system that cannot lock folders (some network ones): two processes are then not kept
+    // apart.
+    bool is_locked() const { return is_locked_; }
+
+    // The earlier run's files that the first write removes, sorted; empty unless overwriting or resuming.
+    const std::vector<std::string>& files_to_remove() const { return files_to_remove_; }
+
+    bool has_file(const std::string& name) const;
+
+    // Removes files_to_remove() once. Every writer calls it; any thread may. Throws OutputError.
+    void begin_writing();
+
+    // Makes the renames so far survive a power cut. Throws OutputError.
+    void sync() const;
+
+  private:
+    void create_missing_folders();
+    void remove_created_folders() noexcept;
+    void open_and_lock();
+    void check_content(ExistingFiles existing);
+    void check_writable() const;
+
+    std::filesystem::path path_;
+    std::vector<std::filesystem::path> created_folders_;  // absolute, outermost first
+    FileDescriptor descriptor_;
+    bool is_locked_ = false;
+    std::vector<std::string> files_to_remove_;
+    std::mutex writing_mutex_;
+    bool writing_begun_ = false;
+};
+
+// True for a name that stays in its folder: not empty, no '/', not "." or "..".
+bool is_plain_file_name(std::string_view name);
+
+// True for the names this program gives its files (frame_0001.png, positions.npy, positions_<cloth>.npy,
+// manifest.json) and for the temporary names they have while being written.
+bool is_output_file_name(std::string_view name);
+bool is_temporary_file_name(std::string_view name);
+
+}  // namespace drape

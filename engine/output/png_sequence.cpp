@@ -1,0 +1,105 @@
+#include "output/png_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "output/png.h"
+
+namespace drape {
+
+int frame_digits(std::uint64_t last_frame) {
+    return std::max(4, static_cast<int>(fmt::formatted_size("{}", last_frame)));
+}
+
+std::string frame_file_name(std::uint64_t frame, int digits) {
+    return fmt::format("frame_{:0{}}.png", frame, digits);
+}
+
+PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count)
+    : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)) {
+    for (unsigned worker = 0; worker < std::max(1u, worker_count); ++worker) {
+        workers_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
+    }
+}
+
+std::vector<std::uint8_t> PngSequence::take_buffer(size_t bytes) {
+    std::vector<std::uint8_t> buffer;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!free_buffers_.empty()) {
+            buffer = std::move(free_buffers_.back());
+            free_buffers_.pop_back();
+        }
+    }
+    buffer.resize(bytes);
+    return buffer;
+}
+
+void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
+                         std::vector<std::uint8_t> rgba) {
+    if (rgba.size() != size_t{width} * height * 4 || rgba.empty()) {
+        throw std::invalid_argument(
+            fmt::format("frame {}: {} bytes are not {}x{} RGBA pixels", frame, rgba.size(), width, height));
+    }
+    std::unique_lock lock(mutex_);
+    if (finished_) throw std::logic_error(fmt::format("frame {} submitted after finish()", frame));
+    frame_done_.wait(lock, [this] { return pending_count_ < pending_limit_ || error_; });
+    if (error_) std::rethrow_exception(error_);
+    queue_.push_back({frame, width, height, std::move(rgba)});
+    ++pending_count_;
+    frame_waits_.notify_one();
+}
+
+std::vector<FileRecord> PngSequence::finish() {
+    std::unique_lock lock(mutex_);
+    finished_ = true;
+    frame_done_.wait(lock, [this] { return pending_count_ == 0; });
+    if (error_) std::rethrow_exception(error_);
+    std::ranges::sort(records_, {}, &FileRecord::name);
+    return records_;
+}
+
+void PngSequence::work(std::stop_token stop) {
+    std::vector<std::uint8_t> png;
+    std::unique_lock lock(mutex_);
+    while (frame_waits_.wait(lock, stop, [this] { return !queue_.empty(); }) && !stop.stop_requested()) {
+        Frame frame = std::move(queue_.front());
+        queue_.pop_front();
+        lock.unlock();
+        std::exception_ptr error;
+        FileRecord record;
+        try {
+            record = write(frame, png);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        lock.lock();
+        try {
+            if (!error) keep_result(std::move(record), std::move(frame.rgba));
+        } catch (...) {
+            error = std::current_exception();
+        }
+        --pending_count_;
+        if (error && !error_) error_ = error;
+        if (error_) {
+            pending_count_ -= queue_.size();
+            queue_.clear();
+        }
+        frame_done_.notify_all();
+    }
+}
+
+void PngSequence::keep_result(FileRecord record, std::vector<std::uint8_t> buffer) {
+    records_.push_back(std::move(record));
+    free_buffers_.push_back(std::move(buffer));
+}
+
+FileRecord PngSequence::write(const Frame& frame, std::vector<std::uint8_t>& png) {
+    encode_png(frame.width, frame.height, frame.rgba, png);
+    return write_file(folder_, frame_file_name(frame.number, digits_), std::as_bytes(std::span(png)));
+}
+
+}  // namespace drape

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "output/atomic_file.h"
+
+namespace drape {
+
+// Digits of the frame numbers in file names: enough for the last frame, at least four.
+int frame_digits(std::uint64_t last_frame);
+// "frame_0001.png"
+std::string frame_file_name(std::uint64_t frame, int digits);
+
+// Writes frames as PNG files on worker threads while the caller computes the next ones. Which thread writes a
+// frame changes no byte of it.
+//
+// The caller's side (take_buffer, submit, finish) is for one thread. A failure in a worker is thrown, as it
+// was, by the next submit() or by finish(); frames still waiting are then dropped, finished files stay.
+// Destruction without finish() drops the frames that no worker has begun.
+class PngSequence {
+  public:
+    // worker_count 0 means 1. The folder must outlive the sequence.
+    PngSequence(OutputFolder& folder, int digits, unsigned worker_count);
+
+    // A buffer of this many bytes with arbitrary content, recycled from a written frame when there is one.
+    std::vector<std::uint8_t> take_buffer(size_t bytes);
+
+    // Queues a frame: RGBA8, rows tightly packed from the top. Waits while two frames per worker are queued
+    // or being written, so memory is bounded. Throws a worker's error, or std::invalid_argument when the
+    // sizes do not fit.
+    void submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
+                std::vector<std::uint8_t> rgba);
+
+    // Waits for all frames; the files written, by name. Throws a worker's error. Nothing may be submitted
+    // after.
+    std::vector<FileRecord> finish();
+
+  private:
+    struct Frame {
+        std::uint64_t number = 0;
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+        std::vector<std::uint8_t> rgba;
+    };
+
+    void work(std::stop_token stop);
+    FileRecord write(const Frame& frame, std::vector<std::uint8_t>& png);
+    void keep_result(FileRecord record, std::vector<std::uint8_t> buffer);
+
+    OutputFolder& folder_;
+    int digits_;
+    size_t pending_limit_;
+
+    std::mutex mutex_;
+    std::condition_variable_any frame_waits_;
+    std::condition_variable_any frame_done_;
+    std::deque<Frame> queue_;
+    size_t pending_count_ = 0;  // queued or being written
+    bool finished_ = false;
+    std::exception_ptr error_;
+    std::vector<std::vector<std::uint8_t>> free_buffers_;
+    std::vector<FileRecord> records_;
+
+    std::vector<std::jthread> workers_;  // last: stopped and joined before anything they use goes
+};
+
+}  // namespace drape

@@ -1,0 +1,100 @@
+#include "output/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+namespace drape {
+
+namespace {
+
+constexpr double redraw_interval = 0.1;  // seconds
+constexpr double line_interval = 30.0;
+// The rate is that of the latest frames: the first ones pay for pipelines, and scenes grow harder on contact.
+constexpr size_t recent_limit = 33;
+
+std::string duration_text(double seconds) {
+    const auto total = static_cast<std::uint64_t>(std::ceil(seconds));
+    const std::uint64_t hours = total / 3600, minutes = total / 60 % 60, rest = total % 60;
+    return hours ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
+                 : fmt::format("{}:{:02}", minutes, rest);
+}
+
+}  // namespace
+
+Progress::Options Progress::standard_options(bool is_quiet) {
+    Options options;
+    options.is_quiet = is_quiet;
+    const char* terminal = std::getenv("TERM");
+    options.is_terminal = isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
+    options.seconds = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+    options.write = [](std::string_view text) {
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        std::fflush(stderr);
+    };
+    return options;
+}
+
+Progress::Progress(std::uint64_t frame_count, Options options)
+    : frame_count_(frame_count), options_(std::move(options)), last_report_(options_.seconds()) {
+    recent_.push_back(last_report_);
+}
+
+Progress::~Progress() { finish(); }
+
+void Progress::frame_done(std::int64_t frame) {
+    ++done_count_;
+    frame_ = frame;
+    const double now = options_.seconds();
+    recent_.push_back(now);
+    if (recent_.size() > recent_limit) recent_.pop_front();
+    if (options_.is_quiet || !is_due(now)) return;
+    options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line(now))
+                                        : fmt::format("{}\n", line(now)));
+    line_is_open_ = options_.is_terminal;
+    last_report_ = now;
+    last_tenth_ = frame_count_ ? 10 * done_count_ / frame_count_ : 0;
+}
+
+bool Progress::is_due(double now) const {
+    if (done_count_ == frame_count_) return true;
+    const double waited = now - last_report_;
+    if (options_.is_terminal) return done_count_ == 1 || waited >= redraw_interval;
+    const bool is_next_tenth = frame_count_ != 0 && 10 * done_count_ / frame_count_ > last_tenth_;
+    return is_next_tenth || waited >= line_interval;
+}
+
+double Progress::milliseconds_per_frame(double now) const {
+    const auto frames = static_cast<double>(recent_.size() - 1);
+    return frames > 0 ? 1000 * (now - recent_.front()) / frames : 0;
+}
+
+std::string Progress::line(double now) const {
+    const double rate = milliseconds_per_frame(now);
+    const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
+    const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
+    return fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}", frame_, done_count_, frame_count_,
+                       percent, rate, duration_text(static_cast<double>(left) * rate / 1000));
+}
+
+void Progress::message(std::string_view text) {
+    std::string whole = line_is_open_ ? "\r\x1b[K" : "";
+    whole += text;
+    whole += '\n';
+    if (line_is_open_) whole += line(recent_.back());
+    options_.write(whole);
+}
+
+void Progress::finish() {
+    if (line_is_open_) options_.write("\n");
+    line_is_open_ = false;
+}
+
+}  // namespace drape

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace drape {
+
+// Says on stderr how far a run is: frame, share, milliseconds per frame, time left. On a terminal one line is
+// redrawn (at most ten times a second); elsewhere a line comes every 10 % or 30 s. No colours, so NO_COLOR
+// holds.
+class Progress {
+  public:
+    struct Options {
+        bool is_quiet = false;
+        bool is_terminal = false;                     // one that can redraw a line
+        std::function<double()> seconds;              // a steady clock
+        std::function<void(std::string_view)> write;  // to stderr, unbuffered
+    };
+    // For this process's stderr.
+    static Options standard_options(bool is_quiet);
+
+    // The clock starts here.
+    explicit Progress(std::uint64_t frame_count, Options options = standard_options(false));
+    // Leaves the terminal's cursor on a fresh line.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // One more frame is done; its number is what the line shows.
+    void frame_done(std::int64_t frame);
+
+    // Writes a line of text, also when quiet, without tearing the progress line.
+    void message(std::string_view text);
+
+    // Ends the progress line. Idempotent.
+    void finish();
+
+  private:
+    bool is_due(double now) const;
+    std::string line(double now) const;
+    double milliseconds_per_frame(double now) const;
+
+    std::uint64_t frame_count_;
+    Options options_;
+    std::uint64_t done_count_ = 0;
+    std::int64_t frame_ = 0;
+    std::deque<double> recent_;  // when the latest frames were done, oldest first
+    double last_report_;
+    std::uint64_t last_tenth_ = 0;
+    bool line_is_open_ = false;
+};
+
+}  // namespace drape

@@ -1,0 +1,94 @@
+#include "output/png.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstring>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "output/output_error.h"
+#include "temporary_folder.h"
+
+namespace drape {
+namespace {
+
+std::vector<std::uint8_t> random_rgba(std::uint32_t width, std::uint32_t height) {
+    std::mt19937 random(width * 7919 + height);
+    std::vector<std::uint8_t> rgba(size_t{width} * height * 4);
+    for (auto& byte : rgba) byte = static_cast<std::uint8_t>(random());
+    return rgba;
+}
+
+std::vector<std::uint8_t> without_alpha(const std::vector<std::uint8_t>& rgba) {
+    std::vector<std::uint8_t> rgb;
+    for (size_t i = 0; i < rgba.size(); ++i) {
+        if (i % 4 != 3) rgb.push_back(rgba[i]);
+    }
+    return rgb;
+}
+
+std::vector<std::uint8_t> decode_with_libpng(const std::vector<std::uint8_t>& png) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_memory(&image, png.data(), png.size()))
+        throw std::runtime_error(image.message);
+    EXPECT_EQ(image.format, PNG_FORMAT_RGB);
+    EXPECT_EQ(image.flags & PNG_IMAGE_FLAG_COLORSPACE_NOT_sRGB, 0u);
+    std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
+    if (!png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr))
+        throw std::runtime_error(image.message);
+    return rgb;
+}
+
+TEST(Png, TwoDecodersGiveThePixelsBack) {
+    std::vector<std::uint8_t> png;
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 9u}, {640u, 360u}, {3u, 2u}, {257u, 1u}}) {
+        const auto rgba = random_rgba(width, height);
+        encode_png(width, height, rgba, png);
+        EXPECT_EQ(decode_with_libpng(png), without_alpha(rgba)) << width << "x" << height;
+        const Picture picture = decode_png(png);
+        EXPECT_EQ(picture.width, width);
+        EXPECT_EQ(picture.height, height);
+        EXPECT_EQ(picture.rgb, without_alpha(rgba)) << width << "x" << height;
+    }
+}
+
+TEST(Png, SaysThatItIsSrgb) {
+    std::vector<std::uint8_t> png;
+    encode_png(2, 2, random_rgba(2, 2), png);
+    const std::string text(png.begin(), png.end());
+    EXPECT_THAT(text, testing::StartsWith("\x89PNG\r\n\x1a\n"));
+    EXPECT_THAT(text, testing::HasSubstr(std::string("sRGB\0", 5)));
+    EXPECT_THAT(text, testing::HasSubstr("IEND"));
+}
+
+TEST(Png, CompressesAFlatPicture) {
+    std::vector<std::uint8_t> png;
+    encode_png(640, 360, std::vector<std::uint8_t>(640 * 360 * 4, 128), png);
+    EXPECT_LT(png.size(), 640u * 360 * 3 / 50);
+}
+
+TEST(Png, RefusesSizesThatDoNotFit) {
+    std::vector<std::uint8_t> png;
+    EXPECT_THROW(encode_png(2, 2, std::vector<std::uint8_t>(15), png), std::invalid_argument);
+    EXPECT_THROW(encode_png(0, 2, {}, png), std::invalid_argument);
+    EXPECT_THROW(encode_png(1, 100000, std::vector<std::uint8_t>(400000), png), std::invalid_argument);
+}
+
+TEST(Png, RefusesDamagedFiles) {
+    std::vector<std::uint8_t> png;
+    encode_png(16, 16, random_rgba(16, 16), png);
+    EXPECT_THAT(error_text<OutputError>([&] { decode_png(std::span(png).first(png.size() / 2)); }),
+                testing::StartsWith("PNG: cannot decode"));
+    EXPECT_THROW(decode_png({}), OutputError);
+    png[png.size() / 2] ^= 0x10;  // in the compressed pixels: the chunk's checksum no longer fits
+    EXPECT_THROW(decode_png(png), OutputError);
+    png[1] = 'J';
+    EXPECT_THROW(decode_png(png), OutputError);
+}
+
+}  // namespace
+}  // namespace drape
