@@ -61,17 +61,11 @@ SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
     return SurfacePoint(vec3(0.0f, 0.0f, side.z), beyond.z);
 }
 
-/// F(s) + 1 of Eberly's root problem, per axis: ratio (e/e_min)^2, scaled coordinate y/e.
-SHARED vec3 ellipsoid_terms(vec3 ratio, vec3 scaled, float s) {
-    precise vec3 terms = ratio * scaled / (ratio + vec3(s, s, s));
-    return terms;
-}
-
 /// Closest point on the ellipsoid sum (x_i/radii_i)^2 = 1 to `local`. Eberly, "Distance from a Point to an
 /// Ellipse, an Ellipsoid, or a Hyperellipsoid": foot_i = r_i y_i / (s + r_i) with r_i = (e_i/e_min)^2 at the
 /// largest root of g(s) = sum (r_i z_i / (s + r_i))^2 - 1, z_i = y_i / e_i. g is convex and falling right of
-/// -1, so Newton from s = z_min - 1 (where g >= 0) rises monotonically to the root; it stops when it no longer
-/// rises (at most 16 steps; 10 are needed in double precision).
+/// -1, so Newton from a point where g >= 0 (one term alone reaches 1) rises monotonically to the root; it stops
+/// when it no longer rises. The unknown here is u = s + 1, so that it keeps its digits next to the pole.
 SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     float smallest = radii.x < radii.y ? radii.x : radii.y;
     smallest = radii.z < smallest ? radii.z : smallest;
@@ -80,21 +74,26 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     vec3 magnitude = vec3(abs(local.x), abs(local.y), abs(local.z));
     magnitude = vec3(magnitude.x < tiny ? tiny : magnitude.x, magnitude.y < tiny ? tiny : magnitude.y,
                      magnitude.z < tiny ? tiny : magnitude.z);
+    vec3 one = vec3(1.0f, 1.0f, 1.0f);
     precise vec3 relative = radii / smallest;
     precise vec3 ratio = relative * relative;
+    precise vec3 beyond_one = ratio - one;
     precise vec3 scaled = magnitude / radii;
-    float along_smallest = radii.x == smallest ? scaled.x : (radii.y == smallest ? scaled.y : scaled.z);
-    precise float s = along_smallest - 1.0f;
-    for (int step = 0; step < 16; ++step) {
-        precise vec3 terms = ellipsoid_terms(ratio, scaled, s);
+    precise vec3 weighted = ratio * scaled;
+    precise vec3 starts = weighted - beyond_one;  // where each term alone is 1
+    float u = starts.x > starts.y ? starts.x : starts.y;
+    u = starts.z > u ? starts.z : u;
+    for (int step = 0; step < 24; ++step) {
+        precise vec3 shifted = beyond_one + vec3(u, u, u);
+        precise vec3 terms = weighted / shifted;
         precise float value = ordered_dot(terms, terms) - 1.0f;
-        precise vec3 slopes = terms * terms / (ratio + vec3(s, s, s));
+        precise vec3 slopes = terms * terms / shifted;
         precise float slope = 2.0f * (slopes.x + slopes.y + slopes.z);
-        precise float next = s + value / slope;
-        if (!(next > s)) break;
-        s = next;
+        precise float next = u + value / slope;
+        if (!(next > u)) break;
+        u = next;
     }
-    precise vec3 foot = ratio * magnitude / (ratio + vec3(s, s, s));
+    precise vec3 foot = ratio * magnitude / (beyond_one + vec3(u, u, u));
     return vec3(local.x < 0.0f ? -foot.x : foot.x, local.y < 0.0f ? -foot.y : foot.y,
                 local.z < 0.0f ? -foot.z : foot.z);
 }

@@ -1,0 +1,97 @@
+// What a cloth's model holds, and what it leaves out.
+#include "cloth/cloth_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cloth/schedule.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+bool skips(const std::vector<SkippedWork>& list, const std::string& what) {
+    return std::ranges::any_of(list, [&](const SkippedWork& work) { return work.what == what; });
+}
+
+int count(const std::vector<Step>& steps, StepKind kind) {
+    return static_cast<int>(std::ranges::count(steps, kind, &Step::kind));
+}
+
+TEST(ClothModelTest, SpringConstantsFollowTheCellShape) {
+    SceneDescription scene = test::sheet(11, 6, 1.0, 1.0, 10);  // dx 0.1, dy 0.2
+    scene.cloths[0].stiffness = {false, 1000, 100, 0};
+    scene.cloths[0].areal_density = 0.25;
+    const ClothModel model(scene, 0);
+    EXPECT_DOUBLE_EQ(model.inner_mass, 0.25 * 0.1 * 0.2);
+    const double h = 1.0 / 600;
+    const auto stiffness = [&](std::size_t spring) {
+        return model.inner_mass / (h * h * static_cast<double>(model.springs[spring].push.compliance));
+    };
+    EXPECT_NEAR(stiffness(0), 1000 * 0.2 / 0.1, 1e-3);
+    EXPECT_NEAR(stiffness(2), 1000 * 0.1 / 0.2, 1e-3);
+    EXPECT_NEAR(stiffness(4), 100 * (0.01 + 0.04) / (2 * 0.1 * 0.2), 1e-3);
+    EXPECT_FLOAT_EQ(model.springs[0].push.rest_length, 0.1f);
+    EXPECT_FLOAT_EQ(model.springs[2].push.rest_length, 0.2f);
+    EXPECT_FLOAT_EQ(model.springs[4].push.rest_length, std::sqrt(0.05f));
+}
+
+TEST(ClothModelTest, RigidSpringsHaveNoComplianceAndNoMultiplier) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 4, 8);
+    scene.cloths[0].stiffness.rigid = true;
+    const ClothModel model(scene, 0);
+    ASSERT_EQ(model.springs.size(), 8u);
+    for (const SpringWork& work : model.springs) EXPECT_EQ(work.push.compliance, 0.0f);
+    for (const bool has : model.multiplied) EXPECT_FALSE(has);
+}
+
+TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
+    SceneDescription scene = test::sheet(2, 9, 1, 1, 4, 1);
+    scene.cloths[0].stiffness.shear = 0;
+    const SimulationModel model(scene);
+    EXPECT_EQ(model.cloths[0].springs.size(), 3u);  // row even, column even, column odd
+    EXPECT_TRUE(skips(model.skipped(), "sheet/spring row odd"));
+    EXPECT_TRUE(skips(model.skipped(), "sheet/spring shear down-right even"));
+    EXPECT_TRUE(skips(model.skipped(), "sheet/stiffness"));
+    EXPECT_TRUE(skips(model.skipped(), "sheet/multipliers"));
+    EXPECT_TRUE(skips(model.skipped(), "wind"));
+    EXPECT_TRUE(skips(model.skipped(), "collision"));
+}
+
+TEST(ClothModelTest, ALaterPinOverridesAnEarlierOne) {
+    SceneDescription scene = test::sheet(4, 4, 1, 1, 4);
+    Pin released = test::pin_box(3, 0, 3, 0);
+    released.release = 1.5;
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0]), released};
+    const ClothModel model(scene, 0);
+    for (std::size_t column = 0; column < 4; ++column) EXPECT_EQ(model.position[column].w, 0.0f);
+    ASSERT_EQ(model.pinned.size(), 1u);
+    EXPECT_EQ(model.pinned[0].index.x, 3);
+    EXPECT_EQ(model.pinned[0].rest.w, 4.0f) << "a corner's inverse mass once released";
+    EXPECT_TRUE(model.has_release);
+    EXPECT_FALSE(model.has_motion);
+}
+
+TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
+    scene.wind.velocity = {1, 0, 0};
+    scene.colliders.spheres.emplace_back();
+    const SimulationModel model(scene);
+    const std::vector<Step> steps = model.frame_steps(model.cloths[0]);
+    EXPECT_EQ(count(steps, StepKind::wind), 3);
+    EXPECT_EQ(count(steps, StepKind::force), 3);
+    EXPECT_EQ(count(steps, StepKind::spring), 3 * 2 * 8);
+    EXPECT_EQ(count(steps, StepKind::collide), 3 * 2);
+    EXPECT_EQ(steps[0].kind, StepKind::wind);
+    EXPECT_EQ(steps[1].kind, StepKind::force);
+    EXPECT_EQ(steps[2].kind, StepKind::spring);
+    EXPECT_EQ(steps[10].kind, StepKind::collide);
+    EXPECT_EQ(steps.back().kind, StepKind::advance);
+    scene.solver.collide = CollideWhen::substep;
+    const SimulationModel once(scene);
+    EXPECT_EQ(count(once.frame_steps(once.cloths[0]), StepKind::collide), 3);
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,51 @@
+// Free fall and ballistic flight, damped and undamped, against the closed form after 10 s.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "reference/twin.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+/// Distance covered in `time`: v0 t + g t^2/2, or with damping c: v_inf t + (v0 - v_inf)(1 - e^(-c t))/c.
+double flight(double v0, double g, double c, double time) {
+    if (c == 0) return v0 * time + 0.5 * g * time * time;
+    const double v_inf = g / c;
+    return v_inf * time - (v0 - v_inf) * std::expm1(-c * time) / c;
+}
+
+class FreeFlight : public testing::TestWithParam<std::tuple<std::uint32_t, double>> {};
+
+TEST_P(FreeFlight, FollowsTheClosedForm) {
+    const auto [substeps, damping] = GetParam();
+    SceneDescription scene = test::sheet(4, 3, 0.3, 0.2, substeps);
+    scene.cloths[0].damping = damping;
+    scene.cloths[0].velocity = {3, 0, -7};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    const std::uint32_t frames = 600;
+    for (std::uint32_t frame = 1; frame <= frames; ++frame) twin.run_frame(frame);
+    const double limit = substeps <= 16 ? 1e-5 : 1e-4;
+    double worst = 0;
+    for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i) {
+        const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0).position[i];
+        const double moved[3] = {double(end.x) - double(start.x), double(end.y) - double(start.y),
+                                 double(end.z) - double(start.z)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double expected = flight(scene.cloths[0].velocity[k], scene.gravity[k], damping, 10.0);
+            worst = std::max(worst, std::abs(moved[k] - expected) / std::abs(expected));
+        }
+    }
+    std::printf("[ measured ] %u substeps, damping %.1f: worst relative error %.2e (limit %.0e)\n", substeps, damping,
+                worst, limit);
+    EXPECT_LE(worst, limit);
+}
+
+INSTANTIATE_TEST_SUITE_P(SubstepsAndDamping, FreeFlight,
+                         testing::Combine(testing::Values(1u, 16u, 256u), testing::Values(0.0, 0.5)));
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,93 @@
+// Signed distances in double precision, by methods other than the shaders': the oracle for contact tests.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cloth/collider_pose.h"
+#include "scene/scene_description.h"
+
+namespace drape::test {
+
+inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+inline Vec3 to_local(const ColliderPose& pose, const Vec3& world) {
+    const Vec3 r = minus(world, pose.center);
+    Vec3 local{};
+    for (std::size_t k = 0; k < 3; ++k)
+        local[k] = pose.rotation[k] * r[0] + pose.rotation[3 + k] * r[1] + pose.rotation[6 + k] * r[2];
+    return local;
+}
+
+/// Closest point of an ellipsoid by bisection of Eberly's equation in double precision.
+inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
+    const double smallest = *std::ranges::min_element(radii);
+    Vec3 y = point;
+    for (std::size_t k = 0; k < 3; ++k) y[k] = std::max(std::abs(y[k]), 1e-15 * radii[k]);
+    double low = -smallest * smallest, high = 0;
+    for (std::size_t k = 0; k < 3; ++k) high += radii[k] * radii[k] * y[k] * y[k];
+    high = std::sqrt(high);  // F(high) <= 0
+    const auto value = [&](double t) {
+        double sum = -1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double term = radii[k] * y[k] / (t + radii[k] * radii[k]);
+            sum += term * term;
+        }
+        return sum;
+    };
+    for (int step = 0; step < 200; ++step) {
+        const double middle = 0.5 * (low + high);
+        (value(middle) > 0 ? low : high) = middle;
+    }
+    Vec3 foot;
+    for (std::size_t k = 0; k < 3; ++k)
+        foot[k] = std::copysign(radii[k] * radii[k] * y[k] / (high + radii[k] * radii[k]), point[k]);
+    return foot;
+}
+
+inline double surface_distance(const PlaneCollider& plane, double time, const Vec3& x) {
+    const ColliderPose pose = collider_pose(plane, time);
+    return dot(minus(x, pose.center), rotate(pose.rotation, plane.normal));
+}
+
+inline double surface_distance(const SphereCollider& sphere, double time, const Vec3& x) {
+    return norm(minus(x, collider_pose(sphere, time).center)) - sphere.radius;
+}
+
+inline double surface_distance(const BoxCollider& box, double time, const Vec3& x) {
+    const Vec3 local = to_local(collider_pose(box, time), x);
+    Vec3 outside{};
+    double inside = -1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double beyond = std::abs(local[k]) - box.half_extents[k];
+        outside[k] = std::max(beyond, 0.0);
+        inside = std::max(inside, beyond);
+    }
+    return inside > 0 ? norm(outside) : inside;
+}
+
+inline double surface_distance(const EllipsoidCollider& ellipsoid, double time, const Vec3& x) {
+    const Vec3 local = to_local(collider_pose(ellipsoid, time), x);
+    const double gap = norm(minus(local, ellipsoid_foot(local, ellipsoid.radii)));
+    double level = -1;
+    for (std::size_t k = 0; k < 3; ++k) level += std::pow(local[k] / ellipsoid.radii[k], 2);
+    return level < 0 ? -gap : gap;
+}
+
+/// Least distance of a point to all colliders.
+inline double surface_distance(const Colliders& colliders, double time, const Vec3& x) {
+    double least = 1e300;
+    const auto all = [&](const auto& list) {
+        for (const auto& collider : list) least = std::min(least, surface_distance(collider, time, x));
+    };
+    all(colliders.planes);
+    all(colliders.spheres);
+    all(colliders.boxes);
+    all(colliders.ellipsoids);
+    return least;
+}
+
+}  // namespace drape::test
