@@ -147,7 +147,7 @@ void fill_with_a_run(const fs::path& path) {
     write_manifest(folder, manifest);
     for (const char* name :
          {"frame_0001.png.tmp-77", "notes.txt", "frame_1.png", "frame_0001.png.bak", "frame_000x.png",
-          "positionsXnpy", "positions.npy.tmp-", "xframe_0001.png", "letter.tmp-12"}) {
+          "positionsX.npy", "positions.npy.tmp-", "xframe_0001.png", "letter.tmp-12"}) {
         write_text(path / name, "x");
     }
     fs::create_directory(path / "frame_0002.png");
@@ -170,7 +170,7 @@ TEST(OutputFolder, OverwriteRemovesOnlyOurFilesAndOnlyAtTheFirstWrite) {
     EXPECT_THAT(names_in(temporary / "out"),
                 ElementsAre("frame_0001.png.bak", "frame_0002.png", "frame_0009.png", "frame_000x.png",
                             "frame_1.png", "letter.tmp-12", "notes.txt", "positions.npy.tmp-",
-                            "positionsXnpy", "sub", "xframe_0001.png"));
+                            "positionsX.npy", "sub", "xframe_0001.png"));
     EXPECT_TRUE(fs::exists(temporary / "outside"));
     EXPECT_EQ(read_text(temporary / "linked"), "precious");
 }

@@ -80,6 +80,10 @@ TEST(PngSequence, BuffersAreReused) {
     std::set<const std::uint8_t*> buffers;
     for (std::uint64_t frame = 0; frame < 30; ++frame) {
         std::vector<std::uint8_t> rgba = sequence.take_buffer(width * height * 4);
+        // At most two frames are pending, so from the fourth on there is a written one's buffer, with its
+        // content.
+        EXPECT_EQ(rgba[0], frame < 3 ? rgba[0] : 7) << frame;
+        rgba[0] = 7;
         buffers.insert(rgba.data());
         sequence.submit(frame, width, height, std::move(rgba));
     }
