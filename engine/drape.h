@@ -1,1 +1,77 @@
+// The public face of the library: run a scene into a folder of PNG files or position arrays, or look at the
+// graph that would run.
 #pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exit_code.h"
+#include "output/output_folder.h"
+#include "scene/scene_reader.h"
+
+namespace drape {
+
+/// The command line asks for something that cannot be: exit code 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A scene that cannot be run, with all its errors: exit code 3 (or 1 when the file cannot be read).
+class SceneFailure : public std::runtime_error {
+  public:
+    explicit SceneFailure(SceneResult result);
+    const SceneResult& result() const { return result_; }
+
+  private:
+    SceneResult result_;
+};
+
+/// What the scene is asked to become. Unset values are the scene's own.
+struct SceneRequest {
+    std::string path;
+    std::vector<std::string> overrides;  ///< "/json/pointer=value"
+    std::optional<std::array<std::uint32_t, 2>> image_size;
+    std::optional<std::uint32_t> samples;
+    std::string device;     ///< selector; empty: the best there is
+    bool validate = false;  ///< core and synchronization validation
+    bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
+};
+
+struct RunRequest {
+    SceneRequest scene;
+    std::string output;  ///< folder
+    ExistingFiles existing = ExistingFiles::refuse;
+    bool draw = true;         ///< PNG files
+    bool export_npy = false;  ///< positions.npy, or positions_<cloth>.npy
+    std::optional<std::uint32_t> start, end;
+    std::uint32_t step = 1;
+    bool quiet = false;
+    std::vector<std::string> command_line;
+    std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
+};
+
+struct RunSummary {
+    std::uint64_t frame_count = 0;       ///< written
+    std::uint64_t validation_count = 0;  ///< messages
+    bool complete = true;                ///< false: stopped before the last frame; no manifest was written
+    std::vector<std::string> warnings;
+};
+
+/// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError,
+/// vulkan::VulkanError; nothing is written before everything that can be checked up front has been.
+RunSummary run_scene(const RunRequest& request);
+
+/// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.
+std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
+
+/// Reads a scene or throws SceneFailure; applies size and samples.
+SceneDescription load_scene(const SceneRequest& request, std::vector<std::string>* warnings = nullptr);
+
+const char* program_version();
+
+}  // namespace drape

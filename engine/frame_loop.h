@@ -1,0 +1,82 @@
+// The frames of a scene on the device: graphs for each kind of frame, two frames in flight, results handed out
+// in order. The host never reads positions to simulate; it reads them only where an export asks for them.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cloth/schedule.h"
+#include "graph/executor.h"
+#include "passes/cloth_solver.h"
+#include "passes/raster.h"
+
+namespace drape {
+
+struct FrameLoopOptions {
+    bool draw = true;        ///< colour images are wanted
+    bool positions = false;  ///< position arrays are wanted
+    std::uint32_t width = 1280, height = 720, samples = 4;
+    graph::TimestampMode timestamps = graph::TimestampMode::stages;
+    graph::BarrierFilter barrier_filter;  ///< canary tests only
+};
+
+/// What happens in a frame: frame 0 is the initial state; frames that nobody asked for are only simulated.
+enum class FrameKind { initial, simulate, simulate_and_output };
+inline constexpr std::size_t frame_kind_count = 3;
+
+struct FinishedFrame {
+    std::uint32_t frame;
+    std::span<const std::uint8_t> rgba;             ///< empty unless drawn: rows from the top, sRGB
+    std::vector<std::span<const float>> positions;  ///< per cloth: x y z w per particle; empty unless wanted
+    std::vector<graph::Timing> timings;             ///< device time by stage; empty without timestamps
+};
+
+class FrameLoop {
+  public:
+    /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
+    /// budget, before anything is allocated), records them, and uploads the initial state. `model` and
+    /// `device` must outlive the loop.
+    FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
+    ~FrameLoop();
+
+    /// Frames 0 .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked before
+    /// each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
+    bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+             const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
+
+    const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
+    const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
+    const graph::ResourcePool& pool() const { return *pool_; }
+
+  private:
+    struct Frame {
+        graph::Graph graph;
+        graph::Plan plan;
+        std::unique_ptr<graph::RecordedPlan> recorded;
+    };
+    struct InFlight {
+        std::uint32_t frame = 0;
+        FrameKind kind = FrameKind::initial;
+        bool output = false;
+    };
+
+    void build(FrameKind kind);
+    void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind);
+    void deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished);
+
+    const vulkan::Device& device_;
+    const SimulationModel& model_;
+    FrameLoopOptions options_;
+    ClothSolver solver_;
+    std::unique_ptr<RasterPass> raster_;
+    std::array<Frame, frame_kind_count> frames_;
+    std::unique_ptr<graph::ResourcePool> pool_;
+    vulkan::FrameSlots slots_;
+    std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
+};
+
+}  // namespace drape
