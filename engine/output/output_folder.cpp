@@ -40,7 +40,8 @@ bool is_finished_file_name(std::string_view name) {
            (name.starts_with(positions) && name.ends_with(npy) && name[positions.size()] == '_');
 }
 
-// The file names a manifest lists; nothing when the file is not a manifest of this program.
+// The file names a manifest lists, whatever they are (only names found in the folder are ever removed);
+// nothing when the file is not a manifest of this program.
 std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_path) {
     std::ifstream file(manifest_path, std::ios::binary);
     Json::Value root;
@@ -53,9 +54,7 @@ std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_
         std::set<std::string> names;
         if (!root["files"].isArray()) return std::nullopt;
         for (const Json::Value& entry : root["files"]) {
-            if (!entry.isObject() || !entry["name"].isString()) continue;
-            if (std::string name = entry["name"].asString(); is_plain_file_name(name))
-                names.insert(std::move(name));
+            if (entry.isObject() && entry["name"].isString()) names.insert(entry["name"].asString());
         }
         return names;
     } catch (const Json::Exception&) {  // nested too deeply
