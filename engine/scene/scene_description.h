@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drape {
@@ -18,17 +19,20 @@ struct MotionKey {
     double time = 0.0;  ///< seconds
     Vec3 translate{0, 0, 0};
     Vec3 rotate{0, 0, 0};
+    bool operator==(const MotionKey&) const = default;
 };
 
 /// Catmull-Rom through the keys with zero end slopes; holds its ends. Empty = at rest.
 struct MotionPath {
     std::vector<MotionKey> keys;  ///< strictly increasing in time
     bool moves() const { return keys.size() > 1; }
+    bool operator==(const MotionPath&) const = default;
 };
 
 struct TimeSettings {
     double fps = 60.0;
     std::uint32_t frame_count = 1;  ///< frames 0 .. frame_count-1; frame 0 is the initial state
+    bool operator==(const TimeSettings&) const = default;
 };
 
 /// Gust: an extra wind along `velocity`'s direction, a function of time and seed written in the schema.
@@ -36,15 +40,17 @@ struct Gust {
     double amplitude = 0.0;  ///< m/s
     double period = 1.0;     ///< s
     std::uint32_t seed = 0;
+    bool operator==(const Gust&) const = default;
 };
 
 struct Wind {
-    Vec3 velocity{0, 0, 0};    ///< m/s
+    Vec3 velocity{0, 0, 0};  ///< m/s
     Gust gust;
     double air_density = 1.2;  ///< kg/m^3
     double drag = 1.0;         ///< Cd
     double lift = 0.5;         ///< Cl
     bool blows() const { return velocity != Vec3{0, 0, 0}; }
+    bool operator==(const Wind&) const = default;
 };
 
 /// Where the flat cloth starts: particle (column 0, row 0) and the unit directions of growing column, row.
@@ -52,19 +58,22 @@ struct Placement {
     Vec3 origin{0, 0, 0};
     Vec3 u{1, 0, 0};
     Vec3 v{0, -1, 0};
+    bool operator==(const Placement&) const = default;
 };
 
 struct Stiffness {
-    bool rigid = false;      ///< stretch and shear inextensible: the slides' springs
-    double stretch = 1000.0; ///< N/m
-    double shear = 100.0;    ///< N/m
-    double bend = 0.0;       ///< N m
+    bool rigid = false;       ///< stretch and shear inextensible: the slides' springs
+    double stretch = 1000.0;  ///< N/m
+    double shear = 100.0;     ///< N/m
+    double bend = 0.0;        ///< N m
+    bool operator==(const Stiffness&) const = default;
 };
 
 /// Inclusive box of particle indices (column, row).
 struct IndexBox {
     std::array<std::uint32_t, 2> first{};
     std::array<std::uint32_t, 2> last{};
+    bool operator==(const IndexBox&) const = default;
 };
 
 /// Particles held by the scene. `edge`, `corner` and `at` of the scene file are resolved to an IndexBox by
@@ -73,7 +82,8 @@ struct Pin {
     IndexBox particles;
     std::optional<double> release;  ///< s; from then on the particle is free and keeps its velocity
     MotionPath path;
-    std::optional<Vec3> pivot;      ///< metres; rotation centre; default: centroid of the pinned particles
+    std::optional<Vec3> pivot;  ///< metres; rotation centre; default: centroid of the pinned particles
+    bool operator==(const Pin&) const = default;
 };
 
 enum class Pattern { plain, checker };
@@ -82,6 +92,7 @@ struct Appearance {
     Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
     Vec3 back{0.60, 0.10, 0.10};
     Pattern pattern = Pattern::checker;
+    bool operator==(const Appearance&) const = default;
 };
 
 struct Cloth {
@@ -91,13 +102,14 @@ struct Cloth {
     Placement placement;
     double areal_density = 0.2;  ///< kg/m^2
     Stiffness stiffness;
-    double damping = 0.0;    ///< 1/s
-    double friction = 0.3;   ///< Coulomb coefficient of the cloth's own side
-    double thickness = 0.005;///< m, distance kept from colliders
-    Vec3 velocity{0, 0, 0};  ///< m/s
+    double damping = 0.0;         ///< 1/s
+    double friction = 0.3;        ///< Coulomb coefficient of the cloth's own side
+    double thickness = 0.005;     ///< m, distance kept from colliders
+    Vec3 velocity{0, 0, 0};       ///< m/s
     std::vector<IndexBox> holes;  ///< boxes of particle indices whose inner cells are missing
     std::vector<Pin> pins;
     Appearance appearance;
+    bool operator==(const Cloth&) const = default;
 };
 
 /// What every collider has beside its shape. `rotate` and `path` rotate about the collider's own centre
@@ -107,23 +119,28 @@ struct ColliderCommon {
     Vec3 rotate{0, 0, 0};  ///< degrees, rest pose
     MotionPath path;
     Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
+    bool operator==(const ColliderCommon&) const = default;
 };
 
 struct PlaneCollider : ColliderCommon {
     Vec3 normal{0, 1, 0};  ///< unit length after reading; outside: normal . x >= offset
     double offset = 0.0;
+    bool operator==(const PlaneCollider&) const = default;
 };
 struct SphereCollider : ColliderCommon {
     Vec3 center{0, 0, 0};
     double radius = 1.0;
+    bool operator==(const SphereCollider&) const = default;
 };
 struct BoxCollider : ColliderCommon {
     Vec3 center{0, 0, 0};
     Vec3 half_extents{0.5, 0.5, 0.5};
+    bool operator==(const BoxCollider&) const = default;
 };
 struct EllipsoidCollider : ColliderCommon {
     Vec3 center{0, 0, 0};
     Vec3 radii{0.5, 0.5, 0.5};
+    bool operator==(const EllipsoidCollider&) const = default;
 };
 
 struct Colliders {
@@ -132,6 +149,7 @@ struct Colliders {
     std::vector<BoxCollider> boxes;
     std::vector<EllipsoidCollider> ellipsoids;
     bool empty() const { return planes.empty() && spheres.empty() && boxes.empty() && ellipsoids.empty(); }
+    bool operator==(const Colliders&) const = default;
 };
 
 enum class SolverMethod { automatic, relax };
@@ -142,24 +160,28 @@ struct SolverSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     CollideWhen collide = CollideWhen::iteration;
+    bool operator==(const SolverSettings&) const = default;
 };
 
 struct Camera {
     Vec3 position{0, 1.5, 3};
     Vec3 target{0, 1, 0};
     double fov = 40.0;  ///< vertical, degrees
+    bool operator==(const Camera&) const = default;
 };
 
 struct DirectionalLight {
     Vec3 direction{-0.4, -1.0, -0.6};  ///< the way the light travels; unit length after reading
     Vec3 color{1, 1, 1};               ///< sRGB 0..1
     double intensity = 1.0;
+    bool operator==(const DirectionalLight&) const = default;
 };
 
 struct ImageSettings {
     std::array<std::uint32_t, 2> size{1280, 720};
-    std::uint32_t samples = 4;  ///< 1 or 4
+    std::uint32_t samples = 4;          ///< 1 or 4
     Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
+    bool operator==(const ImageSettings&) const = default;
 };
 
 /// A check the scene promises to meet: read by the scene tests, ignored by the simulation. The name picks
@@ -167,6 +189,7 @@ struct ImageSettings {
 struct Oracle {
     std::string check;
     std::vector<std::pair<std::string, double>> limits;
+    bool operator==(const Oracle&) const = default;
 };
 
 struct SceneDescription {
@@ -182,6 +205,7 @@ struct SceneDescription {
     Vec3 ambient{0.35, 0.37, 0.40};                            ///< linear radiance factor 0..1
     ImageSettings image;
     std::vector<Oracle> oracles;
+    bool operator==(const SceneDescription&) const = default;
 };
 
 }  // namespace drape

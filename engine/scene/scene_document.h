@@ -1,0 +1,61 @@
+// The parsed JSON of a scene with its overrides applied, and the place in the text of every value.
+#pragma once
+
+#include <json/value.h>
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene_reader.h"
+#include "scene/scene_text.h"
+
+namespace drape {
+
+/// An error and the offset it sorts by.
+struct PlacedError {
+    std::size_t offset;
+    SceneError error;
+};
+
+/// Values keep their offset into one text: the file followed by the value of every override. That makes the
+/// place of a value independent of how it came into the tree.
+class SceneDocument {
+  public:
+    SceneDocument(std::string_view text, std::string file_name);
+
+    /// Applies `/json/pointer=value`. Call only while there are no errors.
+    void apply_override(const std::string& override_text);
+
+    const std::vector<PlacedError>& errors() const { return errors_; }
+    const Json::Value& root() const { return root_; }
+
+    PlacedError place(std::size_t offset, std::string pointer, std::string message) const;
+    /// The text a value was written as.
+    std::string_view written(const Json::Value& value) const;
+    /// Where the key of `value`, a member of `object`, is written; the value's own place when it has no key
+    /// in the text (it came from an override).
+    std::size_t key_offset(const Json::Value& object, const std::string& key, const Json::Value& value);
+
+  private:
+    struct Source {
+        std::size_t begin;
+        std::string name;
+    };
+
+    void parse(std::string_view text);
+    void fail(std::size_t offset, std::string pointer, std::string message);
+    Json::Value* find_target(const std::string& pointer, std::size_t offset);
+
+    std::string text_;
+    LineTable lines_;  ///< of the file alone
+    std::vector<Source> sources_;
+    Json::Value root_;
+    std::vector<PlacedError> errors_;
+    std::map<const Json::Value*, std::map<std::string, std::size_t>> keys_;  ///< filled as asked for
+};
+
+}  // namespace drape

@@ -1,0 +1,168 @@
+#include "scene/scene_node.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace drape {
+namespace {
+
+std::string escaped(std::string_view token) {
+    std::string out;
+    for (const char c : token) {
+        if (c == '~') {
+            out += "~0";
+        } else if (c == '/') {
+            out += "~1";
+        } else {
+            out.push_back(c);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+bool Range::contains(double x) const {
+    const bool is_above = above_low ? x > low && (low != 0.0 || static_cast<float>(x) > 0.0f) : x >= low;
+    return is_above && x <= high;
+}
+
+std::string Range::text() const {
+    if (low == -FLT_MAX && high == FLT_MAX) return "a number of at most 3.4e38 in magnitude";
+    if (high == FLT_MAX) return fmt::format("a number {} {} (single precision)", above_low ? ">" : ">=", low);
+    return fmt::format("a number in {}{}, {}]", above_low ? '(' : '[', low, high);
+}
+
+SceneNode::SceneNode(SceneReport& report, const Json::Value& root)
+    : SceneNode(report, &root, static_cast<std::size_t>(root.getOffsetStart()), "") {}
+
+SceneNode::SceneNode(SceneReport& report, const Json::Value* value, std::size_t offset, std::string pointer)
+    : report_(&report), value_(value), offset_(offset), pointer_(std::move(pointer)) {}
+
+SceneNode SceneNode::child(const Json::Value* value, std::string_view token) const {
+    const std::size_t offset = value != nullptr ? static_cast<std::size_t>(value->getOffsetStart()) : offset_;
+    return {*report_, value, offset, pointer_ + "/" + escaped(token)};
+}
+
+bool SceneNode::open_object(ObjectKind kind) {
+    keys_ = &keys_of(kind);
+    if (value_ == nullptr) return false;
+    if (!value_->isObject()) {
+        fail_expected("an object");
+        return false;
+    }
+    if (keys_->open) return true;
+    for (auto it = value_->begin(); it != value_->end(); ++it) {
+        const std::string key = it.name();
+        if (has_key(*keys_, key)) continue;
+        const std::string_view nearest = nearest_key(*keys_, key);
+        const std::string hint = nearest.empty()
+                                     ? fmt::format("expected one of {}", fmt::join(keys_->keys, ", "))
+                                     : fmt::format("expected \"{}\"", nearest);
+        SceneDocument& document = report_->document;
+        report_->errors.push_back(
+            document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
+                           fmt::format("{}, got the unknown key \"{}\"", hint, shortened(key))));
+    }
+    return true;
+}
+
+SceneNode SceneNode::member(std::string_view key) const {
+    if (keys_ == nullptr || !has_key(*keys_, key))
+        throw std::logic_error(fmt::format("key \"{}\" is in no table of scene_keys.cpp", key));
+    const bool is_object = value_ != nullptr && value_->isObject();
+    return child(is_object ? value_->find(key.data(), key.data() + key.size()) : nullptr, key);
+}
+
+SceneNode SceneNode::open_member(const std::string& key) const {
+    return child(value_->find(key.data(), key.data() + key.size()), key);
+}
+
+bool SceneNode::open_array(std::string_view what, std::size_t least, std::size_t most) const {
+    if (value_ == nullptr) return false;
+    if (value_->isArray() && value_->size() >= least && value_->size() <= most) return true;
+    fail_expected(what);
+    return false;
+}
+
+SceneNode SceneNode::element(std::size_t index) const {
+    return child(&(*value_)[static_cast<Json::ArrayIndex>(index)], std::to_string(index));
+}
+
+bool SceneNode::read(double& field, const Range& range) const {
+    if (value_ == nullptr) return true;
+    if (!value_->isNumeric() || !range.contains(value_->asDouble())) return fail_expected(range.text());
+    field = value_->asDouble();
+    return true;
+}
+
+bool SceneNode::read(std::uint32_t& field, std::uint32_t low, std::uint32_t high) const {
+    if (value_ == nullptr) return true;
+    const double number = value_->isNumeric() ? value_->asDouble() : -1.0;
+    if (!(number >= low && number <= high) || number != std::floor(number))
+        return fail_expected(fmt::format("an integer from {} to {}", low, high));
+    field = static_cast<std::uint32_t>(number);
+    return true;
+}
+
+bool SceneNode::read(std::span<double> field, std::string_view what, const Range& range) const {
+    if (value_ == nullptr) return true;
+    if (!open_array(what, field.size(), field.size())) return false;
+    bool fits = true;
+    for (std::size_t i = 0; i < field.size(); ++i) fits = element(i).read(field[i], range) && fits;
+    return fits;
+}
+
+bool SceneNode::read(Vec3& field, const Range& range) const {
+    return read(std::span<double>(field), "an array of 3 numbers", range);
+}
+
+bool SceneNode::read_color(Vec3& field) const { return read(field, unit_interval); }
+
+bool SceneNode::read_direction(Vec3& field) const {
+    Vec3 direction = field;
+    if (!read(direction)) return false;
+    const double largest = std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
+    if (largest == 0.0) return fail_expected("a vector that is not zero");
+    for (double& x : direction) x /= largest;  // or the squares of tiny components would vanish
+    const double length = std::hypot(direction[0], direction[1], direction[2]);
+    for (std::size_t i = 0; i < 3; ++i) field[i] = direction[i] / length;
+    return true;
+}
+
+bool SceneNode::read(std::string& field) const {
+    if (value_ == nullptr) return true;
+    if (!value_->isString()) return fail_expected("a string");
+    field = value_->asString();
+    return true;
+}
+
+bool SceneNode::fail_expected(std::string_view what) const {
+    return fail(fmt::format("expected {}, got {}", what, describe()));
+}
+
+bool SceneNode::fail(std::string message) const {
+    report_->errors.push_back(report_->document.place(offset_, pointer_, std::move(message)));
+    return false;
+}
+
+void SceneNode::warn(std::string message) const {
+    report_->warnings.push_back(report_->document.place(offset_, pointer_, std::move(message)));
+}
+
+std::string SceneNode::describe() const {
+    if (value_ == nullptr) return "nothing";
+    if (value_->isNull()) return "null";
+    if (value_->isBool()) return value_->asBool() ? "true" : "false";
+    if (value_->isString()) return fmt::format("\"{}\"", shortened(value_->asString()));
+    if (value_->isObject()) return value_->empty() ? "an empty object" : "an object";
+    if (value_->isNumeric()) return shortened(report_->document.written(*value_));
+    const std::string_view written = report_->document.written(*value_);
+    if (written.size() <= 40 && written.find('\n') == std::string_view::npos) return std::string(written);
+    return fmt::format("an array of {}", value_->size());
+}
+
+}  // namespace drape

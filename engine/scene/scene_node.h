@@ -1,0 +1,104 @@
+// A cursor over the document: reads a value into a field and reports, with its place, what does not fit.
+#pragma once
+
+#include <json/value.h>
+
+#include <array>
+#include <cfloat>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene_document.h"
+#include "scene/scene_keys.h"
+
+namespace drape {
+
+/// Errors and warnings of one reading.
+struct SceneReport {
+    SceneDocument& document;
+    std::vector<PlacedError> errors;
+    std::vector<PlacedError> warnings;
+};
+
+/// Numbers a field may have. The kernels work in single precision, so "finite" means finite there.
+struct Range {
+    double low = -FLT_MAX;
+    double high = FLT_MAX;
+    bool above_low = false;  ///< `low` itself is excluded
+
+    bool contains(double x) const;
+    std::string text() const;
+};
+inline constexpr Range any_number{};
+inline constexpr Range not_negative{0.0, FLT_MAX, false};
+inline constexpr Range positive{0.0, FLT_MAX, true};
+inline constexpr Range unit_interval{0.0, 1.0, false};
+
+/// A place where a value may be. Every `read` leaves the field alone when the value is absent, reports when
+/// it does not fit, and returns whether the field can be relied on.
+class SceneNode {
+  public:
+    SceneNode(SceneReport& report, const Json::Value& root);
+
+    explicit operator bool() const { return value_ != nullptr; }
+    const std::string& pointer() const { return pointer_; }
+    const Json::Value* value() const { return value_; }
+
+    /// True when there is an object here; reports anything else that is here and every key not in `kind`.
+    bool open_object(ObjectKind kind);
+    /// A member of an opened object. Throws std::logic_error for a key that is not in its table.
+    SceneNode member(std::string_view key) const;
+    /// Any member, for objects whose table is open.
+    SceneNode open_member(const std::string& key) const;
+
+    /// True when there is an array of `least` to `most` elements here; reports anything else that is here.
+    bool open_array(std::string_view what, std::size_t least, std::size_t most) const;
+    SceneNode element(std::size_t index) const;
+
+    bool read(double& field, const Range& range) const;
+    bool read(std::uint32_t& field, std::uint32_t low, std::uint32_t high) const;
+    bool read(std::span<double> field, std::string_view what, const Range& range) const;
+    bool read(Vec3& field, const Range& range = any_number) const;
+    bool read_color(Vec3& field) const;
+    /// A vector that is not zero; the field becomes its unit vector.
+    bool read_direction(Vec3& field) const;
+    bool read(std::string& field) const;
+
+    template <typename Value>
+    bool read_choice(Value& field, std::span<const std::pair<std::string_view, Value>> choices) const;
+
+    /// "expected <what>, got <what is here>".
+    bool fail_expected(std::string_view what) const;
+    bool fail(std::string message) const;
+    void warn(std::string message) const;
+
+  private:
+    SceneNode(SceneReport& report, const Json::Value* value, std::size_t offset, std::string pointer);
+    SceneNode child(const Json::Value* value, std::string_view token) const;
+    std::string describe() const;
+
+    SceneReport* report_;
+    const Json::Value* value_;  ///< null when absent
+    std::size_t offset_;        ///< of the value, or of the nearest object around it
+    std::string pointer_;
+    const ObjectKeys* keys_ = nullptr;
+};
+
+template <typename Value>
+bool SceneNode::read_choice(Value& field, std::span<const std::pair<std::string_view, Value>> choices) const {
+    if (value_ == nullptr) return true;
+    std::string what;
+    for (const auto& [name, value] : choices) {
+        if (value_->isString() && value_->asString() == name) {
+            field = value;
+            return true;
+        }
+        what += (what.empty() ? "\"" : " or \"") + std::string(name) + "\"";
+    }
+    return fail_expected(what);
+}
+
+}  // namespace drape

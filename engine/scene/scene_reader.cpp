@@ -1,0 +1,110 @@
+#include "scene/scene_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "scene/scene_sections.h"
+
+namespace drape {
+namespace {
+
+void read_document(SceneReport& report, SceneDescription& scene) {
+    SceneNode root(report, report.document.root());
+    if (!root.open_object(ObjectKind::scene)) return;
+    std::string schema_address;
+    root.member("$schema").read(schema_address);
+    root.member("name").read(scene.name);
+    read_time(root.member("time"), scene.time);
+    root.member("gravity").read(scene.gravity);
+    read_wind(root.member("wind"), scene.wind);
+    read_cloths(root.member("cloths"), scene.cloths);
+    read_colliders(root.member("colliders"), scene.colliders);
+    const SceneNode cutters = root.member("cutters");
+    constexpr std::size_t any_count = 1'000'000;
+    if (cutters.open_array("an array", 0, any_count) && !cutters.value()->empty())
+        cutters.fail("cutters are not supported yet");
+    read_solver(root.member("solver"), scene.solver);
+    read_camera(root.member("camera"), scene.camera);
+    read_lights(root.member("lights"), scene.lights);
+    root.member("ambient").read_color(scene.ambient);
+    read_image(root.member("image"), scene.image);
+    read_oracles(root.member("oracles"), scene.oracles);
+}
+
+std::vector<SceneError> in_text_order(std::vector<PlacedError> placed) {
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const PlacedError& a, const PlacedError& b) { return a.offset < b.offset; });
+    std::vector<SceneError> errors;
+    errors.reserve(placed.size());
+    for (PlacedError& error : placed) errors.push_back(std::move(error.error));
+    return errors;
+}
+
+SceneResult failed(SceneError error) {
+    SceneResult result;
+    result.errors.push_back(std::move(error));
+    return result;
+}
+
+std::string too_large(std::size_t size) {
+    return fmt::format("expected a scene of at most {} bytes, got {}{}", scene_file_byte_limit,
+                       size > scene_file_byte_limit + 1 ? "" : "at least ", size);
+}
+
+}  // namespace
+
+std::string SceneError::text() const {
+    std::string place = file;
+    if (line != 0) place += fmt::format(":{}:{}", line, column);
+    if (!pointer.empty()) place += ": " + pointer;
+    return place + ": " + message;
+}
+
+SceneResult read_scene_text(std::string_view text, const std::string& file_name,
+                            std::span<const std::string> overrides) {
+    if (text.size() > scene_file_byte_limit) return failed({file_name, 0, 0, "", too_large(text.size())});
+    SceneDocument document(text, file_name);
+    if (document.errors().empty())
+        for (const std::string& override_text : overrides) document.apply_override(override_text);
+    SceneResult result;
+    if (!document.errors().empty()) {
+        result.errors = in_text_order(document.errors());
+        return result;
+    }
+    SceneReport report{document, {}, {}};
+    SceneDescription scene;
+    read_document(report, scene);
+    result.errors = in_text_order(std::move(report.errors));
+    result.warnings = in_text_order(std::move(report.warnings));
+    if (result.errors.empty()) result.scene = std::move(scene);
+    return result;
+}
+
+SceneResult read_scene(const std::string& path, std::span<const std::string> overrides) {
+    const auto unreadable = [&] {
+        SceneResult result = failed({path, 0, 0, "", fmt::format("cannot read: {}", std::strerror(errno))});
+        result.unreadable = true;
+        return result;
+    };
+    const auto close = [](std::FILE* file) { std::fclose(file); };
+    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+    if (!file) return unreadable();
+    // Read to one byte over the limit rather than asking for the size, which pipes and devices do not have.
+    std::string text;
+    std::array<char, 65536> chunk;
+    while (text.size() <= scene_file_byte_limit) {
+        const std::size_t wanted = std::min(chunk.size(), scene_file_byte_limit + 1 - text.size());
+        const std::size_t count = std::fread(chunk.data(), 1, wanted, file.get());
+        text.append(chunk.data(), count);
+        if (count < wanted) break;
+    }
+    if (std::ferror(file.get()) != 0) return unreadable();
+    return read_scene_text(text, path, overrides);
+}
+
+}  // namespace drape

@@ -1,0 +1,53 @@
+// Scene file -> SceneDescription, or every error of the file at once, each with its place.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene_description.h"
+
+namespace drape {
+
+/// One thing wrong with (or, as a warning, worth saying about) a scene.
+struct SceneError {
+    std::string file;          ///< the file's name, or `--set '/pointer=value'` for an override
+    std::uint32_t line = 0;    ///< from 1; 0 = the place has no line (an override, an unreadable file)
+    std::uint32_t column = 0;  ///< from 1, in bytes
+    std::string pointer;       ///< JSON pointer; empty for the document itself and for syntax errors
+    std::string message;
+
+    /// `file:line:column: /json/pointer: message`, without the parts that are not known.
+    std::string text() const;
+    bool operator==(const SceneError&) const = default;
+};
+
+struct SceneResult {
+    std::optional<SceneDescription> scene;  ///< present exactly when `errors` is empty
+    std::vector<SceneError> errors;         ///< in the order of the text, those of overrides last
+    std::vector<SceneError> warnings;
+    bool unreadable = false;  ///< the file could not be read at all: an I/O error, not a scene error
+};
+
+/// Most bytes a scene file may have.
+inline constexpr std::size_t scene_file_byte_limit = std::size_t{16} << 20;
+/// Most particles of all cloths of a scene together.
+inline constexpr std::uint64_t scene_particle_limit = 16'000'000;
+
+/// Reads a scene file. `overrides` are `/json/pointer=value` strings, applied in order before anything is
+/// checked: the value is JSON, or a plain word, which is taken as a string. A pointer may name a missing
+/// member, whose missing parent objects are then made; an index must be within its array. Never throws for
+/// anything in the file or in an override.
+SceneResult read_scene(const std::string& path, std::span<const std::string> overrides = {});
+
+/// The same for text already in memory; `file_name` is only used to say where errors are.
+SceneResult read_scene_text(std::string_view text, const std::string& file_name,
+                            std::span<const std::string> overrides = {});
+
+/// The published JSON Schema (draft-07): the text of engine/scene/scene.schema.json.
+std::string_view scene_schema();
+
+}  // namespace drape

@@ -1,0 +1,46 @@
+// A scene in which every key of the format occurs, none with its default value.
+#pragma once
+
+namespace drape::testing {
+
+inline constexpr const char* full_scene = R"json({
+  // comments are part of the format
+  "$schema": "scene.schema.json",
+  "name": "everything",
+  "time": {"fps": 30, "frames": 12},
+  "gravity": [0.5, -1.62, 0.25],
+  "wind": {"velocity": [3, 0, 4], "gust": {"amplitude": 2, "period": 1.5, "seed": 7},
+           "air_density": 1.1, "drag": 0.9, "lift": 0.4},
+  "cloths": [
+    {"name": "banner", "grid": [96, 64], "size": [1.5, 2.5],
+     "placement": {"origin": [0.25, 2, 0], "u": [0, 0, 2], "v": [0, -3, 0]},
+     "areal_density": 0.15, "stiffness": {"stretch": 2000, "shear": 150, "bend": 0},
+     "damping": 0.1, "friction": 0.35, "thickness": 0.004, "velocity": [1, 2, 3],
+     "holes": [[[40, 20], [50, 30]]],
+     "pins": [{"edge": "bottom"},
+              {"corner": "top_right", "release": 2.5},
+              {"at": [10, 3], "pivot": [7, 8, 9],
+               "path": [{"t": 0, "translate": [0, 0, 0]}, {"t": 1.5, "translate": [0.2, 0, 0.1], "rotate": [0, 720, 5]}]},
+              {"box": [[1, 2], [3, 4]]}],
+     "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "plain"}},
+    {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"}],
+  "colliders": {
+    "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
+                "path": [{"t": 0}]}],
+    "spheres": [{"center": [0, 1, 0.5], "radius": 0.3, "friction": 0.1, "rotate": [4, 5, 6], "color": [0.2, 0.1, 0.2],
+                 "path": [{"t": 1, "translate": [1, 1, 1]}]}],
+    "boxes": [{"center": [0, 0.5, 0], "half_extents": [0.3, 0.1, 0.2], "friction": 0.2, "rotate": [0, 30, 0],
+               "color": [0.3, 0.1, 0.2], "path": [{"t": 2, "rotate": [1, 1, 1]}]}],
+    "ellipsoids": [{"center": [0, 1, 0], "radii": [0.4, 0.2, 0.1], "friction": 0.4, "rotate": [7, 8, 9],
+                    "color": [0.4, 0.1, 0.2], "path": [{"t": 3}]}]},
+  "cutters": [],
+  "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01},
+  "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},
+  "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
+  "ambient": [0.1, 0.2, 0.3],
+  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1]},
+  "oracles": [{"check": "stretch", "max": 1.05, "frame": 10}]
+}
+)json";
+
+}  // namespace drape::testing

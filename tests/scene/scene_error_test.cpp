@@ -1,0 +1,303 @@
+// Golden messages of malformed scenes: place, pointer and words are what users and editors rely on.
+#include <gtest/gtest.h>
+
+#include "scene/scene_reader.h"
+
+namespace drape {
+namespace {
+
+struct Malformed {
+    const char* name;
+    std::string text;
+    std::vector<std::string> errors;  ///< all of them, in order, without the file's name
+};
+
+// What the test runner prints of a case.
+void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
+
+// The members of a scene beside its cloths, or of its only cloth; they begin at line 2, column 1.
+std::string scene(const std::string& members) { return "{\"cloths\": [{}],\n" + members + "}"; }
+std::string cloth(const std::string& members) { return "{\"cloths\": [{\n" + members + "}]}"; }
+
+std::string nested(std::size_t depth) {
+    return "{\"cloths\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
+}
+
+class SceneErrors : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(SceneErrors, AreExactlyThese) {
+    const SceneResult result = read_scene_text(GetParam().text, "s");
+    EXPECT_FALSE(result.scene.has_value());
+    std::vector<std::string> texts;
+    for (const SceneError& error : result.errors) texts.push_back(error.text());
+    std::vector<std::string> expected;
+    for (const std::string& error : GetParam().errors) expected.push_back("s:" + error);
+    EXPECT_EQ(texts, expected) << GetParam().text.substr(0, 400);
+}
+
+const auto name_of = [](const auto& info) { return std::string(info.param.name); };
+
+const Malformed syntax_cases[] = {
+    {"Empty", "", {"1:1: Syntax error: value, object or array expected"}},
+    {"NotJson", "cloth", {"1:1: Syntax error: value, object or array expected"}},
+    {"NotAnObject", "[]", {"1:1: expected an object, got []"}},
+    {"CutOff", "{\n", {"2:1: Missing '}' or object member name"}},
+    {"TrailingComma", "{\"cloths\": [{},]}", {"1:16: Syntax error: value, object or array expected"}},
+    {"MissingColon", "{\"cloths\" [{}]}", {"1:11: Missing ':' after object member name"}},
+    {"MissingComma", scene("\"gravity\": [0 1, 2]"), {"2:15: Missing ',' or ']' in array declaration"}},
+    {"TextAfterTheEnd", "{\"cloths\": [{}]} x", {"1:18: Extra non-whitespace after JSON value"}},
+    {"TwoDocuments", "{\"cloths\": [{}]}\n{}", {"2:1: Extra non-whitespace after JSON value"}},
+    {"DuplicateKey", "{\"cloths\": [{}],\r\n \"cloths\": [{}]}", {"2:2: Duplicate key: 'cloths'"}},
+    {"NotANumber",
+     scene("\"gravity\": [0, NaN, 0]"),
+     {"2:16: Syntax error: value, object or array expected"}},
+    {"LeadingZero", scene("\"gravity\": [0, 01, 0]"), {"2:16: expected a JSON number, got 01"}},
+    {"LoneMinus", scene("\"gravity\": [0, -, 0]"), {"2:16: expected a JSON number, got -"}},
+    {"MissingDecimals", scene("\"gravity\": [0, 1., 0]"), {"2:16: expected a JSON number, got 1."}},
+    {"OpenString", scene("\"name\": \"abc\n\""), {"2:9: expected a closing quote on the same line"}},
+    {"BadEscape", scene("\"name\": \"\\q\""), {"2:9: Bad escape sequence in string"}},
+    {"SingleQuotes", scene("\"name\": 'x'"), {"2:9: Syntax error: value, object or array expected"}},
+    {"OpenComment", scene("/* open"), {"2:1: Missing '}' or object member name"}},
+    {"ControlCharacter",
+     scene("\"name\": \"\x01\""),
+     {"2:10: expected text, got the control character 0x01"}},
+    {"ZeroByte",
+     std::string("{\"cloths\": [{}]}\0x", 18),
+     {"1:17: expected text, got the control character 0x00"}},
+    {"NotUtf8", scene("\"name\": \"a\xC3(\""), {"2:11: expected UTF-8 text, got the byte 0xC3"}},
+    {"OverlongUtf8", scene("\"name\": \"\xC0\x80\""), {"2:10: expected UTF-8 text, got the byte 0xC0"}},
+    {"TooDeep", nested(65), {"1:75: expected at most 64 nested arrays and objects"}},
+    {"FarTooDeep", nested(1'000'000), {"1:75: expected at most 64 nested arrays and objects"}},
+};
+INSTANTIATE_TEST_SUITE_P(Syntax, SceneErrors, ::testing::ValuesIn(syntax_cases), name_of);
+
+const Malformed key_cases[] = {
+    {"Misspelt",
+     scene("\"gravty\": 1"),
+     {"2:1: /gravty: expected \"gravity\", got the unknown key \"gravty\""}},
+    {"MisspeltInside",
+     cloth("\"pins\": [{\"edgee\": \"left\", \"corner\": \"top_left\"}]"),
+     {"2:11: /cloths/0/pins/0/edgee: expected \"edge\", got the unknown key \"edgee\""}},
+    {"EscapedKey", scene("\"t\\u0069m\": {}"), {"2:1: /tim: expected \"time\", got the unknown key \"tim\""}},
+    {"AfterAComment",
+     scene("/* \"fsp\": 0 */ \"time\": { // \"fsp\"\n  \"fsp\" : 3}"),
+     {"3:3: /time/fsp: expected \"fps\", got the unknown key \"fsp\""}},
+    {"NothingNear",
+     scene("\"time\": {\"duration\": 3}"),
+     {"2:10: /time/duration: expected one of fps, frames, got the unknown key \"duration\""}},
+    {"PointerIsEscaped",
+     scene("\"time\": {\"a/b~c\": 3}"),
+     {"2:10: /time/a~1b~0c: expected one of fps, frames, got the unknown key \"a/b~c\""}},
+    {"ShortKeysAreNotGuessed",
+     scene("\"colliders\": {\"planes\": [{\"path\": [{\"t\": 0, \"xy\": 1}]}]}"),
+     {"2:45: /colliders/planes/0/path/0/xy: expected one of t, translate, rotate, got the unknown key "
+      "\"xy\""}},
+};
+INSTANTIATE_TEST_SUITE_P(Keys, SceneErrors, ::testing::ValuesIn(key_cases), name_of);
+
+const Malformed setting_cases[] = {
+    {"NoCloths", "\n{}", {"2:1: /cloths: expected an array of 1 to 1024 cloths, got nothing"}},
+    {"EmptyCloths", "{\"cloths\": []}", {"1:12: /cloths: expected an array of 1 to 1024 cloths, got []"}},
+    {"WrongTypes",
+     scene("\"name\": 3, \"time\": [], \"gravity\": \"down\", \"wind\": null, \"camera\": true"),
+     {"2:9: /name: expected a string, got 3", "2:20: /time: expected an object, got []",
+      "2:35: /gravity: expected an array of 3 numbers, got \"down\"",
+      "2:51: /wind: expected an object, got null", "2:67: /camera: expected an object, got true"}},
+    {"ShortVector",
+     scene("\"gravity\": [0, -9.81]"),
+     {"2:12: /gravity: expected an array of 3 numbers, got [0, -9.81]"}},
+    {"Overflow",
+     scene("\"gravity\": [0, -1e999, 1e39]"),
+     {"2:16: /gravity/1: expected a number of at most 3.4e38 in magnitude, got -1e999",
+      "2:24: /gravity/2: expected a number of at most 3.4e38 in magnitude, got 1e39"}},
+    {"Time",
+     scene("\"time\": {\"fps\": 0, \"frames\": 2.5}"),
+     {"2:17: /time/fps: expected a number in (0, 10000], got 0",
+      "2:30: /time/frames: expected an integer from 1 to 1000000, got 2.5"}},
+    {"TooManyFrames",
+     scene("\"time\": {\"fps\": 10001, \"frames\": 1000001}"),
+     {"2:17: /time/fps: expected a number in (0, 10000], got 10001",
+      "2:34: /time/frames: expected an integer from 1 to 1000000, got 1000001"}},
+    {"Wind",
+     scene("\"wind\": {\"drag\": -1, \"gust\": {\"period\": 0, \"seed\": -1}}"),
+     {"2:18: /wind/drag: expected a number >= 0 (single precision), got -1",
+      "2:41: /wind/gust/period: expected a number > 0 (single precision), got 0",
+      "2:52: /wind/gust/seed: expected an integer from 0 to 4294967295, got -1"}},
+    {"Cutters", scene("\"cutters\": [{}]"), {"2:12: /cutters: cutters are not supported yet"}},
+    {"FutureMethod",
+     scene("\"solver\": {\"method\": \"line\"}"),
+     {"2:22: /solver/method: method \"line\" is not supported yet: expected \"relax\" or \"auto\""}},
+    {"Solver",
+     scene("\"solver\": {\"method\": \"magic\", \"substeps\": 0, \"iterations\": 1025,\n\"collide\": 1, "
+           "\"tolerance\": 0}"),
+     {"2:22: /solver/method: expected \"relax\" or \"auto\", got \"magic\"",
+      "2:43: /solver/substeps: expected an integer from 1 to 1024, got 0",
+      "2:60: /solver/iterations: expected an integer from 1 to 1024, got 1025",
+      "3:12: /solver/collide: expected \"iteration\" or \"substep\", got 1",
+      "3:28: /solver/tolerance: expected a number > 0 (single precision), got 0"}},
+    {"Camera",
+     scene("\"camera\": {\"position\": [1, 2, 3], \"target\": [1, 2, 3], \"fov\": 171}"),
+     {"2:11: /camera: expected a target away from the camera's position, got the same point",
+      "2:63: /camera/fov: expected a number in (0, 170], got 171"}},
+    {"FiveLights",
+     scene("\"lights\": [{}, {}, {}, {}, {}]"),
+     {"2:11: /lights: expected an array of at most 4 lights, got [{}, {}, {}, {}, {}]"}},
+    {"DarkLight",
+     scene("\"lights\": [{\"direction\": [0, 0, 0], \"color\": [0, 0, 1.5]}], \"ambient\": [0, -1, 0]"),
+     {"2:26: /lights/0/direction: expected a vector that is not zero, got [0, 0, 0]",
+      "2:53: /lights/0/color/2: expected a number in [0, 1], got 1.5",
+      "2:76: /ambient/1: expected a number in [0, 1], got -1"}},
+    {"Image",
+     scene("\"image\": {\"size\": [0, 16385], \"samples\": 2}"),
+     {"2:20: /image/size/0: expected an integer from 1 to 16384, got 0",
+      "2:23: /image/size/1: expected an integer from 1 to 16384, got 16385",
+      "2:42: /image/samples: expected 1 or 4, got 2"}},
+    {"Oracles",
+     scene("\"oracles\": [{}, {\"check\": \"\"}, {\"check\": \"rest\", \"speed\": \"low\"}]"),
+     {"2:13: /oracles/0/check: expected the name of a check, got nothing",
+      "2:27: /oracles/1/check: expected the name of a check, got \"\"",
+      "2:59: /oracles/2/speed: expected a number of at most 3.4e38 in magnitude, got \"low\""}},
+};
+INSTANTIATE_TEST_SUITE_P(Settings, SceneErrors, ::testing::ValuesIn(setting_cases), name_of);
+
+const Malformed cloth_cases[] = {
+    {"NotAnObject", "{\"cloths\": [7]}", {"1:13: /cloths/0: expected an object, got 7"}},
+    {"Name",
+     cloth("\"name\": \"a/b\""),
+     {"2:9: /cloths/0/name: expected a name of 1 to 64 letters, digits, _ and - (it becomes a file name), "
+      "got "
+      "\"a/b\""}},
+    {"SameName",
+     "{\"cloths\": [{\"name\": \"cloth2\"},\n{\"placement\": {\"origin\": [0, 0, 9]}}]}",
+     {"2:1: /cloths/1/name: expected a name no other cloth has, got \"cloth2\""}},
+    {"Grid",
+     cloth("\"grid\": [1, 2.5]"),
+     {"2:10: /cloths/0/grid/0: expected an integer from 2 to 16384, got 1",
+      "2:13: /cloths/0/grid/1: expected an integer from 2 to 16384, got 2.5"}},
+    {"BillionParticles",
+     cloth("\"grid\": [40000, 25000]"),
+     {"2:9: /cloths/0/grid: expected at most 16000000 particles in all cloths together, got 1000000000",
+      "2:10: /cloths/0/grid/0: expected an integer from 2 to 16384, got 40000",
+      "2:17: /cloths/0/grid/1: expected an integer from 2 to 16384, got 25000"}},
+    {"TooManyInAll",
+     "{\"cloths\": [{\"grid\": [4000, 2000]},\n{\"grid\": [4000, 2001], \"placement\": {\"origin\": [0, 0, "
+     "9]}}]}",
+     {"2:10: /cloths/1/grid: expected at most 16000000 particles in all cloths together, got 16004000"}},
+    {"CountDoesNotWrapAround",
+     "{\"cloths\": [{\"grid\": [4294967295, 4294967295]},\n{\"grid\": [4294967295, 4294967295]}]}",
+     {"1:22: /cloths/0/grid: expected at most 16000000 particles in all cloths together, got "
+      "18446744065119617025",
+      "1:23: /cloths/0/grid/0: expected an integer from 2 to 16384, got 4294967295",
+      "1:35: /cloths/0/grid/1: expected an integer from 2 to 16384, got 4294967295",
+      "2:11: /cloths/1/grid/0: expected an integer from 2 to 16384, got 4294967295",
+      "2:23: /cloths/1/grid/1: expected an integer from 2 to 16384, got 4294967295"}},
+    {"Numbers",
+     cloth("\"size\": [1, 0], \"areal_density\": 1e-60, \"damping\": -1,\n\"friction\": -0.1, \"thickness\": "
+           "[]"),
+     {"2:13: /cloths/0/size/1: expected a number > 0 (single precision), got 0",
+      "2:34: /cloths/0/areal_density: expected a number > 0 (single precision), got 1e-60",
+      "2:52: /cloths/0/damping: expected a number >= 0 (single precision), got -1",
+      "3:13: /cloths/0/friction: expected a number >= 0 (single precision), got -0.1",
+      "3:32: /cloths/0/thickness: expected a number >= 0 (single precision), got []"}},
+    {"ObliquePlacement",
+     cloth("\"placement\": {\"u\": [1, 0, 0], \"v\": [1, -1, 0]}"),
+     {"2:14: /cloths/0/placement: expected u and v at right angles, got a cosine of 0.707107"}},
+    {"ZeroDirection",
+     cloth("\"placement\": {\"u\": [0, 0, 0]}"),
+     {"2:20: /cloths/0/placement/u: expected a vector that is not zero, got [0, 0, 0]"}},
+    {"FarAway",
+     cloth("\"placement\": {\"origin\": [0, 3e7, 0]}, \"size\": [4, 4]"),
+     {"1:13: /cloths/0: expected a cloth that single precision resolves: at 3e+07 m from the origin it is "
+      "exact to 2 "
+      "m, more than a quarter of the edge length 4 m"}},
+    {"StiffnessWord",
+     cloth("\"stiffness\": \"stiff\""),
+     {"2:14: /cloths/0/stiffness: expected \"rigid\" or an object, got \"stiff\""}},
+    {"Bending",
+     cloth("\"stiffness\": {\"bend\": 1e-5, \"shear\": -1}"),
+     {"2:23: /cloths/0/stiffness/bend: bending is not supported yet: set bend to 0",
+      "2:38: /cloths/0/stiffness/shear: expected a number >= 0 (single precision), got -1"}},
+    {"Appearance",
+     cloth("\"appearance\": {\"front\": [0, 0, 2], \"pattern\": \"dots\"}"),
+     {"2:32: /cloths/0/appearance/front/2: expected a number in [0, 1], got 2",
+      "2:47: /cloths/0/appearance/pattern: expected \"plain\" or \"checker\", got \"dots\""}},
+};
+INSTANTIATE_TEST_SUITE_P(Cloth, SceneErrors, ::testing::ValuesIn(cloth_cases), name_of);
+
+const Malformed pin_cases[] = {
+    {"NoSelector",
+     cloth("\"pins\": [{}]"),
+     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at and box, got 0 of them"}},
+    {"TwoSelectors",
+     cloth("\"pins\": [{\"edge\": \"left\", \"at\": [0, 0]}]"),
+     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at and box, got 2 of them"}},
+    {"EdgeAndCorner",
+     cloth("\"pins\": [{\"edge\": \"up\"}, {\"corner\": \"left\"}]"),
+     {"2:19: /cloths/0/pins/0/edge: expected \"left\" or \"right\" or \"top\" or \"bottom\", got \"up\"",
+      "2:37: /cloths/0/pins/1/corner: expected \"top_left\" or \"top_right\" or \"bottom_left\" or "
+      "\"bottom_right\", got "
+      "\"left\""}},
+    {"OutsideTheGrid",
+     cloth("\"grid\": [4, 3], \"pins\": [{\"at\": [4, 0]}, {\"box\": [[0, 0], [3, 3]]}]"),
+     {"2:34: /cloths/0/pins/0/at/0: expected an integer from 0 to 3, got 4",
+      "2:63: /cloths/0/pins/1/box/1/1: expected an integer from 0 to 2, got 3"}},
+    {"GridFaultIsNotRepeatedByPins",
+     cloth("\"grid\": [0, 3], \"pins\": [{\"at\": [4, 0]}]"),
+     {"2:10: /cloths/0/grid/0: expected an integer from 2 to 16384, got 0"}},
+    {"BackwardBox",
+     cloth("\"grid\": [9, 9], \"pins\": [{\"box\": [[3, 0], [2, 5]]}]"),
+     {"2:34: /cloths/0/pins/0/box: expected the first particle of a box not beyond its last, got [[3, 0], "
+      "[2, 5]]"}},
+    {"Hole",
+     cloth("\"grid\": [9, 9], \"holes\": [[[0, 5], [9, 2]], [1, 2]]"),
+     {"2:37: /cloths/0/holes/0/1/0: expected an integer from 0 to 8, got 9",
+      "2:46: /cloths/0/holes/1/0: expected a particle [column, row], got 1",
+      "2:49: /cloths/0/holes/1/1: expected a particle [column, row], got 2"}},
+    {"ReleaseAndPivot",
+     cloth("\"pins\": [{\"edge\": \"left\", \"release\": -1, \"pivot\": 0}]"),
+     {"2:38: /cloths/0/pins/0/release: expected a number >= 0 (single precision), got -1",
+      "2:51: /cloths/0/pins/0/pivot: expected an array of 3 numbers, got 0"}},
+};
+INSTANTIATE_TEST_SUITE_P(Pins, SceneErrors, ::testing::ValuesIn(pin_cases), name_of);
+
+const Malformed collider_cases[] = {
+    {"EmptyPath",
+     scene("\"colliders\": {\"spheres\": [{\"path\": []}]}"),
+     {"2:36: /colliders/spheres/0/path: expected an array of at least 1 key, got []"}},
+    {"PathTimes",
+     scene(
+         "\"colliders\": {\"spheres\": [{\"path\": [{\"t\": 1}, {\"t\": 1}, {}, {\"t\": 0}, {\"t\": -1}]}]}"),
+     {"2:53: /colliders/spheres/0/path/1/t: expected a time after the previous key's 1, got 1",
+      "2:57: /colliders/spheres/0/path/2/t: expected a time in seconds, got nothing",
+      "2:77: /colliders/spheres/0/path/4/t: expected a time after the previous key's 0, got -1"}},
+    {"Shapes",
+     scene("\"colliders\": {\"planes\": [{\"normal\": [0, 0, 0]}], \"spheres\": [{\"radius\": 0}],\n"
+           "\"boxes\": [{\"half_extents\": [1, 1, 0]}], \"ellipsoids\": [{\"radii\": [1, -1, 1]}]}"),
+     {"2:37: /colliders/planes/0/normal: expected a vector that is not zero, got [0, 0, 0]",
+      "2:73: /colliders/spheres/0/radius: expected a number > 0 (single precision), got 0",
+      "3:35: /colliders/boxes/0/half_extents/2: expected a number > 0 (single precision), got 0",
+      "3:70: /colliders/ellipsoids/0/radii/1: expected a number > 0 (single precision), got -1"}},
+    {"Common",
+     scene("\"colliders\": {\"planes\": {}, \"boxes\": [{\"friction\": -1, \"color\": \"red\", \"rotate\": "
+           "90}]}"),
+     {"2:25: /colliders/planes: expected an array of at most 1024 colliders, got an empty object",
+      "2:52: /colliders/boxes/0/friction: expected a number >= 0 (single precision), got -1",
+      "2:65: /colliders/boxes/0/color: expected an array of 3 numbers, got \"red\"",
+      "2:82: /colliders/boxes/0/rotate: expected an array of 3 numbers, got 90"}},
+};
+INSTANTIATE_TEST_SUITE_P(Colliders, SceneErrors, ::testing::ValuesIn(collider_cases), name_of);
+
+TEST(SceneErrorTable, HoldsAtLeastFortyScenes) {
+    EXPECT_GE(std::size(syntax_cases) + std::size(key_cases) + std::size(setting_cases) +
+                  std::size(cloth_cases) + std::size(pin_cases) + std::size(collider_cases),
+              40u);
+}
+
+TEST(SceneErrorText, LeavesOutWhatIsNotKnown) {
+    EXPECT_EQ((SceneError{"a.json", 2, 5, "/x", "bad"}.text()), "a.json:2:5: /x: bad");
+    EXPECT_EQ((SceneError{"a.json", 2, 5, "", "bad"}.text()), "a.json:2:5: bad");
+    EXPECT_EQ((SceneError{"--set '/x=1'", 0, 0, "/x", "bad"}.text()), "--set '/x=1': /x: bad");
+}
+
+}  // namespace
+}  // namespace drape

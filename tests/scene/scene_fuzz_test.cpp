@@ -1,0 +1,73 @@
+// Random damage to a valid scene: never a crash, and always either a scene or an error.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "full_scene.h"
+#include "scene/scene_reader.h"
+
+namespace drape {
+namespace {
+
+constexpr std::string_view telling = "{}[]\",:-0123456789.eE/\\*tn \n\x01\x80\xC3";
+
+std::string damaged(std::mt19937& random, std::string text) {
+    const auto below = [&](std::size_t limit) { return random() % limit; };
+    const std::size_t change_count = 1 + below(4);
+    for (std::size_t i = 0; i < change_count && !text.empty(); ++i) {
+        const std::size_t at = below(text.size());
+        const char telling_char = telling[below(telling.size())];
+        switch (below(5)) {
+            case 0:
+                text[at] = static_cast<char>(below(256));
+                break;
+            case 1:
+                text[at] = telling_char;
+                break;
+            case 2:
+                text.insert(at, 1, telling_char);
+                break;
+            case 3:
+                text.erase(at, 1 + below(8));
+                break;
+            default:
+                text.insert(at, text.substr(below(text.size()), below(64)));
+                break;
+        }
+    }
+    return text;
+}
+
+TEST(SceneFuzz, DamagedScenesGiveASceneOrErrors) {
+    std::mt19937 random(20240917);  // its output is fixed by the standard
+    std::size_t scene_count = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const std::string text = damaged(random, testing::full_scene);
+        const SceneResult result = read_scene_text(text, "fuzz");
+        ASSERT_NE(result.scene.has_value(), !result.errors.empty()) << text;
+        for (const SceneError& error : result.errors) {
+            ASSERT_FALSE(error.message.empty()) << text;
+            ASSERT_GE(error.line, 1u) << error.text() << text;
+            ASSERT_GE(error.column, 1u) << error.text() << text;
+        }
+        scene_count += result.scene.has_value();
+    }
+    // Both outcomes must occur, or the damage is not the right kind.
+    EXPECT_GT(scene_count, 20u);
+    EXPECT_LT(scene_count, 1500u);
+}
+
+TEST(SceneFuzz, DamagedOverridesGiveASceneOrErrors) {
+    std::mt19937 random(42);
+    const std::vector<std::string> sound{"/cloths/0/pins/2/path/1/t=2.5",
+                                         "/solver={\"substeps\": [1, {\"a\": null}]}",
+                                         "/cloths/0/stiffness=rigid", "/a~1b~0/c=\"\\u00e4\""};
+    for (int round = 0; round < 1000; ++round) {
+        const std::vector<std::string> overrides{damaged(random, sound[random() % sound.size()])};
+        const SceneResult result = read_scene_text(testing::full_scene, "fuzz", overrides);
+        ASSERT_NE(result.scene.has_value(), !result.errors.empty()) << overrides[0];
+    }
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,264 @@
+// The published schema and the reader are one contract: same keys, same defaults, same limits.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "full_scene.h"
+#include "scene/scene_keys.h"
+#include "scene/scene_reader.h"
+
+namespace drape {
+namespace {
+
+Json::Value parsed(std::string_view text) {
+    Json::Value value;
+    std::string errors;
+    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+    EXPECT_TRUE(reader->parse(text.data(), text.data() + text.size(), &value, &errors)) << errors;
+    return value;
+}
+
+std::string written(const Json::Value& value) {
+    Json::StreamWriterBuilder builder;
+    builder["precision"] = 17;
+    return Json::writeString(builder, value);
+}
+
+const Json::Value& schema() {
+    static const Json::Value value = parsed(scene_schema());
+    return value;
+}
+
+const Json::Value& object_schema(std::string_view name) {
+    return name == "scene" ? schema() : schema()["definitions"][std::string(name)];
+}
+
+// One place of full_scene for each kind of object.
+const std::map<std::string_view, std::string> places{{"scene", ""},
+                                                     {"time", ".time"},
+                                                     {"wind", ".wind"},
+                                                     {"gust", ".wind.gust"},
+                                                     {"cloth", ".cloths[0]"},
+                                                     {"placement", ".cloths[0].placement"},
+                                                     {"stiffness", ".cloths[0].stiffness"},
+                                                     {"pin", ".cloths[0].pins[2]"},
+                                                     {"motion_key", ".cloths[0].pins[2].path[1]"},
+                                                     {"appearance", ".cloths[0].appearance"},
+                                                     {"colliders", ".colliders"},
+                                                     {"plane", ".colliders.planes[0]"},
+                                                     {"sphere", ".colliders.spheres[0]"},
+                                                     {"box", ".colliders.boxes[0]"},
+                                                     {"ellipsoid", ".colliders.ellipsoids[0]"},
+                                                     {"solver", ".solver"},
+                                                     {"camera", ".camera"},
+                                                     {"light", ".lights[0]"},
+                                                     {"image", ".image"},
+                                                     {"oracle", ".oracles[0]"}};
+
+std::string pointer_of(std::string path) {
+    std::string pointer;
+    for (const char c : path) {
+        if (c == '.' || c == '[') pointer += '/';
+        if (c != '.' && c != '[' && c != ']') pointer += c;
+    }
+    return pointer;
+}
+
+// The pointers of the errors of full_scene with one value replaced.
+std::set<std::string> error_pointers(std::string_view object, const std::string& path,
+                                     const Json::Value& replacement) {
+    Json::Value scene = parsed(testing::full_scene);
+    Json::Path(places.at(object) + path).make(scene) = replacement;
+    std::set<std::string> pointers;
+    for (const SceneError& error : read_scene_text(written(scene), "s").errors)
+        pointers.insert(error.pointer);
+    return pointers;
+}
+
+TEST(SceneSchema, IsTheCommittedFile) {
+    std::ifstream file(DRAPE_SOURCE_DIR "/engine/scene/scene.schema.json");
+    std::ostringstream text;
+    text << file.rdbuf();
+    EXPECT_EQ(scene_schema(), text.str());
+    EXPECT_EQ(schema()["$schema"].asString(), "http://json-schema.org/draft-07/schema#");
+}
+
+TEST(SceneSchema, HasExactlyTheKeysOfTheReader) {
+    std::set<std::string> objects;
+    for (const ObjectKeys& object : scene_object_keys()) {
+        const std::vector<std::string> properties = object_schema(object.name)["properties"].getMemberNames();
+        EXPECT_EQ(std::set<std::string>(properties.begin(), properties.end()),
+                  std::set<std::string>(object.keys.begin(), object.keys.end()))
+            << object.name;
+        const Json::Value& others = object_schema(object.name)["additionalProperties"];
+        EXPECT_EQ(others.isBool() && !others.asBool(), !object.open) << object.name;
+        objects.emplace(object.name);
+    }
+    for (const std::string& definition : schema()["definitions"].getMemberNames())
+        EXPECT_EQ(schema()["definitions"][definition].isMember("properties"), objects.contains(definition))
+            << definition;
+}
+
+TEST(SceneSchema, EveryReferenceResolves) {
+    std::vector<const Json::Value*> open{&schema()};
+    int reference_count = 0;
+    while (!open.empty()) {
+        const Json::Value& value = *open.back();
+        open.pop_back();
+        if (value.isObject() && value.isMember("$ref") && value["$ref"].isString()) {
+            const std::string target = value["$ref"].asString();
+            ASSERT_TRUE(target.starts_with("#/definitions/")) << target;
+            EXPECT_TRUE(schema()["definitions"].isMember(target.substr(14))) << target;
+            ++reference_count;
+        }
+        for (const Json::Value& member : value) open.push_back(&member);
+    }
+    EXPECT_GT(reference_count, 30);
+}
+
+TEST(SceneSchema, EveryKeyIsDescribed) {
+    for (const ObjectKeys& object : scene_object_keys())
+        for (const Json::Value& property : object_schema(object.name)["properties"])
+            EXPECT_FALSE(property["description"].asString().empty()) << object.name;
+}
+
+TEST(SceneReader, ReadsEveryKeyOfItsTables) {
+    Json::Value wrong(Json::objectValue);
+    wrong["no such key"] = true;
+    for (const ObjectKeys& object : scene_object_keys()) {
+        ASSERT_TRUE(places.contains(object.name)) << object.name;
+        for (const std::string_view key : object.keys) {
+            const std::string path = fmt::format(".{}", key);
+            const std::string pointer = pointer_of(places.at(object.name) + path);
+            const std::set<std::string> pointers = error_pointers(object.name, path, wrong);
+            const bool is_reported =
+                std::any_of(pointers.begin(), pointers.end(), [&](const std::string& where) {
+                    return where == pointer || where == pointer + "/no such key";
+                });
+            EXPECT_TRUE(is_reported) << pointer;
+        }
+    }
+}
+
+// An object of a kind with every default of the schema written out.
+Json::Value written_defaults(std::string_view object) {
+    Json::Value result(Json::objectValue);
+    const Json::Value& properties = object_schema(object)["properties"];
+    for (const std::string& key : properties.getMemberNames())
+        if (properties[key].isMember("default")) result[key] = properties[key]["default"];
+    return result;
+}
+
+TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
+    Json::Value scene = written_defaults("scene");
+    for (const char* key : {"time", "wind", "colliders", "solver", "camera", "image"})
+        scene[key] = written_defaults(key);
+    scene["wind"]["gust"] = written_defaults("gust");
+    scene["lights"][0] = written_defaults("light");
+    Json::Value cloth = written_defaults("cloth");
+    for (const char* key : {"placement", "stiffness", "appearance"}) cloth[key] = written_defaults(key);
+    cloth["pins"][0]["edge"] = "left";
+    cloth["pins"][0]["path"][0] = written_defaults("motion_key");
+    cloth["pins"][0]["path"][0]["t"] = 0;
+    scene["cloths"][0] = cloth;
+    scene["colliders"]["planes"][0] = written_defaults("plane");
+    scene["colliders"]["spheres"][0] = written_defaults("sphere");
+    scene["colliders"]["boxes"][0] = written_defaults("box");
+    scene["colliders"]["ellipsoids"][0] = written_defaults("ellipsoid");
+
+    SceneDescription expected;
+    expected.cloths.resize(1);
+    expected.cloths[0].name = "cloth";
+    expected.cloths[0].pins.resize(1);
+    expected.cloths[0].pins[0].particles = {{0, 0}, {0, 1}};
+    expected.cloths[0].pins[0].path.keys.resize(1);
+    expected.colliders.planes.resize(1);
+    expected.colliders.spheres.resize(1);
+    expected.colliders.boxes.resize(1);
+    expected.colliders.ellipsoids.resize(1);
+    // Directions are made unit length by the reader; the default light is not written as one.
+    const SceneResult result = read_scene_text(written(scene), "s");
+    for (const SceneError& error : result.errors) ADD_FAILURE() << error.text();
+    ASSERT_TRUE(result.scene.has_value());
+    EXPECT_EQ(written(scene["lights"][0]["direction"]), written(parsed("[-0.4, -1.0, -0.6]")));
+    expected.lights[0].direction = result.scene->lights[0].direction;
+    EXPECT_EQ(*result.scene, expected);
+}
+
+TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
+    const std::map<std::string_view, std::set<std::string>> without{
+        {"scene", {"$schema", "cloths"}},
+        {"cloth", {"name"}},
+        {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
+        {"motion_key", {"t"}},
+        {"plane", {"path"}},
+        {"sphere", {"path"}},
+        {"box", {"path"}},
+        {"ellipsoid", {"path"}},
+        {"solver", {"tolerance"}},
+        {"oracle", {"check"}}};
+    for (const ObjectKeys& object : scene_object_keys()) {
+        std::set<std::string> keys;
+        const Json::Value& properties = object_schema(object.name)["properties"];
+        for (const std::string& key : properties.getMemberNames())
+            if (!properties[key].isMember("default")) keys.insert(key);
+        const auto expected = without.find(object.name);
+        EXPECT_EQ(keys, expected == without.end() ? std::set<std::string>{} : expected->second)
+            << object.name;
+    }
+}
+
+struct Probe {
+    Json::Value value;
+    bool is_allowed;
+};
+
+std::vector<Probe> probes_of(const Json::Value& property) {
+    const double step = property["type"].asString() == "integer" ? 1.0 : 0.001;
+    std::vector<Probe> probes;
+    if (property.isMember("minimum")) {
+        probes.push_back({property["minimum"], true});
+        probes.push_back({property["minimum"].asDouble() - step, false});
+    }
+    if (property.isMember("maximum")) {
+        probes.push_back({property["maximum"], true});
+        probes.push_back({property["maximum"].asDouble() + step, false});
+    }
+    if (property.isMember("exclusiveMinimum")) {
+        probes.push_back({property["exclusiveMinimum"], false});
+        probes.push_back({property["exclusiveMinimum"].asDouble() + step, true});
+    }
+    for (const Json::Value& choice : property["enum"]) probes.push_back({choice, true});
+    if (property.isMember("enum")) probes.push_back({"no such choice", false});
+    return probes;
+}
+
+TEST(SceneSchema, StatesTheLimitsOfTheReader) {
+    int probe_count = 0;
+    for (const ObjectKeys& object : scene_object_keys()) {
+        const Json::Value& properties = object_schema(object.name)["properties"];
+        for (const std::string& key : properties.getMemberNames()) {
+            // An array's limits are tried on its second element.
+            const bool is_array = properties[key].isMember("items");
+            const std::string path = "." + key + (is_array ? "[1]" : "");
+            for (const Probe& probe : probes_of(is_array ? properties[key]["items"] : properties[key])) {
+                const bool is_reported = error_pointers(object.name, path, probe.value)
+                                             .contains(pointer_of(places.at(object.name) + path));
+                EXPECT_EQ(is_reported, !probe.is_allowed)
+                    << object.name << path << " = " << written(probe.value);
+                ++probe_count;
+            }
+        }
+    }
+    EXPECT_GT(probe_count, 80);
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,193 @@
+// What a well-formed scene becomes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "full_scene.h"
+#include "scene/scene_reader.h"
+
+namespace drape {
+namespace {
+
+SceneDescription scene_of(std::string_view text) {
+    const SceneResult result = read_scene_text(text, "scene.json");
+    for (const SceneError& error : result.errors) ADD_FAILURE() << error.text();
+    return result.scene.value_or(SceneDescription{});
+}
+
+TEST(SceneValues, SettingsOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    EXPECT_EQ(scene.name, "everything");
+    EXPECT_EQ(scene.time, (TimeSettings{30, 12}));
+    EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
+    EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
+    EXPECT_EQ(scene.solver, (SolverSettings{SolverMethod::relax, 11, 3, CollideWhen::substep}));
+    EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
+    EXPECT_EQ(scene.ambient, (Vec3{0.1, 0.2, 0.3}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}}));
+    ASSERT_EQ(scene.oracles.size(), 1u);
+    EXPECT_EQ(scene.oracles[0], (Oracle{"stretch", {{"frame", 10.0}, {"max", 1.05}}}));
+}
+
+TEST(SceneValues, ClothOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    ASSERT_EQ(scene.cloths.size(), 2u);
+    const Cloth& cloth = scene.cloths[0];
+    EXPECT_EQ(cloth.name, "banner");
+    EXPECT_EQ(cloth.grid, (std::array<std::uint32_t, 2>{96, 64}));
+    EXPECT_EQ(cloth.size, (std::array<double, 2>{1.5, 2.5}));
+    EXPECT_EQ(cloth.placement, (Placement{{0.25, 2, 0}, {0, 0, 1}, {0, -1, 0}}));
+    EXPECT_EQ(cloth.areal_density, 0.15);
+    EXPECT_EQ(cloth.stiffness, (Stiffness{false, 2000, 150, 0}));
+    EXPECT_EQ(cloth.damping, 0.1);
+    EXPECT_EQ(cloth.friction, 0.35);
+    EXPECT_EQ(cloth.thickness, 0.004);
+    EXPECT_EQ(cloth.velocity, (Vec3{1, 2, 3}));
+    ASSERT_EQ(cloth.holes.size(), 1u);
+    EXPECT_EQ(cloth.holes[0], (IndexBox{{40, 20}, {50, 30}}));
+    EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::plain}));
+    EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
+    EXPECT_EQ(scene.cloths[1].name, "rigid-one");
+}
+
+TEST(SceneValues, PinsOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    ASSERT_EQ(scene.cloths[0].pins.size(), 4u);
+    const std::vector<Pin>& pins = scene.cloths[0].pins;
+    EXPECT_EQ(pins[0], (Pin{{{0, 63}, {95, 63}}, std::nullopt, {}, std::nullopt}));
+    EXPECT_EQ(pins[1], (Pin{{{95, 0}, {95, 0}}, 2.5, {}, std::nullopt}));
+    const MotionPath path{{{0, {0, 0, 0}, {0, 0, 0}}, {1.5, {0.2, 0, 0.1}, {0, 720, 5}}}};
+    EXPECT_EQ(pins[2], (Pin{{{10, 3}, {10, 3}}, std::nullopt, path, Vec3{7, 8, 9}}));
+    EXPECT_EQ(pins[3], (Pin{{{1, 2}, {3, 4}}, std::nullopt, {}, std::nullopt}));
+}
+
+TEST(SceneValues, CollidersOfTheFullScene) {
+    const Colliders colliders = scene_of(testing::full_scene).colliders;
+    ASSERT_EQ(colliders.planes.size(), 1u);
+    ASSERT_EQ(colliders.spheres.size(), 1u);
+    ASSERT_EQ(colliders.boxes.size(), 1u);
+    ASSERT_EQ(colliders.ellipsoids.size(), 1u);
+    const auto common = [](double friction, Vec3 rotate, MotionKey key, double red) {
+        return ColliderCommon{friction, rotate, {{key}}, {red, 0.1, 0.2}};
+    };
+    EXPECT_EQ(colliders.planes[0],
+              (PlaneCollider{common(0.6, {1, 2, 3}, {0, {}, {}}, 0.1), {0, 0, 1}, -0.5}));
+    EXPECT_EQ(colliders.spheres[0],
+              (SphereCollider{common(0.1, {4, 5, 6}, {1, {1, 1, 1}, {}}, 0.2), {0, 1, 0.5}, 0.3}));
+    EXPECT_EQ(colliders.boxes[0],
+              (BoxCollider{common(0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3), {0, 0.5, 0}, {0.3, 0.1, 0.2}}));
+    EXPECT_EQ(colliders.ellipsoids[0],
+              (EllipsoidCollider{common(0.4, {7, 8, 9}, {3, {}, {}}, 0.4), {0, 1, 0}, {0.4, 0.2, 0.1}}));
+}
+
+TEST(SceneValues, EveryEdgeAndCorner) {
+    const SceneDescription scene = scene_of(R"({"cloths": [{"grid": [4, 3], "pins": [
+        {"edge": "left"}, {"edge": "right"}, {"edge": "top"}, {"edge": "bottom"},
+        {"corner": "top_left"}, {"corner": "top_right"}, {"corner": "bottom_left"}, {"corner": "bottom_right"}]}]})");
+    const std::vector<IndexBox> expected{{{0, 0}, {0, 2}}, {{3, 0}, {3, 2}}, {{0, 0}, {3, 0}},
+                                         {{0, 2}, {3, 2}}, {{0, 0}, {0, 0}}, {{3, 0}, {3, 0}},
+                                         {{0, 2}, {0, 2}}, {{3, 2}, {3, 2}}};
+    ASSERT_EQ(scene.cloths[0].pins.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(scene.cloths[0].pins[i].particles, expected[i]) << i;
+}
+
+TEST(SceneValues, NamesTheNameless) {
+    const SceneDescription scene = scene_of(R"({"cloths": [{}, {"placement": {"origin": [9, 0, 0]}}]})");
+    EXPECT_EQ(scene.cloths[0].name, "cloth");
+    EXPECT_EQ(scene.cloths[1].name, "cloth2");
+}
+
+TEST(SceneValues, NormalisesTinyAndHugeDirections) {
+    const SceneDescription scene = scene_of(R"({"cloths": [{}], "colliders": {"planes": [
+        {"normal": [3e-300, 4e-300, 0]}, {"normal": [0, 3e38, 3e38]}]}})");
+    EXPECT_DOUBLE_EQ(scene.colliders.planes[0].normal[0], 0.6);
+    EXPECT_DOUBLE_EQ(scene.colliders.planes[0].normal[1], 0.8);
+    EXPECT_DOUBLE_EQ(scene.colliders.planes[1].normal[2], std::sqrt(0.5));
+}
+
+TEST(SceneValues, AcceptsBomBlockCommentsCarriageReturnsAndIntegralReals) {
+    const SceneDescription scene = scene_of(
+        "\xEF\xBB\xBF/* a */{\r\n\"name\": \"\xC3\xA4\", \"cloths\": [{\"grid\": [3.0, 1e1]}] // b\r\n}");
+    EXPECT_EQ(scene.name, "\xC3\xA4");
+    EXPECT_EQ(scene.cloths[0].grid, (std::array<std::uint32_t, 2>{3, 10}));
+}
+
+TEST(SceneValues, EmptyLightListMeansNoLight) {
+    EXPECT_TRUE(scene_of(R"({"cloths": [{}], "lights": []})").lights.empty());
+}
+
+TEST(SceneValues, AcceptsThePublishedExtremes) {
+    scene_of(
+        R"({"cloths": [{"grid": [2, 16384]}, {"grid": [4000, 3990], "placement": {"origin": [0, 0, 5]}}]})");
+    scene_of(R"({"cloths": [{"stiffness": {"stretch": 0, "shear": 0}, "friction": 0, "thickness": 0}],
+                 "time": {"fps": 10000, "frames": 1000000}, "solver": {"substeps": 1024, "iterations": 1024}})");
+}
+
+std::vector<std::string> warnings_of(std::string_view text) {
+    const SceneResult result = read_scene_text(text, "s");
+    EXPECT_TRUE(result.scene.has_value());
+    std::vector<std::string> texts;
+    for (const SceneError& warning : result.warnings) texts.push_back(warning.text());
+    return texts;
+}
+
+TEST(SceneWarnings, ClothsSetToTouch) {
+    const std::vector<std::string> expected{
+        "s:2:1: /cloths/1: cloths \"a\" and \"b\" are set to touch, but will pass through each other: "
+        "cloth-cloth and "
+        "self-collision are not simulated"};
+    EXPECT_EQ(warnings_of("{\"cloths\": [{\"name\": \"a\"},\n{\"name\": \"b\", \"placement\": {\"origin\": "
+                          "[0.5, 0.5, 0]}}]}"),
+              expected);
+    EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [0, 0, 0.1]}}]})").empty());
+    EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [1.1, 0, 0]}}]})").empty());
+}
+
+TEST(SceneWarnings, SettingsThatDoNothing) {
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"tolerance": 0.01}})"),
+              std::vector<std::string>{"s:1:42: /solver/tolerance: tolerance is ignored by method relax"});
+    EXPECT_EQ(
+        warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
+        std::vector<std::string>{
+            "s:1:35: /wind/gust: the gust does nothing: it blows along the wind's velocity, which is zero"});
+    EXPECT_TRUE(warnings_of(R"({"cloths": [{}]})").empty());
+}
+
+TEST(SceneFile, IsReadFromDisk) {
+    const std::string path = ::testing::TempDir() + "drape_scene_reader_test.json";
+    std::ofstream(path) << testing::full_scene;
+    const SceneResult result = read_scene(path);
+    std::remove(path.c_str());
+    ASSERT_TRUE(result.scene.has_value());
+    EXPECT_EQ(*result.scene, scene_of(testing::full_scene));
+}
+
+TEST(SceneFile, UnreadableIsNotASceneError) {
+    const SceneResult result = read_scene("/no/such/scene.json");
+    EXPECT_TRUE(result.unreadable);
+    ASSERT_EQ(result.errors.size(), 1u);
+    EXPECT_EQ(result.errors[0].text(), "/no/such/scene.json: cannot read: No such file or directory");
+    EXPECT_TRUE(read_scene("/").unreadable);
+    EXPECT_FALSE(read_scene_text("", "s").unreadable);
+}
+
+TEST(SceneFile, RefusesMoreThanItsLimit) {
+    const SceneResult endless = read_scene("/dev/zero");
+    ASSERT_EQ(endless.errors.size(), 1u);
+    EXPECT_EQ(endless.errors[0].text(),
+              "/dev/zero: expected a scene of at most 16777216 bytes, got at least 16777217");
+    EXPECT_FALSE(endless.unreadable);
+    std::string padded = R"({"cloths": [{}]})";
+    padded.resize(scene_file_byte_limit, ' ');
+    EXPECT_TRUE(read_scene_text(padded, "s").errors.empty());
+    padded.push_back(' ');
+    EXPECT_EQ(read_scene_text(padded, "s").errors.size(), 1u);
+}
+
+}  // namespace
+}  // namespace drape
