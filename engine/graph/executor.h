@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,10 +49,13 @@ class PassContext {
     /// Throw GraphError, naming pass and resource, when the pass did not declare the handle.
     const vulkan::Image& image(Handle handle) const;
     const vulkan::Buffer& buffer(Handle handle) const;
+    /// The layout the image is in during this pass: that of its declared access. Throws as `image`.
+    VkImageLayout layout(Handle handle) const;
 
     /// Binds the pipeline, pushes every declared use that has a binding, and the push constants. Throws
     /// GraphError when the pipeline's descriptors and the declared bindings differ (binding missing on
-    /// either side, image against buffer, read against write, format).
+    /// either side, image against buffer, read against write, format, compute against graphics), or the
+    /// push constants' size. A read-write descriptor needs a write at its binding, and a read without one.
     void bind(const vulkan::Pipeline& pipeline, std::span<const std::byte> push_constants = {});
     template <class T>
     void bind(const vulkan::Pipeline& pipeline, const T& push_constants) {
@@ -72,6 +76,9 @@ class PassContext {
         : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
     void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
     const Use& use_of(Handle handle) const;
+    const Use& use_at(const vulkan::Pipeline& pipeline,
+                      const vulkan::DescriptorDeclaration& descriptor) const;
+    void check_bindings(const vulkan::Pipeline& pipeline, std::size_t push_constant_size) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;
     const Graph& graph_;
@@ -104,11 +111,20 @@ class RecordedPlan {
     std::vector<Timing> timings(std::uint32_t slot) const;
 
   private:
+    struct Empty {};
+    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    RecordedPlan(const vulkan::Device& device, Empty) : device_(device) {}
+    void set_brackets(const Graph& graph, const Plan& plan, TimestampMode timestamps);
+    void make_pools();
+
     const vulkan::Device& device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
     std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};
-    std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;  ///< name, first and last query
+    /// Name, first and last query; neighbours share one. Each begins with the pass of the same place in
+    /// bracket_begins_.
+    std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;
+    std::vector<std::uint32_t> bracket_begins_;
 };
 
 }  // namespace drape::graph

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #define VK_NO_PROTOTYPES
@@ -22,27 +23,28 @@ class GraphError : public std::logic_error {
 };
 
 enum class Access : std::uint8_t {
-    compute_read,    ///< storage image or storage buffer
-    compute_write,   ///< storage image or storage buffer
-    vertex_read,     ///< storage image or storage buffer
-    fragment_read,   ///< storage image or storage buffer
-    index_read,      ///< index buffer
-    color_write,     ///< colour attachment (write, or load and write)
-    depth_write,     ///< depth attachment (test and write)
-    resolve_write,   ///< resolve target of a multisampled colour attachment
+    compute_read,   ///< storage image or storage buffer
+    compute_write,  ///< storage image or storage buffer
+    vertex_read,    ///< storage image or storage buffer
+    fragment_read,  ///< storage image or storage buffer
+    index_read,     ///< index buffer
+    color_write,    ///< colour attachment (write, or load and write)
+    depth_write,    ///< depth attachment (test and write)
+    resolve_write,  ///< resolve target of a multisampled colour attachment
     transfer_read,
     transfer_write,
-    host_read,       ///< after the frame's fence; makes device writes visible to the host
+    host_read,  ///< after the frame's fence; makes device writes visible to the host
 };
 bool is_write(Access access);
+std::string_view access_name(Access access);  ///< "compute_read"
 
 /// How long a resource's contents live, and how many copies there are.
 enum class Lifetime : std::uint8_t {
-    transient,   ///< within a frame; its contents do not outlive the plan
-    persistent,  ///< the state: carried from frame to frame; its final version is always wanted
-    constant,    ///< set-up writes it once; no pass may write it
-    host_input,  ///< buffer: the host writes it before each submit; one copy per frame slot; no pass writes
-    host_output, ///< buffer: the host reads it after the frame; one copy per frame slot; always wanted
+    transient,    ///< within a frame; its contents do not outlive the plan
+    persistent,   ///< the state: carried from frame to frame; its final version is always wanted
+    constant,     ///< set-up writes it once; no pass may write it
+    host_input,   ///< buffer: the host writes it before each submit; one copy per frame slot; no pass writes
+    host_output,  ///< buffer: the host reads it after the frame; one copy per frame slot; always wanted
 };
 
 struct ImageDeclaration {
@@ -55,7 +57,7 @@ struct ImageDeclaration {
 
 struct BufferDeclaration {
     std::string name;
-    std::uint64_t byte_count = 0;
+    std::uint64_t byte_count = 0;  ///< a positive multiple of 4
     Lifetime lifetime = Lifetime::transient;
 };
 
@@ -74,7 +76,8 @@ struct Resource {
     BufferDeclaration buffer;  ///< otherwise
     Lifetime lifetime = Lifetime::transient;
     std::uint32_t version = 0;  ///< newest
-    std::uint64_t byte_count() const;  ///< of one copy: texels x texel size x samples, or the buffer's size
+    /// Of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.
+    std::uint64_t byte_count() const;
 };
 
 /// One declared use. `binding`: the descriptor it is bound to (set 0), none for attachments and transfers.
@@ -83,6 +86,8 @@ struct Use {
     Access access;
     std::optional<std::uint32_t> binding;
 };
+
+std::string_view lifetime_name(Lifetime lifetime);  ///< "persistent"
 
 class PassContext;  // executor.h
 
@@ -104,7 +109,9 @@ class Graph;
 class PassSetup {
   public:
     /// Declares a read of this version. Reading and then writing one resource in one pass is how a
-    /// read-modify-write is said; write then read throws.
+    /// read-modify-write is said (each with its own binding; for one read-write descriptor the write alone
+    /// names the binding); write then read throws. A binding serves one use, but vertex and fragment stage
+    /// may read one version through one binding.
     Handle read(Handle handle, Access access, std::optional<std::uint32_t> binding = {});
     /// Declares a write; returns the new version. The contents not written stay (no implied clear).
     [[nodiscard]] Handle write(Handle handle, Access access, std::optional<std::uint32_t> binding = {});

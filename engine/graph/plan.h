@@ -15,7 +15,11 @@ struct AccessScope {
     VkAccessFlags2 accesses;
     VkImageLayout layout;
 };
+/// Storage and copies work in GENERAL, attachments in their own layouts: the layout follows from the access
+/// alone, so a pass can know it when it records (PassContext::layout).
 AccessScope access_scope(Access access);
+/// Physical copies of a resource: one per frame slot for host inputs and outputs.
+std::uint32_t copy_count(const Resource& resource);
 
 struct Barrier {
     std::uint32_t resource;
@@ -36,19 +40,20 @@ struct Lifespan {
 };
 
 struct Plan {
-    std::vector<PlannedPass> passes;    ///< in execution order = declaration order
+    std::vector<PlannedPass> passes;      ///< in execution order = declaration order
     std::vector<Barrier> final_barriers;  ///< after the last pass: device writes to the host
-    std::vector<Lifespan> lifespans;    ///< per resource of the graph
-    std::vector<Skipped> skipped;       ///< the graph's own, then what culling removed and why
-    std::uint64_t byte_count = 0;       ///< of all used resources, copies per frame slot counted
+    std::vector<Lifespan> lifespans;      ///< per resource of the graph
+    std::vector<Skipped> skipped;         ///< the graph's own, then what culling removed and why
+    std::uint64_t byte_count = 0;         ///< of all used resources, copies per frame slot counted
 };
 
 /// Culls every pass whose written versions nobody wanted reads (wanted: the final versions of persistent
 /// and host_output resources, transitively), then derives the barriers. A plan may follow any plan of the
 /// same resources, so the first use of every persistent resource waits for all earlier work (also
 /// write-after-read), transients included because their memory is reused; host inputs need none (a
-/// submit makes host writes visible). Images rest in GENERAL between plans; transients start UNDEFINED.
-/// Throws GraphError when a wanted pass reads a transient version nobody wrote.
+/// submit makes host writes visible); these entry barriers all stand before the first pass. Images rest in
+/// GENERAL between plans; transients start UNDEFINED. A pass that declares host_read is always wanted.
+/// Throws GraphError when a wanted pass reads a transient or host_output version nobody wrote.
 Plan make_plan(const Graph& graph);
 
 /// What runs, what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.

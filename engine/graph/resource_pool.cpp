@@ -1,0 +1,206 @@
+#include <fmt/core.h>
+#include <volk.h>
+
+#include <cstring>
+
+#include "graph/executor.h"
+#include "vulkan/structure.h"
+
+namespace drape::graph {
+namespace {
+
+/// One physical resource: how it is declared, and what all plans together do to it.
+struct Wanted {
+    const Resource* resource = nullptr;
+    bool used = false;
+    VkImageUsageFlags image_usage = 0;
+    VkBufferUsageFlags buffer_usage = 0;
+};
+
+VkImageUsageFlags image_usage(Access access) {
+    switch (access) {
+        case Access::color_write:
+        case Access::resolve_write:
+            return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        case Access::depth_write:
+            return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+        case Access::transfer_read:
+            return VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        case Access::transfer_write:
+            return VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        default:
+            return VK_IMAGE_USAGE_STORAGE_BIT;
+    }
+}
+
+VkBufferUsageFlags buffer_usage(Access access) {
+    switch (access) {
+        case Access::index_read:
+            return VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        case Access::transfer_read:
+        case Access::transfer_write:
+        case Access::host_read:
+            return 0;  // every buffer has the transfer usages
+        default:
+            return VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    }
+}
+
+bool set_up_once(const Resource& resource) {
+    return resource.lifetime == Lifetime::persistent || resource.lifetime == Lifetime::constant;
+}
+
+void require_equal(const Resource& one, const Resource& other) {
+    const bool equal = one.is_image == other.is_image && one.lifetime == other.lifetime &&
+                       one.image.format == other.image.format && one.image.width == other.image.width &&
+                       one.image.height == other.image.height && one.image.samples == other.image.samples &&
+                       one.buffer.byte_count == other.buffer.byte_count;
+    if (!equal) throw GraphError(fmt::format("resource '{}': two graphs declare it differently", one.name));
+}
+
+using WantedByName = std::map<std::string, Wanted>;
+
+WantedByName collect(std::span<const std::pair<const Graph*, const Plan*>> plans) {
+    WantedByName all;
+    for (const auto& [graph, plan] : plans) {
+        const auto& resources = graph->resources();
+        for (std::size_t r = 0; r < resources.size(); ++r) {
+            Wanted& wanted = all[resources[r].name];
+            if (wanted.resource) require_equal(*wanted.resource, resources[r]);
+            wanted.resource = &resources[r];
+            wanted.used = wanted.used || plan->lifespans[r].used();
+        }
+        for (const PlannedPass& planned : plan->passes) {
+            for (const Use& use : graph->passes()[planned.pass].uses) {
+                const Resource& resource = resources[use.handle.resource];
+                Wanted& wanted = all[resource.name];
+                if (resource.is_image) {
+                    wanted.image_usage |= image_usage(use.access);
+                } else {
+                    wanted.buffer_usage |= buffer_usage(use.access);
+                }
+            }
+        }
+    }
+    std::erase_if(all, [](const auto& entry) { return !entry.second.used; });
+    return all;
+}
+
+std::uint64_t total_bytes(const WantedByName& all) {
+    std::uint64_t total = 0;
+    for (const auto& [name, wanted] : all) {
+        std::uint64_t bytes = 0;
+        if (__builtin_mul_overflow(wanted.resource->byte_count(), std::uint64_t{copy_count(*wanted.resource)},
+                                   &bytes) ||
+            __builtin_add_overflow(total, bytes, &total)) {
+            throw vulkan::VulkanError(fmt::format("resource '{}': all sizes together exceed 64 bits", name));
+        }
+    }
+    return total;
+}
+
+vulkan::ImageDescription describe_image(const Wanted& wanted) {
+    const ImageDeclaration& image = wanted.resource->image;
+    VkImageUsageFlags usage = wanted.image_usage;
+    // For set-up and for whoever wants to look at intermediate results; multisampled images cannot be copied
+    // to a buffer, and must not lose the chance to live in tile memory.
+    if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
+        usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    }
+    return {image.name, image.format, image.width, image.height, usage, image.samples};
+}
+
+vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
+    const Resource& resource = *wanted.resource;
+    vulkan::BufferDescription description;
+    description.name =
+        copy_count(resource) > 1 ? fmt::format("{} (slot {})", resource.name, copy) : resource.name;
+    description.byte_count = resource.buffer.byte_count;
+    description.usage =
+        wanted.buffer_usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (resource.lifetime == Lifetime::host_input) description.home = vulkan::BufferHome::upload;
+    if (resource.lifetime == Lifetime::host_output) description.home = vulkan::BufferHome::readback;
+    return description;
+}
+
+void record_clear(VkCommandBuffer commands, const vulkan::Image& image) {
+    auto barrier = vulkan::structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.handle();
+    barrier.subresourceRange = {image.aspect(), 0, 1, 0, 1};
+    auto dependency = vulkan::structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+    if (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) {
+        const VkClearDepthStencilValue zero{};
+        vkCmdClearDepthStencilImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1,
+                                    &barrier.subresourceRange);
+    } else {
+        const VkClearColorValue zero{};
+        vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1,
+                             &barrier.subresourceRange);
+    }
+}
+
+}  // namespace
+
+ResourcePool::ResourcePool(const vulkan::Device& device,
+                           std::span<const std::pair<const Graph*, const Plan*>> plans)
+    : device_(device) {
+    const WantedByName all = collect(plans);
+    device.budget().require(total_bytes(all),
+                            fmt::format("the {} images and buffers of the plans", all.size()));
+    for (const auto& [name, wanted] : all) {
+        if (wanted.resource->is_image) {
+            images_.emplace(name, vulkan::Image(device, describe_image(wanted)));
+            continue;
+        }
+        std::vector<vulkan::Buffer>& copies = buffers_[name];
+        for (std::uint32_t copy = 0; copy < copy_count(*wanted.resource); ++copy) {
+            copies.emplace_back(device, describe_buffer(wanted, copy));
+        }
+    }
+    device.run_once([&](VkCommandBuffer commands) {
+        for (const auto& [name, image] : images_) {
+            if (set_up_once(*all.at(name).resource)) record_clear(commands, image);
+        }
+        for (const auto& [name, copies] : buffers_) {
+            for (const vulkan::Buffer& buffer : copies) {
+                if (!buffer.mapped().empty()) {
+                    std::memset(buffer.mapped().data(), 0, buffer.mapped().size());
+                } else {
+                    vkCmdFillBuffer(commands, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
+                }
+            }
+        }
+    });
+}
+
+bool ResourcePool::has(const std::string& name) const {
+    return images_.contains(name) || buffers_.contains(name);
+}
+
+const vulkan::Image& ResourcePool::image(const std::string& name) const {
+    const auto place = images_.find(name);
+    if (place != images_.end()) return place->second;
+    throw GraphError(
+        fmt::format("image '{}': {}", name,
+                    buffers_.contains(name) ? "it is a buffer" : "no plan uses it, or none is declared"));
+}
+
+const vulkan::Buffer& ResourcePool::buffer(const std::string& name, std::uint32_t slot) const {
+    const auto place = buffers_.find(name);
+    if (place == buffers_.end()) {
+        throw GraphError(
+            fmt::format("buffer '{}': {}", name,
+                        images_.contains(name) ? "it is an image" : "no plan uses it, or none is declared"));
+    }
+    return place->second.size() == 1 ? place->second.front() : place->second.at(slot);
+}
+
+}  // namespace drape::graph
