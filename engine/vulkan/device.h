@@ -27,10 +27,15 @@ class MemoryBudget {
     std::uint64_t used_ = 0;
 };
 
+/// 90 % of the largest device-local heap; on a CPU device, where that heap is the machine's memory, at most
+/// 75 % of what the system says is available.
+std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu);
+
 class Device {
   public:
     /// `selector`: empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive
     /// part), UUID or "cpu". Throws VulkanError listing the devices and why each was rejected.
+    /// The instance must outlive the device.
     Device(const Instance& instance, std::string_view selector);
     ~Device();
     Device(const Device&) = delete;
@@ -44,18 +49,37 @@ class Device {
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
+    std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
+    std::uint64_t max_buffer_size() const { return max_buffer_size_; }
+    std::uint64_t max_allocation_size() const { return max_allocation_size_; }
     MemoryBudget& budget() const { return budget_; }
 
     /// First memory type of `type_bits` with all of `required`, preferring `preferred`.
     std::uint32_t memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags required,
                               VkMemoryPropertyFlags preferred) const;
+    /// A memory object of its own for one resource: reserved from the budget first, given back when the
+    /// allocation fails. `object` names the resource in errors.
+    VkDeviceMemory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+                            VkMemoryPropertyFlags preferred, std::string_view object) const;
+    /// Frees what `allocate` gave (nothing for VK_NULL_HANDLE) and returns its bytes to the budget.
+    void free(VkDeviceMemory memory, std::uint64_t bytes) const;
     void wait_idle() const;
+    /// Blocks until the fence is signalled, in slices of finite time; throws VulkanError on device loss.
+    void wait(VkFence fence, std::string_view object) const;
+    /// Hands one command buffer to the queue; `fence` may be VK_NULL_HANDLE.
+    void submit(VkCommandBuffer commands, VkFence fence, std::string_view object) const;
     /// Records with `record`, submits, waits: for set-up and tests, never in the frame loop.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
     /// VK_EXT_debug_utils name, when validation is on.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
   private:
+    struct Empty {};
+    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    Device(const Instance& instance, DeviceInfo info, Empty);
+    void read_limits();
+    void create();
+
     const Instance& instance_;
     DeviceInfo info_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -66,6 +90,10 @@ class Device {
     VkCommandPool once_pool_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
     std::uint32_t timestamp_valid_bits_ = 0;
+    std::uint32_t max_push_descriptors_ = 0;
+    std::uint64_t max_buffer_size_ = 0;
+    std::uint64_t max_allocation_size_ = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     mutable MemoryBudget budget_{0};
 };
 

@@ -21,10 +21,14 @@ class FrameSlots {
     /// Blocks until the last submit of the slot has finished (at once when there was none). Throws
     /// VulkanError on device loss.
     void wait(std::uint32_t slot);
+    /// Throws VulkanError when the slot's last submit was not waited for.
     void submit(std::uint32_t slot, VkCommandBuffer commands);
     bool pending(std::uint32_t slot) const { return pending_[slot]; }
 
   private:
+    struct Empty {};
+    FrameSlots(const Device& device, Empty);
+
     const Device& device_;
     std::array<VkFence, frame_slot_count> fences_{};
     std::array<bool, frame_slot_count> pending_{};

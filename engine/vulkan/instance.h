@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -14,9 +15,11 @@
 namespace drape::vulkan {
 
 /// Counts validation messages (warnings and errors) and keeps their texts; thread-safe. The performance
-/// warning about copies in GENERAL is filtered (the design keeps storage images in GENERAL on purpose).
+/// warning about copies and clears in GENERAL is filtered (the design keeps storage images in GENERAL on
+/// purpose). Every message counts; the texts of the first `kept_message_count` are kept.
 class ValidationLog {
   public:
+    static constexpr std::size_t kept_message_count = 1000;
     void add(std::string message_id, std::string text);
     std::uint64_t count() const { return count_; }
     std::vector<std::string> messages() const;
@@ -29,7 +32,7 @@ class ValidationLog {
 };
 
 struct InstanceOptions {
-    bool validation = false;  ///< core + synchronization validation; throws when the layer is missing
+    bool validation = false;     ///< core + synchronization validation; throws when the layer is missing
     bool print_messages = true;  ///< echo each message on stderr
 };
 
@@ -44,6 +47,8 @@ struct DeviceInfo {
 
 class Instance {
   public:
+    /// Throws VulkanError without a loader, a driver or (when asked for) the validation layer. Several
+    /// instances may live at once.
     explicit Instance(const InstanceOptions& options);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -52,17 +57,25 @@ class Instance {
     VkInstance handle() const { return handle_; }
     bool validation() const { return validation_; }
     ValidationLog& validation_log() const { return *log_; }
-    /// Every physical device, in the loader's order, with the reason a device cannot be used.
-    std::vector<DeviceInfo> devices() const;
-    VkPhysicalDevice physical_device(std::uint32_t index) const;
+    /// Every physical device, in the loader's order, with the reason a device cannot be used. Asked of the
+    /// driver once, when the instance is made.
+    std::vector<DeviceInfo> devices() const { return devices_; }
+    VkPhysicalDevice physical_device(std::uint32_t index) const { return physical_devices_.at(index); }
 
   private:
     struct Echo;
+    struct Empty {};
+    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    Instance(const InstanceOptions& options, Empty);
+    void create(bool validation);
+    void list_devices();
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     bool validation_ = false;
     std::unique_ptr<ValidationLog> log_;
     std::unique_ptr<Echo> echo_;
+    std::vector<VkPhysicalDevice> physical_devices_;
+    std::vector<DeviceInfo> devices_;
 };
 
 }  // namespace drape::vulkan

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vulkan/device.h"
@@ -37,6 +39,7 @@ class Pipeline {
     Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point);
     /// Set layout (stages of each descriptor merged) and pipeline layout.
     void make_layout(std::span<const std::pair<VkShaderStageFlagBits, ShaderInterface>> stages);
+
     const Device& device_;
     std::string name_;
     VkPipeline handle_ = VK_NULL_HANDLE;
@@ -46,12 +49,18 @@ class Pipeline {
     std::vector<DescriptorDeclaration> descriptors_;
     std::uint32_t push_constant_size_ = 0;
     VkShaderStageFlags push_constant_stages_ = 0;
+
+  private:
+    void make_layout_handles(const std::map<std::uint32_t, VkDescriptorSetLayoutBinding>& bindings);
 };
 
 class ComputePipeline : public Pipeline {
   public:
+    /// Throws VulkanError when the module is missing, is no compute shader, differs from its declaration, has
+    /// no constant of a given id, or goes beyond the device's limits.
     ComputePipeline(const Device& device, std::string name, const ShaderInterface& shader,
                     std::span<const SpecializationConstant> constants);
+    /// As specialised.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
@@ -59,10 +68,11 @@ class ComputePipeline : public Pipeline {
 };
 
 struct GraphicsState {
-    ShaderInterface vertex, fragment;
-    std::vector<SpecializationConstant> constants;  ///< given to both stages; ids are shared
-    VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
-    VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+    ShaderInterface vertex;
+    ShaderInterface fragment;                         ///< an empty module name: none (depth-only passes)
+    std::vector<SpecializationConstant> constants;    ///< given to both stages; ids are shared
+    VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;  ///< VK_FORMAT_UNDEFINED: no colour attachment
+    VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     bool depth_write = true;
@@ -71,6 +81,7 @@ struct GraphicsState {
 /// Triangle list, no vertex buffers, dynamic viewport and scissor, dynamic rendering, depth LESS.
 class GraphicsPipeline : public Pipeline {
   public:
+    /// Throws as ComputePipeline does; and descriptors of these stages must be read only.
     GraphicsPipeline(const Device& device, std::string name, const GraphicsState& state);
 };
 

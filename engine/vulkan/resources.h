@@ -23,6 +23,8 @@ struct ImageDescription {
 
 class Image {
   public:
+    /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is
+    /// beyond the device, or the texels beyond the memory budget.
     Image(const Device& device, const ImageDescription& description);
     ~Image();
     Image(Image&& other) noexcept;
@@ -35,6 +37,11 @@ class Image {
     std::uint64_t byte_count() const { return byte_count_; }  ///< as allocated
 
   private:
+    struct Empty {};
+    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    Image(const Device& device, const ImageDescription& description, Empty);
+    void make_view();
+
     const Device* device_;
     ImageDescription description_;
     VkImage handle_ = VK_NULL_HANDLE;
@@ -44,9 +51,9 @@ class Image {
 };
 
 enum class BufferHome {
-    device,     ///< device local
-    upload,     ///< host writes, device reads; mapped, coherent
-    readback,   ///< device writes, host reads; mapped, coherent, cached when there is such memory
+    device,    ///< device local
+    upload,    ///< host writes, device reads; mapped, coherent
+    readback,  ///< device writes, host reads; mapped, coherent, cached when there is such memory
 };
 
 struct BufferDescription {
@@ -58,6 +65,8 @@ struct BufferDescription {
 
 class Buffer {
   public:
+    /// Throws VulkanError, before anything is created, when the size is zero, beyond the device's limits (a
+    /// storage buffer must be bindable whole) or beyond the memory budget.
     Buffer(const Device& device, const BufferDescription& description);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -69,6 +78,10 @@ class Buffer {
     std::span<std::byte> mapped() const { return {mapped_, mapped_ ? description_.byte_count : 0}; }
 
   private:
+    struct Empty {};
+    Buffer(const Device& device, const BufferDescription& description, Empty);
+    void map();
+
     const Device* device_;
     BufferDescription description_;
     VkBuffer handle_ = VK_NULL_HANDLE;
@@ -78,7 +91,8 @@ class Buffer {
 };
 
 /// Set-up and test transfers, each its own submit and wait. Images are taken to (and left in) GENERAL;
-/// `bytes` is tightly packed rows. An upload discards what the image held.
+/// `bytes` is tightly packed rows. An upload discards what the image held. The sizes must be equal, and the
+/// resource made with the transfer usage (mapped buffers need none); VulkanError naming it otherwise.
 void upload(const Device& device, const Image& image, std::span<const std::byte> bytes);
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
 void download(const Device& device, const Image& image, std::span<std::byte> bytes);

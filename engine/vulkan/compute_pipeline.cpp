@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+#include <volk.h>
+
+#include "vulkan/pipeline.h"
+#include "vulkan/shader_stage.h"
+#include "vulkan/structure.h"
+
+namespace drape::vulkan {
+
+namespace {
+
+std::array<std::uint32_t, 3> specialized_local_size(const ReflectedModule& module,
+                                                    std::span<const SpecializationConstant> constants) {
+    std::array<std::uint32_t, 3> size = module.local_size;
+    for (std::size_t axis = 0; axis < size.size(); ++axis) {
+        for (const SpecializationConstant& constant : constants) {
+            if (module.local_size_constant_ids[axis] == constant.id) size[axis] = constant.value;
+        }
+    }
+    return size;
+}
+
+void require_local_size(const Device& device, const std::string& name,
+                        const std::array<std::uint32_t, 3>& size) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    bool fits = std::uint64_t{size[0]} * size[1] * size[2] <= limits.maxComputeWorkGroupInvocations;
+    for (std::size_t axis = 0; axis < size.size(); ++axis) {
+        fits = fits && size[axis] > 0 && size[axis] <= limits.maxComputeWorkGroupSize[axis];
+    }
+    if (!fits) {
+        throw VulkanError(fmt::format("pipeline {}: the device cannot have workgroups of {} x {} x {}", name,
+                                      size[0], size[1], size[2]));
+    }
+}
+
+}  // namespace
+
+ComputePipeline::ComputePipeline(const Device& device, std::string name, const ShaderInterface& shader,
+                                 std::span<const SpecializationConstant> constants)
+    : Pipeline(device, std::move(name), VK_PIPELINE_BIND_POINT_COMPUTE) {
+    const ShaderStage stage(device, name_, shader, VK_SHADER_STAGE_COMPUTE_BIT, constants);
+    const ShaderStage* const stages[] = {&stage};
+    require_constants(name_, constants, stages);
+    local_size_ = specialized_local_size(stage.reflected(), constants);
+    require_local_size(device, name_, local_size_);
+    const std::pair<VkShaderStageFlagBits, ShaderInterface> interfaces[] = {
+        {VK_SHADER_STAGE_COMPUTE_BIT, shader}};
+    make_layout(interfaces);
+    auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.stage = stage.create_info();
+    info.layout = layout_;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "vkCreateComputePipelines", name_);
+    handle_ = pipeline;
+    device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle_), name_);
+}
+
+}  // namespace drape::vulkan

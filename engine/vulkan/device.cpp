@@ -1,0 +1,232 @@
+#include "vulkan/device.h"
+
+#include <fmt/format.h>
+#include <volk.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <vector>
+
+#include "vulkan/device_requirements.h"
+#include "vulkan/device_selection.h"
+#include "vulkan/structure.h"
+
+namespace drape::vulkan {
+
+namespace {
+
+/// Long enough to cost nothing, short enough that a lost device is noticed and a debugger can break in.
+constexpr std::uint64_t wait_slice_nanoseconds = 1'000'000'000;
+
+/// Bytes the system could give now; the maximum where it does not say.
+std::uint64_t available_memory() {
+    std::ifstream file("/proc/meminfo");
+    std::string key, unit;
+    std::uint64_t kibibytes = 0;
+    while (file >> key >> kibibytes && std::getline(file, unit)) {
+        if (key == "MemAvailable:") return kibibytes * 1024;
+    }
+    return std::numeric_limits<std::uint64_t>::max();
+}
+
+/// A fence and a command buffer that go in every case, the queue being idle then.
+struct OnceCommands {
+    const Device& device;
+    VkCommandPool pool;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    bool in_flight = false;
+
+    OnceCommands(const Device& owner, VkCommandPool command_pool) : device(owner), pool(command_pool) {}
+    OnceCommands(const OnceCommands&) = delete;
+    OnceCommands& operator=(const OnceCommands&) = delete;
+    ~OnceCommands() {
+        if (in_flight) vkDeviceWaitIdle(device.handle());
+        if (commands) vkFreeCommandBuffers(device.handle(), pool, 1, &commands);
+        vkDestroyFence(device.handle(), fence, nullptr);
+    }
+};
+
+}  // namespace
+
+std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu) {
+    std::uint64_t heap = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+            heap = std::max<std::uint64_t>(heap, memory.memoryHeaps[i].size);
+        }
+    }
+    // Divided first, so that no size can wrap.
+    const std::uint64_t limit = heap / 10 * 9;
+    return cpu ? std::min(limit, available_memory() / 4 * 3) : limit;
+}
+
+Device::Device(const Instance& instance, DeviceInfo info, Empty)
+    : instance_(instance), info_(std::move(info)) {}
+
+Device::Device(const Instance& instance, std::string_view selector)
+    : Device(instance, select_device(instance.devices(), selector), Empty{}) {
+    physical_ = instance.physical_device(info_.index);
+    read_limits();
+    create();
+    vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
+    auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = queue_family_;
+    create_handle(vkCreateCommandPool, handle_, pool, once_pool_, "vkCreateCommandPool", "set-up");
+    if (instance.validation()) {
+        // volk's own pointer belongs to the instance made last, which may lack the extension.
+        set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+            vkGetInstanceProcAddr(instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
+    }
+    set_name(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<std::uint64_t>(once_pool_), "set-up");
+}
+
+void Device::read_limits() {
+    auto properties11 = structure<VkPhysicalDeviceVulkan11Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
+    auto properties13 = structure<VkPhysicalDeviceVulkan13Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
+    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
+    auto all = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+    all.pNext = &properties11;
+    properties11.pNext = &properties13;
+    properties13.pNext = &push;
+    vkGetPhysicalDeviceProperties2(physical_, &all);
+    properties_ = all.properties;
+    max_push_descriptors_ = push.maxPushDescriptors;
+    max_buffer_size_ = properties13.maxBufferSize;
+    max_allocation_size_ = properties11.maxMemoryAllocationSize;
+
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    budget_ =
+        MemoryBudget(memory_budget_limit(memory_, properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
+
+    queue_family_ = find_queue_family(physical_).value();  // a usable device has one
+    std::uint32_t count = queue_family_ + 1;
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    timestamp_valid_bits_ = families[queue_family_].timestampValidBits;
+}
+
+void Device::create() {
+    auto features13 =
+        structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+    features13.synchronization2 = VK_TRUE;
+    features13.dynamicRendering = VK_TRUE;
+    features13.maintenance4 = VK_TRUE;
+    constexpr float priority = 1.0f;
+    auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+    queue.queueFamilyIndex = queue_family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    constexpr const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    auto info = structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+    info.pNext = &features13;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = extensions;
+    const VkResult result = vkCreateDevice(physical_, &info, nullptr, &handle_);
+    if (result != VK_SUCCESS) handle_ = VK_NULL_HANDLE;
+    check(result, "vkCreateDevice", info_.name);
+}
+
+Device::~Device() {
+    if (!handle_) return;
+    vkDeviceWaitIdle(handle_);  // a lost device is destroyed all the same
+    vkDestroyCommandPool(handle_, once_pool_, nullptr);
+    vkDestroyDevice(handle_, nullptr);
+}
+
+std::uint32_t Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred) const {
+    for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+            const bool allowed = (type_bits >> i) & 1u;
+            if (allowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+        }
+    }
+    throw VulkanError(fmt::format("{} has no memory type with the properties {:#x} among the types {:#x}",
+                                  info_.name, required, type_bits));
+}
+
+VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+                                VkMemoryPropertyFlags preferred, std::string_view object) const {
+    if (requirements.size > max_allocation_size_) {
+        throw VulkanError(fmt::format("{} needs {} bytes of memory, one allocation may have {}", object,
+                                      requirements.size, max_allocation_size_));
+    }
+    auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    info.allocationSize = requirements.size;
+    info.memoryTypeIndex = memory_type(requirements.memoryTypeBits, required, preferred);
+    budget_.reserve(requirements.size, object);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    try {
+        create_handle(vkAllocateMemory, handle_, info, memory, "vkAllocateMemory", object);
+    } catch (const VulkanError&) {
+        budget_.release(requirements.size);
+        throw;
+    }
+    return memory;
+}
+
+void Device::free(VkDeviceMemory memory, std::uint64_t bytes) const {
+    if (!memory) return;
+    vkFreeMemory(handle_, memory, nullptr);
+    budget_.release(bytes);
+}
+
+void Device::wait_idle() const { check(vkDeviceWaitIdle(handle_), "vkDeviceWaitIdle"); }
+
+void Device::wait(VkFence fence, std::string_view object) const {
+    VkResult result = VK_TIMEOUT;
+    while (result == VK_TIMEOUT) {
+        result = vkWaitForFences(handle_, 1, &fence, VK_TRUE, wait_slice_nanoseconds);
+    }
+    check(result, "vkWaitForFences", object);
+}
+
+void Device::submit(VkCommandBuffer commands, VkFence fence, std::string_view object) const {
+    auto buffer = structure<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
+    buffer.commandBuffer = commands;
+    auto info = structure<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &buffer;
+    check(vkQueueSubmit2(queue_, 1, &info, fence), "vkQueueSubmit2", object);
+}
+
+void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const {
+    OnceCommands once(*this, once_pool_);
+    auto fence = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+    create_handle(vkCreateFence, handle_, fence, once.fence, "vkCreateFence", "set-up");
+    auto allocation = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    allocation.commandPool = once_pool_;
+    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocation.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    check(vkAllocateCommandBuffers(handle_, &allocation, &commands), "vkAllocateCommandBuffers", "set-up");
+    once.commands = commands;
+    auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer", "set-up");
+    record(commands);
+    check(vkEndCommandBuffer(commands), "vkEndCommandBuffer", "set-up");
+    submit(commands, once.fence, "set-up");
+    once.in_flight = true;
+    wait(once.fence, "set-up");
+    once.in_flight = false;
+}
+
+void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+    if (!set_name_) return;
+    auto info = structure<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = name.c_str();
+    check(set_name_(handle_, &info), "vkSetDebugUtilsObjectNameEXT", name);
+}
+
+}  // namespace drape::vulkan

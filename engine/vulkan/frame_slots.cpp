@@ -1,0 +1,47 @@
+#include "vulkan/frame_slots.h"
+
+#include <fmt/format.h>
+#include <volk.h>
+
+#include "vulkan/structure.h"
+
+namespace drape::vulkan {
+
+FrameSlots::FrameSlots(const Device& device, Empty) : device_(device) {}
+
+FrameSlots::FrameSlots(const Device& device) : FrameSlots(device, Empty{}) {
+    const auto info = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+    for (VkFence& fence : fences_) {
+        create_handle(vkCreateFence, device.handle(), info, fence, "vkCreateFence", "frame slot");
+        device.set_name(VK_OBJECT_TYPE_FENCE, reinterpret_cast<std::uint64_t>(fence), "frame slot");
+    }
+}
+
+FrameSlots::~FrameSlots() {
+    for (std::uint32_t slot = 0; slot < frame_slot_count; ++slot) {
+        try {
+            wait(slot);
+        } catch (const VulkanError&) {
+            // The fence cannot be waited for; the queue's own idleness lets it go safely, and on a lost
+            // device (the usual reason) returns at once.
+            vkDeviceWaitIdle(device_.handle());
+        }
+    }
+    for (VkFence fence : fences_) vkDestroyFence(device_.handle(), fence, nullptr);
+}
+
+void FrameSlots::wait(std::uint32_t slot) {
+    if (!pending_[slot]) return;
+    device_.wait(fences_[slot], fmt::format("frame slot {}", slot));
+    pending_[slot] = false;
+}
+
+void FrameSlots::submit(std::uint32_t slot, VkCommandBuffer commands) {
+    const std::string object = fmt::format("frame slot {}", slot);
+    if (pending_[slot]) throw VulkanError(object + " was submitted again before it was waited for");
+    check(vkResetFences(device_.handle(), 1, &fences_[slot]), "vkResetFences", object);
+    device_.submit(commands, fences_[slot], object);
+    pending_[slot] = true;
+}
+
+}  // namespace drape::vulkan

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+#include <volk.h>
+
+#include <utility>
+
+#include "vulkan/resources.h"
+#include "vulkan/structure.h"
+
+namespace drape::vulkan {
+
+namespace {
+
+[[noreturn]] void refuse(const ImageDescription& description, const std::string& why) {
+    throw VulkanError(
+        fmt::format("image {} ({} x {}): {}", description.name, description.width, description.height, why));
+}
+
+VkImageCreateInfo create_info(const ImageDescription& description) {
+    auto info = structure<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = description.format;
+    info.extent = {description.width, description.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = description.samples;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = description.usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return info;
+}
+
+/// Throws unless the device and its memory budget can take the image: asked before anything is created,
+/// since drivers find out as late as when the memory is bound, or never.
+void require_possible(const Device& device, const ImageDescription& description) {
+    if (description.width == 0 || description.height == 0)
+        refuse(description, "both sides must be at least 1");
+    const std::uint32_t side = device.limits().maxImageDimension2D;
+    if (description.width > side || description.height > side) {
+        refuse(description, fmt::format("the device's limit is {} x {}", side, side));
+    }
+    const VkImageCreateInfo info = create_info(description);
+    VkImageFormatProperties properties;
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        device.physical(), info.format, info.imageType, info.tiling, info.usage, info.flags, &properties);
+    if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) {
+        refuse(description, fmt::format("the device has no images of VkFormat {} with the usage {:#x}",
+                                        static_cast<int>(info.format), info.usage));
+    }
+    check(result, "vkGetPhysicalDeviceImageFormatProperties", description.name);
+    if (description.width > properties.maxExtent.width || description.height > properties.maxExtent.height) {
+        refuse(description, fmt::format("the device's limit for this format and usage is {} x {}",
+                                        properties.maxExtent.width, properties.maxExtent.height));
+    }
+    if (!(properties.sampleCounts & static_cast<VkSampleCountFlags>(description.samples))) {
+        refuse(description, fmt::format("the device has no {} samples for this format and usage",
+                                        static_cast<int>(description.samples)));
+    }
+    // The sides are within the device's limit, so 64 bits hold the product.
+    const std::uint64_t bytes = std::uint64_t{description.width} * description.height *
+                                texel_size(description.format) *
+                                static_cast<std::uint32_t>(description.samples);
+    if (bytes > properties.maxResourceSize) {
+        refuse(description,
+               fmt::format("{} bytes, the device's limit is {}", bytes, properties.maxResourceSize));
+    }
+    device.budget().require(bytes, "image " + description.name);
+}
+
+}  // namespace
+
+std::uint32_t texel_size(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R8_UNORM:
+        case VK_FORMAT_R8_UINT:
+            return 1;
+        case VK_FORMAT_R8G8B8A8_UNORM:
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_R8G8B8A8_UINT:
+        case VK_FORMAT_R32_UINT:
+        case VK_FORMAT_R32_SINT:
+        case VK_FORMAT_R32_SFLOAT:
+        case VK_FORMAT_D32_SFLOAT:
+            return 4;
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_R32G32_UINT:
+        case VK_FORMAT_R32G32_SFLOAT:
+            return 8;
+        case VK_FORMAT_R32G32B32A32_UINT:
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return 16;
+        default:
+            throw VulkanError(fmt::format("VkFormat {} is none that Drape uses", static_cast<int>(format)));
+    }
+}
+
+Image::Image(const Device& device, const ImageDescription& description, Empty)
+    : device_(&device), description_(description) {}
+
+Image::Image(const Device& device, const ImageDescription& description)
+    : Image(device, description, Empty{}) {
+    require_possible(device, description);
+    const VkImageCreateInfo info = create_info(description);
+    create_handle(vkCreateImage, device.handle(), info, handle_, "vkCreateImage", description.name);
+    device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_), description.name);
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(device.handle(), handle_, &requirements);
+    memory_ =
+        device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
+    byte_count_ = requirements.size;
+    check(vkBindImageMemory(device.handle(), handle_, memory_, 0), "vkBindImageMemory", description.name);
+    // An image that is only copied can have no view.
+    constexpr VkImageUsageFlags transfer = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (description.usage & ~transfer) make_view();
+}
+
+void Image::make_view() {
+    auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+    info.image = handle_;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = description_.format;
+    info.subresourceRange = {aspect(), 0, 1, 0, 1};
+    create_handle(vkCreateImageView, device_->handle(), info, view_, "vkCreateImageView", description_.name);
+    device_->set_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(view_), description_.name);
+}
+
+Image::~Image() {
+    if (!handle_) return;
+    vkDestroyImageView(device_->handle(), view_, nullptr);
+    vkDestroyImage(device_->handle(), handle_, nullptr);
+    device_->free(memory_, byte_count_);
+}
+
+Image::Image(Image&& other) noexcept
+    : device_(other.device_),
+      description_(std::move(other.description_)),
+      handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
+      memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
+      view_(std::exchange(other.view_, VK_NULL_HANDLE)),
+      byte_count_(std::exchange(other.byte_count_, 0)) {}
+
+VkImageAspectFlags Image::aspect() const {
+    return description_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                       : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+}  // namespace drape::vulkan

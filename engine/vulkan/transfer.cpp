@@ -1,0 +1,144 @@
+// Set-up and test transfers: each its own submit and wait, through a staging buffer.
+#include <fmt/format.h>
+#include <volk.h>
+
+#include <cstring>
+
+#include "vulkan/resources.h"
+#include "vulkan/structure.h"
+
+namespace drape::vulkan {
+
+namespace {
+
+void require_size(const std::string& object, std::uint64_t has, std::uint64_t given) {
+    if (has != given)
+        throw VulkanError(fmt::format("{} holds {} bytes, the transfer has {}", object, has, given));
+}
+
+void require_transferable(const Image& image, std::uint64_t bytes, VkImageUsageFlags usage) {
+    const ImageDescription& description = image.description();
+    const std::string object = "image " + description.name;
+    if (description.samples != VK_SAMPLE_COUNT_1_BIT) {
+        throw VulkanError(object + " has several samples: it cannot be copied");
+    }
+    if (!(description.usage & usage)) throw VulkanError(object + " was made without the transfer usage");
+    require_size(object,
+                 std::uint64_t{description.width} * description.height * texel_size(description.format),
+                 bytes);
+}
+
+void require_transferable(const Buffer& buffer, std::uint64_t bytes, VkBufferUsageFlags usage) {
+    const BufferDescription& description = buffer.description();
+    const std::string object = "buffer " + description.name;
+    require_size(object, description.byte_count, bytes);
+    if (buffer.mapped().empty() && !(description.usage & usage)) {
+        throw VulkanError(object + " was made without the transfer usage");
+    }
+}
+
+/// Waits for all earlier work on the queue and makes it visible to all later work, the host included: plain
+/// and strong, since these transfers are not in the frame loop.
+void full_barrier(VkCommandBuffer commands) {
+    auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+/// UNDEFINED -> GENERAL: the contents are lost, and no earlier use need be waited for but in execution.
+void discard_to_general(VkCommandBuffer commands, const Image& image) {
+    auto barrier = structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.handle();
+    barrier.subresourceRange = {image.aspect(), 0, 1, 0, 1};
+    auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+VkBufferImageCopy whole(const Image& image) {
+    VkBufferImageCopy region{};  // row length 0: tightly packed
+    region.imageSubresource = {image.aspect(), 0, 0, 1};
+    region.imageExtent = {image.description().width, image.description().height, 1};
+    return region;
+}
+
+Buffer staging(const Device& device, const std::string& name, std::uint64_t bytes, BufferHome home) {
+    const VkBufferUsageFlags usage =
+        home == BufferHome::upload ? VK_BUFFER_USAGE_TRANSFER_SRC_BIT : VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    return Buffer(device, {.name = name + " staging", .byte_count = bytes, .usage = usage, .home = home});
+}
+
+void copy(VkCommandBuffer commands, const Buffer& from, const Buffer& to) {
+    const VkBufferCopy region{0, 0, from.description().byte_count};
+    full_barrier(commands);
+    vkCmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
+    full_barrier(commands);
+}
+
+}  // namespace
+
+void upload(const Device& device, const Image& image, std::span<const std::byte> bytes) {
+    require_transferable(image, bytes.size(), VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    const Buffer source = staging(device, image.description().name, bytes.size(), BufferHome::upload);
+    std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
+    device.run_once([&](VkCommandBuffer commands) {
+        discard_to_general(commands, image);
+        const VkBufferImageCopy region = whole(image);
+        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
+                               &region);
+        full_barrier(commands);
+    });
+}
+
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes) {
+    require_transferable(buffer, bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    if (!buffer.mapped().empty()) {
+        std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());  // the next submit makes it visible
+        return;
+    }
+    const Buffer source = staging(device, buffer.description().name, bytes.size(), BufferHome::upload);
+    std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
+    device.run_once([&](VkCommandBuffer commands) { copy(commands, source, buffer); });
+}
+
+void download(const Device& device, const Image& image, std::span<std::byte> bytes) {
+    require_transferable(image, bytes.size(), VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    const Buffer target = staging(device, image.description().name, bytes.size(), BufferHome::readback);
+    device.run_once([&](VkCommandBuffer commands) {
+        full_barrier(commands);
+        const VkBufferImageCopy region = whole(image);
+        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, target.handle(), 1,
+                               &region);
+        full_barrier(commands);
+    });
+    std::memcpy(bytes.data(), target.mapped().data(), bytes.size());
+}
+
+void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
+    require_transferable(buffer, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    if (!buffer.mapped().empty()) {
+        device.run_once([](VkCommandBuffer commands) { full_barrier(commands); });
+        std::memcpy(bytes.data(), buffer.mapped().data(), bytes.size());
+        return;
+    }
+    const Buffer target = staging(device, buffer.description().name, bytes.size(), BufferHome::readback);
+    device.run_once([&](VkCommandBuffer commands) { copy(commands, buffer, target); });
+    std::memcpy(bytes.data(), target.mapped().data(), bytes.size());
+}
+
+}  // namespace drape::vulkan

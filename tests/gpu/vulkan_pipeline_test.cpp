@@ -1,0 +1,267 @@
+// Pipelines: specialisation, push constants, rasterising, and what is refused when one is made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <volk.h>
+
+#include <array>
+#include <bit>
+#include <string>
+#include <vector>
+
+#include "gpu_test.h"
+#include "vulkan/pipeline.h"
+#include "vulkan/resources.h"
+#include "vulkan/structure.h"
+
+namespace drape::test {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using vulkan::Buffer;
+using vulkan::ComputePipeline;
+using vulkan::DescriptorAccess;
+using vulkan::DescriptorDeclaration;
+using vulkan::DescriptorKind;
+using vulkan::GraphicsPipeline;
+using vulkan::Image;
+using vulkan::MemberLayout;
+using vulkan::ShaderInterface;
+using vulkan::SpecializationConstant;
+using vulkan::StructLayout;
+using vulkan::structure;
+using vulkan::VulkanError;
+
+namespace {
+
+struct ScalePush {
+    std::uint32_t count;
+    float term;
+};
+constexpr MemberLayout scale_push_members[] = {{"count", offsetof(ScalePush, count)},
+                                               {"term", offsetof(ScalePush, term)}};
+constexpr StructLayout scale_push{"ScalePush", sizeof(ScalePush), scale_push_members};
+constexpr DescriptorDeclaration scale_descriptors[] = {
+    {1, "Target", DescriptorKind::storage_buffer, DescriptorAccess::write, VK_FORMAT_UNDEFINED, nullptr, 4},
+    {0, "Source", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, nullptr, 4}};
+
+ShaderInterface scale_shader() {
+    return {"scale.comp", scale_descriptors, &scale_push, test_shader("scale.comp")};
+}
+
+template <class Function>
+std::string error_of(Function function) {
+    try {
+        function();
+    } catch (const VulkanError& error) {
+        return error.what();
+    }
+    return "no VulkanError";
+}
+
+std::string compute_error(const ShaderInterface& shader, std::vector<SpecializationConstant> constants = {}) {
+    return error_of([&] { ComputePipeline(gpu().device, "broken", shader, constants); });
+}
+
+constexpr DescriptorDeclaration corner_descriptors[] = {
+    {0, "corners", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT}};
+constexpr MemberLayout tint_members[] = {{"tint", 0}};
+constexpr StructLayout tint_push{"TintPush", 16, tint_members};
+
+vulkan::GraphicsState triangle_state() {
+    vulkan::GraphicsState state;
+    state.vertex = {"triangle.vert", corner_descriptors, nullptr, test_shader("triangle.vert")};
+    state.fragment = {"triangle.frag", {}, &tint_push, test_shader("triangle.frag")};
+    state.constants = {{0, std::bit_cast<std::uint32_t>(1.0f)}};
+    return state;
+}
+
+/// A frame of 4 x 4 texels with one triangle over its left half, drawn by `pipeline`.
+class TriangleFrame {
+  public:
+    static constexpr std::uint32_t side = 4;
+
+    std::vector<std::uint32_t> draw(const GraphicsPipeline& pipeline) {
+        const std::vector<float> corners = {-1, -3, 0.5f, 0, -1, 3, 0.5f, 0, 0, 0, 0.5f, 0};
+        std::vector<float> left = corners;
+        left[8] = 0.0f;  // third corner at x = 0: the triangle covers x in [-1, 0], narrowing to the right
+        left[1] = -20.0f;
+        left[5] = 20.0f;
+        upload(gpu().device, corners_, std::as_bytes(std::span(left)));
+        gpu().device.run_once([&](VkCommandBuffer commands) { record(commands, pipeline); });
+        std::vector<std::uint32_t> texels(side * side);
+        download(gpu().device, color_, std::as_writable_bytes(std::span(texels)));
+        return texels;
+    }
+
+  private:
+    void to_general(VkCommandBuffer commands, const Image& image) const {
+        auto barrier = structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.image = image.handle();
+        barrier.subresourceRange = {image.aspect(), 0, 1, 0, 1};
+        auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+        dependency.imageMemoryBarrierCount = 1;
+        dependency.pImageMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    }
+
+    static VkRenderingAttachmentInfo attachment(const Image& image, VkClearValue clear) {
+        auto info = structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+        info.imageView = image.view();
+        info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+        info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        info.clearValue = clear;
+        return info;
+    }
+
+    void record(VkCommandBuffer commands, const GraphicsPipeline& pipeline) const {
+        to_general(commands, color_);
+        to_general(commands, depth_);
+        const VkRenderingAttachmentInfo color = attachment(color_, {.color = {{0, 0, 0, 1}}});
+        const VkRenderingAttachmentInfo depth = attachment(depth_, {.depthStencil = {1, 0}});
+        auto rendering = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+        rendering.renderArea = {{0, 0}, {side, side}};
+        rendering.layerCount = 1;
+        rendering.colorAttachmentCount = 1;
+        rendering.pColorAttachments = &color;
+        rendering.pDepthAttachment = &depth;
+        vkCmdBeginRendering(commands, &rendering);
+        vkCmdBindPipeline(commands, pipeline.bind_point(), pipeline.handle());
+        const VkViewport viewport{0, 0, side, side, 0, 1};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+        vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
+        const VkDescriptorImageInfo image{VK_NULL_HANDLE, corners_.view(), VK_IMAGE_LAYOUT_GENERAL};
+        auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        write.pImageInfo = &image;
+        vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
+        constexpr std::array<float, 4> tint = {0, 1, 0, 0};
+        vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0,
+                           pipeline.push_constant_size(), tint.data());
+        vkCmdDraw(commands, 3, 1, 0, 0);
+        vkCmdEndRendering(commands);
+    }
+
+    Image corners_{gpu().device,
+                   {"corners", VK_FORMAT_R32G32B32A32_SFLOAT, 3, 1,
+                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
+    Image color_{gpu().device,
+                 {"color", VK_FORMAT_R8G8B8A8_SRGB, side, side,
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
+    Image depth_{gpu().device,
+                 {"depth", VK_FORMAT_D32_SFLOAT, side, side, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}};
+};
+
+/// What scale.comp makes of `source`.
+std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<float>& source, float term) {
+    const vulkan::Device& device = gpu().device;
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const std::uint64_t bytes = source.size() * sizeof(float);
+    const Buffer from(device, {"from", bytes, usage}), to(device, {"to", bytes, usage});
+    upload(device, from, std::as_bytes(std::span(source)));
+    device.run_once([&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, pipeline.bind_point(), pipeline.handle());
+        const VkDescriptorBufferInfo buffers[] = {{from.handle(), 0, VK_WHOLE_SIZE},
+                                                  {to.handle(), 0, VK_WHOLE_SIZE}};
+        auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.descriptorCount = 2;  // runs on from binding 0 into binding 1
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pBufferInfo = buffers;
+        vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
+        const ScalePush push{static_cast<std::uint32_t>(source.size()), term};
+        vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0, sizeof(push),
+                           &push);
+        const std::uint32_t x = pipeline.local_size()[0];
+        vkCmdDispatch(commands, (push.count + x - 1) / x, 1, 1);
+    });
+    std::vector<float> result(source.size());
+    download(device, to, std::as_writable_bytes(std::span(result)));
+    return result;
+}
+
+}  // namespace
+
+TEST(VulkanComputePipeline, specialises_constants_and_workgroup_size) {
+    const SpecializationConstant constants[] = {{5, std::bit_cast<std::uint32_t>(2.5f)}, {3, 16}};
+    const ComputePipeline pipeline(gpu().device, "scale", scale_shader(), constants);
+    EXPECT_EQ(pipeline.local_size(), (std::array<std::uint32_t, 3>{16, 1, 1}));
+    EXPECT_EQ(run_scale(pipeline, {1, -2, 4, 0.5f, 8}, 0.25f),
+              (std::vector<float>{16002.75f, 15995.25f, 16010.25f, 16001.5f, 16020.25f}));
+}
+
+TEST(VulkanComputePipeline, has_its_descriptors_sorted_and_its_push_constants) {
+    const ComputePipeline pipeline(gpu().device, "scale", scale_shader(), {});
+    ASSERT_EQ(pipeline.descriptors().size(), 2u);
+    EXPECT_EQ(pipeline.descriptors()[0].name, "Source");
+    EXPECT_EQ(pipeline.descriptors()[1].name, "Target");
+    EXPECT_EQ(pipeline.push_constant_size(), sizeof(ScalePush));
+    EXPECT_EQ(pipeline.push_constant_stages(), VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT});
+    EXPECT_EQ(pipeline.name(), "scale");
+    EXPECT_EQ(run_scale(pipeline, {3}, 1), (std::vector<float>{1004})) << "the shader's own defaults";
+}
+
+TEST(VulkanComputePipeline, refuses_a_constant_that_the_shader_lacks) {
+    EXPECT_THAT(compute_error(scale_shader(), {{6, 0}}),
+                HasSubstr("pipeline broken: no shader has the specialization constant 6"));
+}
+
+TEST(VulkanComputePipeline, refuses_a_workgroup_that_the_device_cannot_have) {
+    EXPECT_THAT(compute_error(scale_shader(), {{3, 1u << 20}}),
+                HasSubstr("cannot have workgroups of 1048576 x 1 x 1"));
+    EXPECT_THAT(compute_error(scale_shader(), {{3, 0}}), HasSubstr("cannot have workgroups of 0 x 1 x 1"));
+}
+
+TEST(VulkanComputePipeline, refuses_a_shader_that_differs_from_its_declaration) {
+    ShaderInterface shader = scale_shader();
+    shader.descriptors = std::span(scale_descriptors).first(1);
+    EXPECT_THAT(compute_error(shader), HasSubstr("binding 0 (Source) is used by the shader"));
+}
+
+TEST(VulkanComputePipeline, refuses_another_stages_shader_and_unknown_modules) {
+    EXPECT_THAT(compute_error(triangle_state().vertex),
+                HasSubstr("shader module triangle.vert is a vertex shader, not a compute shader"));
+    EXPECT_THAT(compute_error({"no such module", {}}),
+                HasSubstr("there is no shader module \"no such module\""));
+}
+
+TEST(VulkanGraphicsPipeline, draws_what_the_vertex_image_says) {
+    TriangleFrame frame;
+    const GraphicsPipeline pipeline(gpu().device, "triangle", triangle_state());
+    EXPECT_EQ(pipeline.push_constant_stages(), VkShaderStageFlags{VK_SHADER_STAGE_FRAGMENT_BIT});
+    const std::vector<std::uint32_t> texels = frame.draw(pipeline);
+    constexpr std::uint32_t yellow = 0xff00ffff, black = 0xff000000;  // red specialised, green pushed
+    for (std::uint32_t i = 0; i < texels.size(); ++i) {
+        EXPECT_EQ(texels[i], i % TriangleFrame::side < 2 ? yellow : black) << "texel " << i;
+    }
+}
+
+TEST(VulkanGraphicsPipeline, can_have_no_fragment_stage_and_no_colour) {
+    vulkan::GraphicsState state = triangle_state();
+    state.fragment = {};
+    state.constants = {};
+    state.color_format = VK_FORMAT_UNDEFINED;
+    const GraphicsPipeline pipeline(gpu().device, "shadow", state);
+    EXPECT_NE(pipeline.handle(), VkPipeline{VK_NULL_HANDLE});
+    EXPECT_EQ(pipeline.push_constant_size(), 0u);
+}
+
+TEST(VulkanGraphicsPipeline, refuses_constants_of_neither_stage_and_swapped_stages) {
+    vulkan::GraphicsState state = triangle_state();
+    state.constants.push_back({9, 1});
+    EXPECT_THAT(error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
+                HasSubstr("no shader has the specialization constant 9"));
+    state = triangle_state();
+    std::swap(state.vertex, state.fragment);
+    EXPECT_THAT(error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
+                HasSubstr("triangle.frag is a fragment shader, not a vertex shader"));
+}
+
+}  // namespace drape::test
