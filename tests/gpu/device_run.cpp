@@ -1,0 +1,90 @@
+#include "device_run.h"
+
+#include <fmt/format.h>
+#include <volk.h>
+
+namespace drape::test {
+
+namespace {
+
+std::string normal_buffer(const ClothModel& cloth) { return cloth.name + "/normals on the host"; }
+
+/// Keeps the normals alive and fetches them.
+void add_normal_readback(graph::Graph& graph, const ClothState& state) {
+    const Grid& grid = state.model->grid;
+    const graph::Handle empty =
+        graph.buffer({normal_buffer(*state.model), grid.particle_count() * 16, graph::Lifetime::host_output});
+    graph::Handle target;
+    graph.add_pass(
+        state.pass_name("normal readback", "readback"),
+        [&](graph::PassSetup& setup) {
+            setup.read(state.normal, graph::Access::transfer_read);
+            target = setup.write(empty, graph::Access::transfer_write);
+        },
+        [normal = state.normal, target, &grid](graph::PassContext& context) {
+            const VkBufferImageCopy region{
+                0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {grid.columns(), grid.rows(), 1}};
+            vkCmdCopyImageToBuffer(context.commands(), context.image(normal).handle(), VK_IMAGE_LAYOUT_GENERAL,
+                                   context.buffer(target).handle(), 1, &region);
+        });
+}
+
+}  // namespace
+
+DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep)
+    : device_(device), model_(model), solver_(device, model), slots_(device) {
+    solver_.declare(graph_, true);
+    solver_.add_simulation(graph_);
+    solver_.add_normals(graph_);
+    for (const ClothState& state : solver_.cloths()) add_normal_readback(graph_, state);
+    plan_ = graph::make_plan(graph_);
+    const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
+    pool_ = std::make_unique<graph::ResourcePool>(device, plans);
+    recorded_ = std::make_unique<graph::RecordedPlan>(graph_, plan_, *pool_, graph::TimestampMode::none, keep);
+    solver_.upload(*pool_);
+}
+
+void DeviceRun::run_frame(std::uint32_t frame) {
+    solver_.write_inputs(*pool_, 0, frame);
+    slots_.submit(0, recorded_->commands(0));
+    slots_.wait(0);
+}
+
+std::vector<glsl::vec4> DeviceRun::image(std::size_t cloth, const std::string& part) const {
+    std::vector<glsl::vec4> texels(model_.cloths[cloth].grid.particle_count());
+    vulkan::download(device_, pool_->image(model_.cloths[cloth].name + "/" + part),
+                     std::as_writable_bytes(std::span(texels)));
+    return texels;
+}
+
+std::vector<float> DeviceRun::multiplier(std::size_t cloth, std::size_t direction) const {
+    std::vector<float> texels(model_.cloths[cloth].grid.particle_count());
+    vulkan::download(device_,
+                     pool_->image(model_.cloths[cloth].name + "/multiplier " +
+                                  std::string(spring_directions[direction].name)),
+                     std::as_writable_bytes(std::span(texels)));
+    return texels;
+}
+
+std::vector<glsl::vec4> DeviceRun::normals(std::size_t cloth) const {
+    std::vector<glsl::vec4> texels(model_.cloths[cloth].grid.particle_count());
+    std::memcpy(texels.data(), pool_->buffer(normal_buffer(model_.cloths[cloth]), 0).mapped().data(),
+                texels.size() * sizeof(glsl::vec4));
+    return texels;
+}
+
+bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where) {
+    if (a.size() != b.size()) {
+        where = fmt::format("{} against {} texels", a.size(), b.size());
+        return false;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (std::memcmp(&a[i], &b[i], sizeof(glsl::vec4)) != 0) {
+            where = fmt::format("texel {}: ({:.9g} {:.9g} {:.9g} {:.9g}) against ({:.9g} {:.9g} {:.9g} {:.9g})", i,
+                                a[i].x, a[i].y, a[i].z, a[i].w, b[i].x, b[i].y, b[i].z, b[i].w);
+            return false;
+        }
+    return true;
+}
+
+}  // namespace drape::test
