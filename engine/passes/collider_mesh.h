@@ -1,0 +1,39 @@
+// The scene's colliders as instances of the collider shaders' meshes, in one buffer per frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene_description.h"
+#include "shared/raster_types.h"
+
+namespace drape {
+
+/// sRGB 0..1 -> linear.
+glsl::vec4 linear_color(const Vec3& srgb);
+
+/// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/raster_types.h).
+struct ColliderDraw {
+    int kind = glsl::kind_backdrop;
+    std::uint32_t vertex_count = 0;
+    std::uint32_t first_instance = 0, instance_count = 0;
+    bool casts_shadow = false;
+};
+
+/// Kinds that the scene has, then the backdrop, which always is there: last, so that what is hidden behind
+/// everything else is not shaded.
+std::vector<ColliderDraw> collider_draws(const Colliders& colliders);
+
+/// How planes, which have no end, are drawn: as a square around the point below `center`.
+struct PlaneExtent {
+    Vec3 center{0, 0, 0};
+    double half_side = 1;      ///< m
+    double line_distance = 1;  ///< m, of the grid drawn on it
+};
+
+/// In the order that `collider_draws` counts, poses at `time` (s).
+std::vector<glsl::ColliderInstance> collider_instances(const Colliders& colliders, const PlaneExtent& extent,
+                                                       double time);
+
+}  // namespace drape

@@ -1,0 +1,249 @@
+#include "passes/raster.h"
+
+#include <volk.h>
+
+#include <algorithm>
+#include <cstring>
+#include <initializer_list>
+
+#include "passes/raster_frame.h"
+#include "passes/raster_interfaces.h"
+#include "passes/raster_recording.h"
+
+namespace drape {
+
+using graph::Access;
+using graph::Handle;
+namespace interfaces = raster_interfaces;
+
+/// Newest handles of what a frame's passes write one after the other.
+struct RasterPass::Targets {
+    Handle frame, colliders;
+    Handle color, multisampled, depth;  ///< multisampled: invalid at one sample
+    Handle shadow_map, shadow_depth;    ///< invalid without a shadow
+};
+
+namespace {
+
+constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
+
+std::string shadow_skip_reason(const SceneDescription& scene, const RasterOptions& options) {
+    const Colliders& colliders = scene.colliders;
+    if (!options.shadow) return "switched off";
+    if (scene.lights.empty()) return "the scene has no light";
+    if (!(scene.lights[0].intensity > 0)) return "the first light has no intensity";
+    if (scene.cloths.empty() && colliders.spheres.empty() && colliders.boxes.empty() &&
+        colliders.ellipsoids.empty())
+        return "the scene has nothing that casts one";
+    return {};
+}
+
+glsl::ClothPush cloth_push(const RasterCloth& cloth) {
+    const auto u = static_cast<float>(cloth.size_u);
+    const auto v = static_cast<float>(cloth.size_v);
+    const glsl::uint checkered = cloth.appearance.pattern == Pattern::checker ? 1 : 0;
+    return {{cloth.columns, cloth.rows, checkered, 0},
+            {u, v, std::min(u, v) / 8, 0},
+            linear_color(cloth.appearance.front),
+            linear_color(cloth.appearance.back)};
+}
+
+}  // namespace
+
+RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
+                       std::uint32_t height, std::uint32_t samples, const RasterOptions& options)
+    : width_(width),
+      height_(height),
+      samples_(samples),
+      colliders_(scene.colliders),
+      shadow_skip_reason_(shadow_skip_reason(scene, options)) {
+    if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
+    const BoundingSphere extent = scene_extent(scene);
+    plane_extent_ = plane_extent(scene, extent);
+    constants_ = frame_constants(scene, extent, width, height);
+    make_pipelines(device, !scene.cloths.empty());
+}
+
+void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth) {
+    const bool shadow = casts_shadow();
+    vulkan::GraphicsState state;
+    state.color_format = color_format;
+    state.depth_format = depth_format;
+    state.samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    vulkan::GraphicsState shadow_state = state;
+    shadow_state.color_format = shadow_format;
+    shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
+    shadow_state.fragment = interfaces::shadow_fragment;
+    if (has_cloth) {
+        state.vertex = interfaces::cloth_vertex;
+        state.fragment = shadow ? interfaces::cloth_shadowed_fragment : interfaces::cloth_fragment;
+        cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cloth", state);
+        shadow_state.vertex = interfaces::shadow_cloth_vertex;
+        if (shadow)
+            shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
+    }
+    state.vertex = interfaces::collider_vertex;
+    state.fragment = shadow ? interfaces::collider_shadowed_fragment : interfaces::collider_fragment;
+    shadow_state.vertex = interfaces::shadow_collider_vertex;
+    for (const ColliderDraw& range : collider_draws(colliders_)) {
+        const auto kind = static_cast<std::uint32_t>(range.kind);
+        state.constants = {{interfaces::collider_kind_constant, kind}};
+        state.depth_write = range.kind != glsl::kind_backdrop;
+        draws_.push_back(
+            {range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
+        if (!shadow || !range.casts_shadow) continue;
+        shadow_state.constants = state.constants;
+        shadow_draws_.push_back(
+            {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
+    }
+}
+
+RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
+    Targets targets;
+    const std::size_t instance_count =
+        draws_.back().range.first_instance + draws_.back().range.instance_count;
+    targets.frame = graph.buffer({frame_name, sizeof(glsl::FrameConstants), graph::Lifetime::host_input});
+    targets.colliders = graph.buffer(
+        {colliders_name, instance_count * sizeof(glsl::ColliderInstance), graph::Lifetime::host_input});
+    const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    targets.color = graph.image({color_name, color_format, width_, height_});
+    targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
+    if (samples_ > 1)
+        targets.multisampled = graph.image({multisampled_name, color_format, width_, height_, samples});
+    if (casts_shadow()) {
+        const std::uint32_t side = glsl::shadow_map_size;
+        targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
+        targets.shadow_depth = graph.image({shadow_depth_name, depth_format, side, side});
+    }
+    return targets;
+}
+
+Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths) const {
+    Targets targets = declare(graph);
+    const std::vector<RasterCloth> kept(cloths.begin(), cloths.end());
+    if (casts_shadow()) {
+        add_shadow(graph, targets, kept);
+    } else {
+        graph.skip("shadow", shadow_skip_reason_);
+    }
+    add_raster(graph, targets, kept);
+    return add_readback(graph, targets);
+}
+
+void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
+                            const std::vector<RasterCloth>& cloths) const {
+    auto attachments = std::make_shared<RasterAttachments>();
+    graph.add_pass(
+        {"shadow", "shadow", "shadow"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::vertex_read);
+            setup.read(targets.colliders, Access::vertex_read);
+            for (const RasterCloth& cloth : cloths) {
+                setup.read(cloth.position, Access::vertex_read);
+                setup.read(cloth.indices, Access::index_read);
+            }
+            attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
+            attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
+        },
+        [this, attachments, cloths, frame = targets.frame,
+         colliders = targets.colliders](graph::PassContext& context) {
+            begin_rendering(context, *attachments);
+            if (!cloths.empty()) bind_pipeline(context, *shadow_cloth_);
+            for (const RasterCloth& cloth : cloths) {
+                push_bindings(
+                    context, *shadow_cloth_,
+                    {{interfaces::frame_binding, frame}, {interfaces::position_binding, cloth.position}});
+                draw_cloth(context, *shadow_cloth_, cloth_push(cloth), cloth.indices, cloth.index_count);
+            }
+            for (const Draw& draw : shadow_draws_) {
+                bind_pipeline(context, *draw.pipeline);
+                push_bindings(
+                    context, *draw.pipeline,
+                    {{interfaces::frame_binding, frame}, {interfaces::colliders_binding, colliders}});
+                draw_colliders(context, draw.range);
+            }
+            vkCmdEndRendering(context.commands());
+        });
+}
+
+void RasterPass::add_raster(graph::Graph& graph, Targets& targets,
+                            const std::vector<RasterCloth>& cloths) const {
+    auto attachments = std::make_shared<RasterAttachments>();
+    graph.add_pass(
+        {"raster", "raster", "raster"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::vertex_read);
+            setup.read(targets.frame, Access::fragment_read);
+            setup.read(targets.colliders, Access::vertex_read);
+            if (casts_shadow()) setup.read(targets.shadow_map, Access::fragment_read);
+            for (const RasterCloth& cloth : cloths) {
+                setup.read(cloth.position, Access::vertex_read);
+                setup.read(cloth.normal, Access::vertex_read);
+                setup.read(cloth.indices, Access::index_read);
+            }
+            Handle& drawn = samples_ > 1 ? targets.multisampled : targets.color;
+            attachments->color = drawn = setup.write(drawn, Access::color_write);
+            attachments->depth = setup.write(targets.depth, Access::depth_write);
+            if (samples_ > 1)
+                attachments->resolve = targets.color = setup.write(targets.color, Access::resolve_write);
+        },
+        [this, attachments, cloths, targets](graph::PassContext& context) {
+            begin_rendering(context, *attachments);
+            draw_picture(context, targets, cloths);
+            vkCmdEndRendering(context.commands());
+        });
+}
+
+void RasterPass::draw_picture(const graph::PassContext& context, const Targets& targets,
+                              const std::vector<RasterCloth>& cloths) const {
+    std::vector<BoundHandle> shared{{interfaces::frame_binding, targets.frame}};
+    if (casts_shadow()) shared.push_back({interfaces::shadow_map_binding, targets.shadow_map});
+    const auto bindings = [&](std::initializer_list<BoundHandle> own) {
+        std::vector<BoundHandle> all = shared;
+        all.insert(all.end(), own);
+        return all;
+    };
+    if (!cloths.empty()) bind_pipeline(context, *cloth_);
+    for (const RasterCloth& cloth : cloths) {
+        push_bindings(context, *cloth_,
+                      bindings({{interfaces::position_binding, cloth.position},
+                                {interfaces::normal_binding, cloth.normal}}));
+        draw_cloth(context, *cloth_, cloth_push(cloth), cloth.indices, cloth.index_count);
+    }
+    for (const Draw& draw : draws_) {
+        bind_pipeline(context, *draw.pipeline);
+        push_bindings(context, *draw.pipeline,
+                      bindings({{interfaces::colliders_binding, targets.colliders}}));
+        draw_colliders(context, draw.range);
+    }
+}
+
+Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
+    auto readback = std::make_shared<Handle>(
+        graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
+    graph.add_pass(
+        {"readback", "readback", "readback"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.color, Access::transfer_read);
+            *readback = setup.write(*readback, Access::transfer_write);
+        },
+        [color = targets.color, readback](graph::PassContext& context) {
+            copy_to_buffer(context, color, *readback);
+        });
+    return *readback;
+}
+
+void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const {
+    const auto write = [&](const char* name, std::span<const std::byte> bytes) {
+        std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
+    };
+    const std::vector<glsl::ColliderInstance> instances = collider_instances(colliders_, plane_extent_, time);
+    write(frame_name, std::as_bytes(std::span(&constants_, 1)));
+    write(colliders_name, std::as_bytes(std::span(instances)));
+}
+
+std::uint64_t RasterPass::readback_byte_count() const { return std::uint64_t{4} * width_ * height_; }
+
+}  // namespace drape

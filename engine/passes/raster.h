@@ -1,0 +1,87 @@
+// The picture of a frame: cloths from their images, colliders as their true shapes, the first light's shadow,
+// and the copy that the host reads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "graph/executor.h"
+#include "passes/collider_mesh.h"
+#include "scene/scene_description.h"
+#include "shared/raster_types.h"
+#include "vulkan/pipeline.h"
+
+namespace drape {
+
+/// A cloth as the raster pass sees it. Images have one texel per particle, rgba32f: position (xyz metres) and
+/// normal (xyz unit, pointing to the front; zero where there is none). Indices are uint32,
+/// row * columns + column, corners of a triangle counter-clockwise seen from the front.
+struct RasterCloth {
+    std::string name;
+    std::uint32_t columns = 0, rows = 0;
+    double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
+    Appearance appearance;
+    graph::Handle position, normal, indices;
+    std::uint32_t index_count = 0;
+};
+
+struct RasterOptions {
+    bool shadow = true;
+};
+
+class RasterPass {
+  public:
+    /// Makes the pipelines that the scene needs and no others. `samples`: 1 or 4.
+    RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
+               std::uint32_t height, std::uint32_t samples, const RasterOptions& options = {});
+    RasterPass(const RasterPass&) = delete;
+    RasterPass& operator=(const RasterPass&) = delete;
+
+    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow", "raster" and
+    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows
+    /// from the top, tightly packed. The graph's plans may run as long as this object lives.
+    graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
+
+    /// Fills the host inputs of a slot for the picture at `time` (s).
+    void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
+
+    bool casts_shadow() const { return shadow_skip_reason_.empty(); }
+    std::uint64_t readback_byte_count() const;
+
+    static constexpr const char* readback_name = "color/readback";
+    static constexpr const char* frame_name = "raster/frame";
+    static constexpr const char* colliders_name = "raster/colliders";
+    static constexpr const char* color_name = "color";
+    static constexpr const char* multisampled_name = "color/multisampled";
+    static constexpr const char* depth_name = "depth";
+    static constexpr const char* shadow_map_name = "shadow/map";
+    static constexpr const char* shadow_depth_name = "shadow/depth";
+
+  private:
+    struct Draw {
+        ColliderDraw range;
+        std::unique_ptr<vulkan::GraphicsPipeline> pipeline;
+    };
+    struct Targets;
+
+    void make_pipelines(const vulkan::Device& device, bool has_cloth);
+    Targets declare(graph::Graph& graph) const;
+    void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void draw_picture(const graph::PassContext& context, const Targets& targets,
+                      const std::vector<RasterCloth>& cloths) const;
+    graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
+
+    std::uint32_t width_, height_, samples_;
+    Colliders colliders_;
+    PlaneExtent plane_extent_;
+    glsl::FrameConstants constants_;
+    std::string shadow_skip_reason_;  ///< empty: there is a shadow
+    std::unique_ptr<vulkan::GraphicsPipeline> cloth_, shadow_cloth_;
+    std::vector<Draw> draws_, shadow_draws_;
+};
+
+}  // namespace drape

@@ -1,0 +1,30 @@
+// The frame constants of the raster shaders: camera, lights, backdrop, and the shadow map's fit.
+#pragma once
+
+#include <cstdint>
+
+#include "passes/collider_mesh.h"
+#include "scene/scene_description.h"
+#include "shared/raster_types.h"
+
+namespace drape {
+
+struct BoundingSphere {
+    Vec3 center{0, 0, 0};
+    double radius = 1;
+};
+
+/// Around the cloths at their start (and where they would land on a plane below), the bounded colliders, and
+/// all of these wherever their key frames take them; cloths swing, so they count a quarter larger. An empty
+/// scene's: a sphere around the camera's target.
+BoundingSphere scene_extent(const SceneDescription& scene);
+
+/// Planes fade into the backdrop over this distance from the camera's target, m.
+double fade_radius(const SceneDescription& scene, const BoundingSphere& extent);
+PlaneExtent plane_extent(const SceneDescription& scene, const BoundingSphere& extent);
+
+/// The shadow map looks along the first light and holds `extent`.
+glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent,
+                                     std::uint32_t width, std::uint32_t height);
+
+}  // namespace drape

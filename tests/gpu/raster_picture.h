@@ -1,0 +1,183 @@
+// Hand-made cloths drawn by the raster pass, and the picture they make: what the raster tests share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "gpu_test.h"
+#include "graph/executor.h"
+#include "graph/plan.h"
+#include "passes/camera.h"
+#include "passes/raster.h"
+
+namespace drape {
+
+inline constexpr Vec3 black{0, 0, 0}, white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+inline constexpr std::uint32_t width = 320, height = 240;
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec3 unit(const Vec3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
+
+inline double linear(double srgb) {
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+inline double srgb_byte(double radiance) {
+    const double x = std::clamp(radiance, 0.0, 1.0);
+    return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+}
+
+/// Hand-made contents of a cloth's images.
+struct DrawnCloth {
+    std::uint32_t columns = 2, rows = 2;
+    double size_u = 1, size_v = 1;
+    Appearance appearance;
+    std::vector<glsl::vec4> positions, normals;
+    std::vector<std::uint32_t> indices;
+};
+
+inline glsl::vec4 texel(const Vec3& v) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 1.0f};
+}
+
+/// Flat grid around `center`, `u` and `v` the full edges along columns and rows; `normal`: what its image
+/// says.
+inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& normal,
+                             const Vec3& front, const Vec3& back, std::uint32_t particles = 2) {
+    DrawnCloth cloth{
+        particles, particles, std::sqrt(dot(u, u)), std::sqrt(dot(v, v)), {front, back, Pattern::plain}, {},
+        {},        {}};
+    for (std::uint32_t row = 0; row < particles; ++row) {
+        for (std::uint32_t column = 0; column < particles; ++column) {
+            const double s = column / (particles - 1.0) - 0.5, t = row / (particles - 1.0) - 0.5;
+            cloth.positions.push_back(texel(center + s * u + t * v));
+            cloth.normals.push_back(texel(normal));
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < particles; ++row) {
+        for (std::uint32_t column = 0; column + 1 < particles; ++column) {
+            const std::uint32_t p = row * particles + column, below = p + particles;
+            cloth.indices.insert(cloth.indices.end(), {p, p + 1, below, p + 1, below + 1, below});
+        }
+    }
+    return cloth;
+}
+
+/// Faces +z, towards the tests' camera.
+inline DrawnCloth square(const Vec3& center, double side, const Vec3& front, const Vec3& back) {
+    return flat_cloth(center, {side, 0, 0}, {0, side, 0}, {0, 0, 1}, front, back);
+}
+
+struct Picture {
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t columns = width;
+    std::array<int, 3> at(double x, double y) const {
+        const auto first =
+            4 * (static_cast<std::size_t>(std::floor(y)) * columns + static_cast<std::size_t>(std::floor(x)));
+        return {bytes.at(first), bytes.at(first + 1), bytes.at(first + 2)};
+    }
+    std::array<int, 3> at(const PixelPosition& position) const { return at(position.x, position.y); }
+};
+
+struct Shot {
+    std::uint32_t samples = 1;
+    double time = 0;
+    RasterOptions options{.shadow = false};
+    std::vector<graph::Skipped>* skipped = nullptr;
+};
+
+/// Black background, no light, white ambient light, camera on the z axis.
+inline SceneDescription dark_room() {
+    SceneDescription scene;
+    scene.camera = {{0, 0, 3}, {0, 0, 0}, 40};
+    scene.lights.clear();
+    scene.ambient = white;
+    scene.image.background = black;
+    return scene;
+}
+
+class Raster : public testing::Test {
+  protected:
+    static const vulkan::Device& device() { return test::gpu().device; }
+
+    Picture draw(SceneDescription scene, const std::vector<DrawnCloth>& cloths, const Shot& shot = {}) {
+        return draw_twice(std::move(scene), cloths, shot)[0];
+    }
+
+    /// The same plan submitted in both frame slots.
+    std::array<Picture, 2> draw_twice(SceneDescription scene, const std::vector<DrawnCloth>& cloths,
+                                      const Shot& shot = {}) {
+        scene.cloths.resize(cloths.size());
+        for (std::size_t i = 0; i < cloths.size(); ++i) describe(cloths[i], scene.cloths[i]);
+        const RasterPass raster(device(), scene, width, height, shot.samples, shot.options);
+        graph::Graph graph;
+        std::vector<RasterCloth> raster_cloths;
+        for (std::size_t i = 0; i < cloths.size(); ++i)
+            raster_cloths.push_back(declare(graph, "cloth" + std::to_string(i), cloths[i]));
+        raster.add(graph, raster_cloths);
+        const graph::Plan plan = graph::make_plan(graph);
+        if (shot.skipped) *shot.skipped = plan.skipped;
+        const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph, &plan}};
+        const graph::ResourcePool pool(device(), plans);
+        for (std::size_t i = 0; i < cloths.size(); ++i) fill(pool, "cloth" + std::to_string(i), cloths[i]);
+        const graph::RecordedPlan recorded(graph, plan, pool, graph::TimestampMode::none);
+        vulkan::FrameSlots slots(device());
+        std::array<Picture, 2> pictures;
+        for (std::uint32_t slot = 0; slot < 2; ++slot) {
+            raster.write_frame(pool, slot, shot.time);
+            slots.submit(slot, recorded.commands(slot));
+        }
+        for (std::uint32_t slot = 0; slot < 2; ++slot) {
+            slots.wait(slot);
+            const auto mapped = pool.buffer(RasterPass::readback_name, slot).mapped();
+            EXPECT_EQ(mapped.size(), raster.readback_byte_count());
+            pictures[slot].bytes.resize(raster.readback_byte_count());
+            std::memcpy(pictures[slot].bytes.data(), mapped.data(), raster.readback_byte_count());
+        }
+        return pictures;
+    }
+
+  private:
+    /// What the shadow map is fitted to.
+    static void describe(const DrawnCloth& drawn, Cloth& cloth) {
+        const auto at = [&](std::size_t i) {
+            return Vec3{drawn.positions[i].x, drawn.positions[i].y, drawn.positions[i].z};
+        };
+        cloth.size = {drawn.size_u, drawn.size_v};
+        cloth.placement = {at(0), unit(at(drawn.columns - 1) + -1.0 * at(0)),
+                           unit(at(drawn.positions.size() - drawn.columns) + -1.0 * at(0))};
+    }
+
+    static RasterCloth declare(graph::Graph& graph, const std::string& name, const DrawnCloth& cloth) {
+        const auto image = [&](const char* part) {
+            return graph.image({name + part, VK_FORMAT_R32G32B32A32_SFLOAT, cloth.columns, cloth.rows,
+                                VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::constant});
+        };
+        const auto byte_count = cloth.indices.size() * sizeof(std::uint32_t);
+        return {name,
+                cloth.columns,
+                cloth.rows,
+                cloth.size_u,
+                cloth.size_v,
+                cloth.appearance,
+                image("/position"),
+                image("/normal"),
+                graph.buffer({name + "/triangles", byte_count, graph::Lifetime::constant}),
+                static_cast<std::uint32_t>(cloth.indices.size())};
+    }
+
+    void fill(const graph::ResourcePool& pool, const std::string& name, const DrawnCloth& cloth) {
+        vulkan::upload(device(), pool.image(name + "/position"), std::as_bytes(std::span(cloth.positions)));
+        vulkan::upload(device(), pool.image(name + "/normal"), std::as_bytes(std::span(cloth.normals)));
+        vulkan::upload(device(), pool.buffer(name + "/triangles"), std::as_bytes(std::span(cloth.indices)));
+    }
+};
+
+}  // namespace drape

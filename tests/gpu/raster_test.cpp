@@ -1,0 +1,373 @@
+// The raster pass: what is drawn, where, in front of what, and in which colour, checked against closed forms.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "passes/camera.h"
+#include "raster_picture.h"
+
+namespace drape {
+namespace {
+
+PixelPosition pixel(const SceneDescription& scene, const Vec3& point) {
+    return project(scene.camera, width, height, point);
+}
+
+/// Which of red, green and blue a pixel has at all.
+std::array<bool, 3> channels(const std::array<int, 3>& pixel_color) {
+    return {pixel_color[0] > 0, pixel_color[1] > 0, pixel_color[2] > 0};
+}
+std::array<bool, 3> channels(const Vec3& color) { return {color[0] > 0, color[1] > 0, color[2] > 0}; }
+
+TEST(CameraTest, ProjectsByTheDefinitionOfTheFieldOfView) {
+    const Camera camera{{1, 2, 10}, {1, 2, 0}, 60};
+    const PixelPosition middle = project(camera, 640, 480, camera.target);
+    EXPECT_NEAR(middle.x, 320, 1e-9);
+    EXPECT_NEAR(middle.y, 240, 1e-9);
+    const double half = 10 * std::tan(30 * std::numbers::pi / 180);
+    EXPECT_NEAR(project(camera, 640, 480, {1, 2 + half, 0}).y, 0, 1e-9);
+    EXPECT_NEAR(project(camera, 640, 480, {1 + half * 640 / 480, 2, 0}).x, 640, 1e-9);
+    EXPECT_NEAR(project(camera, 640, 480, {1, 2, 10 - 0.1}).depth, 0, 1e-9);  // near plane
+    EXPECT_NEAR(project(camera, 640, 480, {1, 2, 10 - 1e4}).depth, 1, 1e-9);  // far plane
+    EXPECT_LT(middle.depth, project(camera, 640, 480, {1, 2, -1}).depth);
+    EXPECT_TRUE(std::isinf(project(camera, 640, 480, {1, 2, 11}).depth));
+}
+
+TEST(CameraTest, LooksStraightDown) {
+    const Camera camera{{0, 5, 0}, {0, 0, 0}, 40};
+    EXPECT_GT(project(camera, 100, 100, {1, 0, 0}).x, 51);
+    EXPECT_LT(project(camera, 100, 100, {0, 0, -1}).y, 49);
+}
+
+TEST_F(Raster, ParticlesLandWhereProjectSays) {
+    SceneDescription scene = dark_room();
+    scene.camera = {{1.2, 1.0, 2.6}, {0.1, 0.2, -0.1}, 50};
+    const std::array<Vec3, 6> colors{red, green, blue, Vec3{1, 1, 0}, Vec3{0, 1, 1}, Vec3{1, 0, 1}};
+    const std::array<Vec3, 6> places{Vec3{0, 0, 0},     {0.7, 0.4, 0.3}, {-0.6, 0.5, -0.4},
+                                     {-0.3, -0.5, 0.8}, {0.4, -0.6, 0},  {0.2, 0.9, -1.5}};
+    std::vector<DrawnCloth> cloths;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        cloths.push_back(flat_cloth(places[i], {0.08, 0, 0}, {0, 0.08, 0}, {0, 0, 1}, colors[i], colors[i]));
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Picture picture = draw(scene, cloths, {.samples = samples});
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            double x = 0, y = 0, count = 0;
+            for (std::uint32_t row = 0; row < height; ++row) {
+                for (std::uint32_t column = 0; column < width; ++column) {
+                    if (channels(picture.at(column, row)) != channels(colors[i])) continue;
+                    x += column + 0.5;
+                    y += row + 0.5;
+                    ++count;
+                }
+            }
+            const PixelPosition expected = pixel(scene, places[i]);
+            ASSERT_GT(count, 5) << "cloth " << i;
+            EXPECT_NEAR(x / count, expected.x, 0.5) << "cloth " << i << ", samples " << samples;
+            EXPECT_NEAR(y / count, expected.y, 0.5) << "cloth " << i << ", samples " << samples;
+        }
+    }
+}
+
+TEST_F(Raster, FrontIsWhereTheNormalPoints) {
+    SceneDescription scene = dark_room();
+    const DrawnCloth facing = flat_cloth({-0.5, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 1}, red, blue);
+    const DrawnCloth turned = flat_cloth({0.5, 0, 0}, {0.4, 0, 0}, {0, -0.4, 0}, {0, 0, -1}, red, blue);
+    const Picture picture = draw(scene, {facing, turned});
+    EXPECT_EQ(channels(picture.at(pixel(scene, {-0.5, 0, 0}))), channels(red));
+    EXPECT_EQ(channels(picture.at(pixel(scene, {0.5, 0, 0}))), channels(blue));
+    scene.camera.position = {0, 0, -3};
+    const Picture behind = draw(scene, {facing, turned});
+    EXPECT_EQ(channels(behind.at(pixel(scene, {-0.5, 0, 0}))), channels(blue));
+    EXPECT_EQ(channels(behind.at(pixel(scene, {0.5, 0, 0}))), channels(red));
+}
+
+ColliderCommon painted(const Vec3& color) {
+    ColliderCommon common;
+    common.color = color;
+    return common;
+}
+
+struct ColliderKind {
+    const char* name;
+    void (*add)(Colliders&);
+};
+
+class RasterDepth : public Raster, public testing::WithParamInterface<ColliderKind> {};
+
+TEST_P(RasterDepth, ClothHidesAndIsHidden) {
+    SceneDescription scene = dark_room();
+    GetParam().add(scene.colliders);
+    const std::vector<DrawnCloth> cloths{square({-0.1, 0, 0.55}, 0.1, red, red),
+                                         square({0.1, 0, -0.55}, 0.1, red, red)};
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Picture picture = draw(scene, cloths, {.samples = samples});
+        EXPECT_EQ(channels(picture.at(pixel(scene, {-0.1, 0, 0.55}))), channels(red));
+        EXPECT_EQ(channels(picture.at(pixel(scene, {0.1, 0, -0.55}))), channels(green));
+    }
+    scene.colliders = {};
+    EXPECT_EQ(channels(draw(scene, cloths).at(pixel(scene, {0.1, 0, -0.55}))), channels(red));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, RasterDepth,
+    testing::Values(ColliderKind{"plane",
+                                 [](Colliders& c) {
+                                     c.planes.push_back({painted(green), {0, 0, 1}, 0.25});
+                                 }},
+                    ColliderKind{"sphere",
+                                 [](Colliders& c) {
+                                     c.spheres.push_back({painted(green), {0, 0, 0}, 0.5});
+                                 }},
+                    ColliderKind{"box",
+                                 [](Colliders& c) {
+                                     c.boxes.push_back({painted(green), {0, 0, 0}, {0.4, 0.4, 0.5}});
+                                 }},
+                    ColliderKind{"ellipsoid",
+                                 [](Colliders& c) {
+                                     c.ellipsoids.push_back({painted(green), {0, 0, 0}, {0.4, 0.3, 0.5}});
+                                 }}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {
+    SceneDescription scene = dark_room();
+    // Half way along its path the sphere is at (0.7, 0.3, 0).
+    SphereCollider sphere{painted(green), {0.3, 0, 0}, 0.3};
+    sphere.path.keys = {{0, {0, 0.3, 0}, {}}, {1, {0.8, 0.3, 0}, {}}};
+    scene.colliders.spheres.push_back(sphere);
+    // Turned by 90 degrees about z, the half extents 0.5, 0.2 become 0.2, 0.5.
+    BoxCollider box{painted(blue), {-0.6, 0, 0}, {0.5, 0.2, 0.01}};
+    box.rotate = {0, 0, 90};
+    scene.colliders.boxes.push_back(box);
+    scene.camera.fov = 60;
+    const Picture picture = draw(scene, {}, {.time = 0.5});
+    const auto has = [&](const Vec3& point) { return channels(picture.at(pixel(scene, point))); };
+    // Silhouette of a sphere: the cone from the eye; its rim lies nearer than the centre.
+    const Vec3 center{0.7, 0.3, 0};
+    const Vec3 from_eye = center + -1.0 * scene.camera.position;
+    const double squared = dot(from_eye, from_eye), cone = 0.3 * std::sqrt(1 - 0.09 / squared);
+    const Vec3 rim_center = center + (-0.09 / squared) * from_eye;
+    const Vec3 up = unit(Vec3{0, 1, 0} + (-from_eye[1] / squared) * from_eye);
+    const double pixel_size = 0.02;
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_EQ(has(rim_center + (side * (cone - pixel_size)) * up), channels(green)) << side;
+        EXPECT_EQ(has(rim_center + (side * (cone + pixel_size)) * up), channels(black)) << side;
+        EXPECT_EQ(has({-0.6 + side * 0.18, 0, 0.01}), channels(blue)) << side;
+        EXPECT_EQ(has({-0.6 + side * 0.22, 0, 0.01}), channels(black)) << side;
+        EXPECT_EQ(has({-0.6, side * 0.48, 0.01}), channels(blue)) << side;
+        EXPECT_EQ(has({-0.6, side * 0.52, 0.01}), channels(black)) << side;
+    }
+}
+
+/// The formula of shaders/include/shading.h, written a second time in double precision.
+struct Shading {
+    Vec3 albedo, normal, to_eye, ambient;
+    double transmission = 0.2, gloss = 0, sheen = 0.3;
+    Vec3 pixel_color(const std::vector<DirectionalLight>& lights) const {
+        const double grazing = 1 - std::max(0.0, dot(normal, to_eye));
+        Vec3 result;
+        for (std::size_t k = 0; k < 3; ++k) {
+            double radiance = albedo[k] * ambient[k] * ((3 + normal[1]) / 4 + sheen * std::pow(grazing, 4));
+            for (const DirectionalLight& light : lights) {
+                const Vec3 to_light = unit(-1.0 * light.direction);
+                const double arriving = linear(light.color[k]) * light.intensity;
+                const double facing = dot(normal, to_light);
+                const double shine = std::pow(std::max(0.0, dot(normal, unit(to_light + to_eye))), 32);
+                radiance += arriving * (facing > 0 ? albedo[k] * facing + gloss * shine
+                                                   : albedo[k] * transmission * -facing);
+            }
+            result[k] = srgb_byte(radiance);
+        }
+        return result;
+    }
+};
+
+Vec3 linear_color_of(const Vec3& srgb) { return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])}; }
+
+void expect_color(const std::array<int, 3>& seen, const Vec3& expected, const std::string& what) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], expected[k], 2) << what << ", channel " << k;
+}
+
+TEST_F(Raster, ClothIsShadedByTheFormula) {
+    SceneDescription scene = dark_room();
+    scene.ambient = {0.2, 0.25, 0.3};
+    const Vec3 front{0.8, 0.3, 0.2}, back{0.3, 0.5, 0.7};
+    const DirectionalLight key{{-0.4, -0.5, -1}, {1, 0.9, 0.8}, 0.6},
+        behind{{0.2, -0.3, 1}, {0.7, 0.8, 1}, 0.5};
+    for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0.5, 0.3, 0.6}, Vec3{0.1, -0.9, 0.2}}) {
+        const Vec3 normal = unit(direction);
+        const DrawnCloth facing = flat_cloth({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, normal, front, back);
+        const DrawnCloth turned = flat_cloth({0, 0, 0}, {1, 0, 0}, {0, -1, 0}, -1.0 * normal, front, back);
+        for (const auto& lights : {std::vector{key}, std::vector{behind}, std::vector{key, behind}}) {
+            scene.lights = lights;
+            for (const std::uint32_t samples : {1u, 4u}) {
+                // The middle of the picture is a corner of four pixels.
+                const double half_pixel = 3 * std::tan(20 * std::numbers::pi / 180) / height;
+                const Vec3 to_eye = unit({-half_pixel, half_pixel, 3});
+                const std::string what = fmt::format("{} lights, {} samples", lights.size(), samples);
+                const Shading front_shading{linear_color_of(front), normal, to_eye, scene.ambient};
+                expect_color(draw(scene, {facing}, {.samples = samples}).at(160, 119),
+                             front_shading.pixel_color(lights), "front, " + what);
+                const Shading back_shading{linear_color_of(back), normal, to_eye, scene.ambient};
+                expect_color(draw(scene, {turned}, {.samples = samples}).at(160, 119),
+                             back_shading.pixel_color(lights), "back, " + what);
+            }
+        }
+    }
+}
+
+TEST_F(Raster, CollidersAreShadedByTheFormula) {
+    SceneDescription scene = dark_room();
+    scene.ambient = {0.2, 0.2, 0.2};
+    scene.lights = {{{-0.1, -0.2, -1}, {1, 0.9, 0.8}, 0.6}};
+    const Vec3 color{0.6, 0.5, 0.3};
+    scene.colliders.boxes.push_back({painted(color), {0, 0, -0.5}, {0.5, 0.5, 0.5}});
+    Shading shading{linear_color_of(color), {0, 0, 1}, {0, 0, 1}, scene.ambient, 0, 0.12, 0};
+    expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "face of a box");
+    scene.colliders = {};
+    scene.colliders.spheres.push_back({painted(color), {0, 0, -0.5}, 0.5});
+    expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "middle of a sphere");
+}
+
+TEST_F(Raster, WithoutANormalTheTriangleGivesIt) {
+    SceneDescription scene = dark_room();
+    scene.ambient = {0.2, 0.2, 0.2};
+    scene.lights = {{{-0.3, -0.2, -1}, white, 0.6}};
+    const Vec3 edge = unit({1, 0, -0.5}), normal = unit({0.5, 0, 1});
+    const DrawnCloth given = flat_cloth({0, 0, 0}, edge, {0, 1, 0}, normal, red, blue);
+    const DrawnCloth missing = flat_cloth({0, 0, 0}, edge, {0, 1, 0}, {0, 0, 0}, red, blue);
+    const Picture expected = draw(scene, {given}), seen = draw(scene, {missing});
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen.at(160, 120)[k], expected.at(160, 120)[k], 1);
+}
+
+TEST_F(Raster, CheckerSquaresAreMeasuredOnTheMaterial) {
+    SceneDescription scene = dark_room();
+    DrawnCloth cloth = flat_cloth({0, 0, 0}, {1.6, 0, 0}, {0, 0.8, 0}, {0, 0, 1}, red, blue, 5);
+    cloth.appearance.pattern = Pattern::checker;
+    const Picture picture = draw(scene, {cloth});
+    const auto square_at = [&](int column, int row) {
+        return picture.at(pixel(scene, {-0.75 + 0.1 * column, -0.35 + 0.1 * row, 0}));
+    };
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 16; ++column)
+            EXPECT_EQ(square_at(column, row), square_at((column + row) % 2, 0)) << column << ", " << row;
+    }
+    EXPECT_GT(square_at(1, 0)[1], square_at(0, 0)[1] + 50);
+    EXPECT_EQ(channels(square_at(0, 0)), channels(red));
+}
+
+TEST_F(Raster, FourSamplesSmoothEdges) {
+    const SceneDescription scene = dark_room();
+    const DrawnCloth tilted = flat_cloth({0, 0, 0}, {1, 0.3, 0}, {-0.3, 1, 0}, {0, 1, 0}, white, white);
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Picture picture = draw(scene, {tilted}, {.samples = samples});
+        int between = 0, full = 0;
+        for (std::uint32_t row = 0; row < height; ++row) {
+            for (std::uint32_t column = 0; column < width; ++column) {
+                const int value = picture.at(column, row)[0];
+                full += value > 250;
+                between += value > 20 && value < 235;
+            }
+        }
+        EXPECT_GT(full, 1000);
+        EXPECT_TRUE(samples == 1 ? between == 0 : between > 50) << between;
+    }
+}
+
+TEST_F(Raster, MissingCellsAreNotDrawn) {
+    const SceneDescription scene = dark_room();
+    DrawnCloth cloth = flat_cloth({0, 0, 0}, {0.9, 0, 0}, {0, 0.9, 0}, {0, 0, 1}, red, red, 4);
+    EXPECT_EQ(channels(draw(scene, {cloth}).at(160, 120)), channels(red));
+    cloth.indices.erase(cloth.indices.begin() + 4 * 6,
+                        cloth.indices.begin() + 5 * 6);  // the middle one of nine
+    const Picture picture = draw(scene, {cloth});
+    EXPECT_EQ(channels(picture.at(160, 120)), channels(black));
+    for (const Vec3& kept : {Vec3{0.3, 0, 0}, Vec3{-0.3, 0, 0}, Vec3{0, 0.3, 0}, Vec3{0.3, -0.3, 0}})
+        EXPECT_EQ(channels(picture.at(pixel(scene, kept))), channels(red));
+}
+
+/// A floor, a square one metre above it, light straight down.
+SceneDescription floor_scene() {
+    SceneDescription scene = dark_room();
+    scene.camera = {{0, 2.5, 3}, {0, 0, 0}, 50};
+    scene.ambient = {0.2, 0.2, 0.2};
+    scene.lights = {{{0, -1, 0}, white, 0.6}};
+    scene.colliders.planes.push_back({painted({0.6, 0.6, 0.6}), {0, 1, 0}, 0});
+    return scene;
+}
+
+TEST_F(Raster, FirstLightCastsShadows) {
+    SceneDescription scene = floor_scene();
+    const DrawnCloth cloth = flat_cloth({0, 1, 0}, {0.6, 0, 0}, {0, 0, -0.6}, {0, 1, 0}, red, blue);
+    const Vec3 floor_color = linear_color_of(Vec3{0.6, 0.6, 0.6});
+    const Shading shading{floor_color, {0, 1, 0}, {0, 1, 0}, scene.ambient, 0, 0, 0};
+    const Vec3 lit = shading.pixel_color(scene.lights), dark = shading.pixel_color({});
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Picture picture = draw(scene, {cloth}, {.samples = samples, .options = {.shadow = true}});
+        for (const double x : {-0.25, -0.07, 0.13, 0.25}) {
+            expect_color(picture.at(pixel(scene, {x, 0, 0.13})), dark, "under the cloth");
+            expect_color(picture.at(pixel(scene, {x, 0, 0.37})), lit, "before the cloth");
+        }
+        const Picture plain = draw(scene, {cloth}, {.samples = samples});
+        expect_color(plain.at(pixel(scene, {0.13, 0, 0.13})), lit, "without shadows");
+        // The cloth itself is lit from above: a surface must not shade itself.
+        EXPECT_EQ(picture.at(pixel(scene, {0.1, 1, 0.1})), plain.at(pixel(scene, {0.1, 1, 0.1})));
+    }
+}
+
+TEST_F(Raster, CollidersCastShadowsWithoutACloth) {
+    SceneDescription scene = floor_scene();
+    scene.colliders.spheres.push_back({painted(red), {0, 1, 0}, 0.3});
+    const Picture picture = draw(scene, {}, {.options = {.shadow = true}});
+    EXPECT_LT(picture.at(pixel(scene, {0.07, 0, 0.07}))[0] + 30,
+              picture.at(pixel(scene, {0.43, 0, 0.07}))[0]);
+    // The lit half of the sphere has no specks of its own shadow.
+    const Picture plain = draw(scene, {});
+    for (int step = -5; step <= 5; ++step) {
+        const double angle = 0.2 * step;
+        const PixelPosition at = pixel(scene, {0.3 * std::sin(angle), 1 + 0.3 * std::cos(angle), 0});
+        EXPECT_EQ(picture.at(at.x, at.y + 4), plain.at(at.x, at.y + 4)) << angle;
+    }
+}
+
+TEST_F(Raster, SaysWhyThereIsNoShadow) {
+    std::vector<graph::Skipped> skipped;
+    const auto shadow_reason = [&]() -> std::string {
+        for (const graph::Skipped& entry : skipped)
+            if (entry.what == "shadow") return entry.reason;
+        return "drawn";
+    };
+    SceneDescription scene = dark_room();
+    const std::vector<DrawnCloth> cloths{square({0, 0, 0}, 0.5, red, red)};
+    draw(scene, cloths, {.options = {.shadow = true}, .skipped = &skipped});
+    EXPECT_EQ(shadow_reason(), "the scene has no light");
+    scene.lights.push_back({});
+    draw(scene, cloths, {.options = {.shadow = false}, .skipped = &skipped});
+    EXPECT_EQ(shadow_reason(), "switched off");
+    draw(scene, {}, {.options = {.shadow = true}, .skipped = &skipped});
+    EXPECT_EQ(shadow_reason(), "the scene has nothing that casts one");
+    draw(scene, cloths, {.options = {.shadow = true}, .skipped = &skipped});
+    EXPECT_EQ(shadow_reason(), "drawn");
+}
+
+TEST_F(Raster, RepeatsByteForByte) {
+    SceneDescription scene = floor_scene();
+    scene.colliders.spheres.push_back({painted({0.4, 0.5, 0.6}), {0.2, 0.3, 0}, 0.3});
+    DrawnCloth cloth = flat_cloth({0, 1, 0}, {1, 0.2, 0}, {0, 0, -1}, {0, 1, 0}, red, blue, 9);
+    cloth.appearance.pattern = Pattern::checker;
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Shot shot{.samples = samples, .options = {.shadow = true}};
+        const auto [first, other_slot] = draw_twice(scene, {cloth}, shot);
+        EXPECT_EQ(first.bytes, other_slot.bytes);
+        EXPECT_EQ(first.bytes, draw(scene, {cloth}, shot).bytes);
+    }
+}
+
+TEST_F(Raster, RefusesOtherSampleCounts) {
+    EXPECT_THROW(RasterPass(device(), dark_room(), width, height, 2), vulkan::VulkanError);
+}
+
+}  // namespace
+}  // namespace drape
