@@ -81,12 +81,10 @@ class TriangleFrame {
     static constexpr std::uint32_t side = 4;
 
     std::vector<std::uint32_t> draw(const GraphicsPipeline& pipeline) {
-        const std::vector<float> corners = {-1, -3, 0.5f, 0, -1, 3, 0.5f, 0, 0, 0, 0.5f, 0};
-        std::vector<float> left = corners;
-        left[8] = 0.0f;  // third corner at x = 0: the triangle covers x in [-1, 0], narrowing to the right
-        left[1] = -20.0f;
-        left[5] = 20.0f;
-        upload(gpu().device, corners_, std::as_bytes(std::span(left)));
+        // From far above to far below along x = -1, and a tip at x = 0: all of the left half within the
+        // frame.
+        constexpr std::array<float, 12> corners = {-1, -20, 0.5f, 0, -1, 20, 0.5f, 0, 0, 0, 0.5f, 0};
+        upload(gpu().device, corners_, std::as_bytes(std::span(corners)));
         gpu().device.run_once([&](VkCommandBuffer commands) { record(commands, pipeline); });
         std::vector<std::uint32_t> texels(side * side);
         download(gpu().device, color_, std::as_writable_bytes(std::span(texels)));
