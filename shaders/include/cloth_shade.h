@@ -28,7 +28,7 @@ void main() {
     // Neighbours that cancel out leave no normal: the triangle's own is better than none.
     if (dot(normal, normal) < 1e-6) normal = facet;
     vec3 albedo = gl_FrontFacing ? push.front.xyz : push.back.xyz;
-    if (push.grid.z != 0u) albedo = mix(albedo, vec3(1.0), 0.15 * odd);
+    if (push.grid.z != 0u) albedo = mix(albedo, vec3(1.0), 0.25 * odd);
     Surface surface = Surface(albedo, normalize(normal), normalize(frame[0].eye.xyz - world), 0.2, 0.0, 0.3);
     color = vec4(shaded(surface, world), 1.0);
 }

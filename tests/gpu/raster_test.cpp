@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cloth/collider_pose.h"
 #include "passes/camera.h"
 #include "raster_picture.h"
 
@@ -40,6 +41,20 @@ TEST(CameraTest, LooksStraightDown) {
     const Camera camera{{0, 5, 0}, {0, 0, 0}, 40};
     EXPECT_GT(project(camera, 100, 100, {1, 0, 0}).x, 51);
     EXPECT_LT(project(camera, 100, 100, {0, 0, -1}).y, 49);
+}
+
+TEST(ColliderPoseTest, PathTurnsTheRestPoseAboutTheCentre) {
+    PlaneCollider plane;
+    plane.offset = 2;
+    plane.rotate = {0, 0, 90};                                    // y -> -x
+    plane.path.keys = {{0, {}, {}}, {1, {0, 0, 5}, {0, 90, 0}}};  // then -x -> z
+    const ColliderPose rest = collider_pose(plane, 0), moved = collider_pose(plane, 1);
+    EXPECT_EQ(rest.center, (Vec3{0, 2, 0}));
+    EXPECT_EQ(moved.center, (Vec3{0, 2, 5}));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(rotate(rest.rotation, plane.normal)[k], (Vec3{-1, 0, 0}[k]), 1e-15);
+        EXPECT_NEAR(rotate(moved.rotation, plane.normal)[k], (Vec3{0, 0, 1}[k]), 1e-15);
+    }
 }
 
 TEST_F(Raster, ParticlesLandWhereProjectSays) {
