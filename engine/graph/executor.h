@@ -59,7 +59,7 @@ class PassContext {
     void bind(const vulkan::Pipeline& pipeline, std::span<const std::byte> push_constants = {});
     template <class T>
     void bind(const vulkan::Pipeline& pipeline, const T& push_constants) {
-        bind(pipeline, std::as_bytes(std::span<const T, 1>(&push_constants, 1)));
+        bind(pipeline, std::as_bytes(std::span<const T>(&push_constants, 1)));
     }
     /// `bind`, then dispatch enough workgroups for width x height invocations.
     template <class T>
