@@ -1,0 +1,447 @@
+// Plans on a device: contents, layouts, slots, timings, refusals, and the planted hazard that must be seen.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <volk.h>
+
+#include <array>
+#include <cstring>
+#include <memory>
+
+#include "gpu_test.h"
+#include "graph/executor.h"
+#include "vulkan/structure.h"
+
+namespace drape::graph {
+namespace {
+
+using test::gpu;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using vulkan::DescriptorAccess;
+using vulkan::DescriptorDeclaration;
+using vulkan::DescriptorKind;
+using Plans = std::vector<std::pair<const Graph*, const Plan*>>;
+
+constexpr std::uint32_t width = 70, height = 5;
+constexpr std::size_t float_count = std::size_t{width} * height * 4;
+
+constexpr DescriptorDeclaration copy_descriptors[] = {
+    {0, "source", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT},
+    {1, "target", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32G32B32A32_SFLOAT}};
+
+VkBufferImageCopy whole_image() {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {width, height, 1};
+    return region;
+}
+
+struct GraphExecution : ::testing::Test {
+    vulkan::ComputePipeline canary{gpu().device, "canary", {"canary.comp", copy_descriptors}, {}};
+    Graph graph;
+
+    Handle image(const std::string& name, Lifetime lifetime) {
+        return graph.image({.name = name, .width = width, .height = height, .lifetime = lifetime});
+    }
+    Handle buffer(const std::string& name, Lifetime lifetime) {
+        return graph.buffer({.name = name, .byte_count = float_count * sizeof(float), .lifetime = lifetime});
+    }
+
+    void dispatch(PassContext& context) const {
+        context.bind(canary);
+        const auto [x, y, z] = canary.local_size();
+        vkCmdDispatch(context.commands(), (width + x - 1) / x, (height + y - 1) / y, 1);
+    }
+
+    void copy(const std::string& name, const std::string& stage, Handle from, Handle& to) {
+        graph.add_pass(
+            {name, stage, name},
+            [&](PassSetup& setup) {
+                setup.read(from, Access::compute_read, 0);
+                to = setup.write(to, Access::compute_write, 1);
+            },
+            [this](PassContext& context) { dispatch(context); });
+    }
+
+    void fill_from(Handle input, Handle& target) {
+        auto written = std::make_shared<Handle>();
+        graph.add_pass(
+            {"fill", "input", "fill"},
+            [&](PassSetup& setup) {
+                setup.read(input, Access::transfer_read);
+                *written = target = setup.write(target, Access::transfer_write);
+            },
+            [input, written](PassContext& context) {
+                const VkBufferImageCopy region = whole_image();
+                vkCmdCopyBufferToImage(context.commands(), context.buffer(input).handle(),
+                                       context.image(*written).handle(), context.layout(*written), 1,
+                                       &region);
+            });
+    }
+
+    void read_back(const std::string& name, Handle source, Handle& target) {
+        auto written = std::make_shared<Handle>();
+        graph.add_pass(
+            {name, "readback", name},
+            [&](PassSetup& setup) {
+                setup.read(source, Access::transfer_read);
+                *written = target = setup.write(target, Access::transfer_write);
+            },
+            [source, written](PassContext& context) {
+                const VkBufferImageCopy region = whole_image();
+                vkCmdCopyImageToBuffer(context.commands(), context.image(source).handle(),
+                                       context.layout(source), context.buffer(*written).handle(), 1, &region);
+            });
+    }
+
+    static std::vector<float> pattern(int frame) {
+        std::vector<float> values(float_count);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = static_cast<float>(frame * 100000) + static_cast<float>(i);
+        }
+        return values;
+    }
+    static std::vector<float> values_of(const vulkan::Buffer& buffer) {
+        std::vector<float> values(float_count);
+        std::memcpy(values.data(), buffer.mapped().data(), buffer.mapped().size());
+        return values;
+    }
+    static void set_values(const vulkan::Buffer& buffer, const std::vector<float>& values) {
+        std::memcpy(buffer.mapped().data(), values.data(), buffer.mapped().size());
+    }
+    static void run_once(const RecordedPlan& recorded) {
+        vulkan::FrameSlots slots(gpu().device);
+        slots.submit(0, recorded.commands(0));
+        slots.wait(0);
+    }
+};
+
+TEST_F(GraphExecution, CarriesContentsThroughPassesFramesAndSlots) {
+    Handle state = image("state", Lifetime::persistent), previous = image("previous", Lifetime::persistent);
+    Handle staged = image("staged", Lifetime::transient), between = image("between", Lifetime::transient);
+    const Handle input = buffer("input", Lifetime::host_input);
+    Handle now = buffer("now", Lifetime::host_output), before = buffer("before", Lifetime::host_output);
+    copy("keep the previous", "simulate", state, previous);
+    fill_from(input, staged);
+    copy("first copy", "simulate", staged, between);
+    copy("second copy", "simulate", between, staged);
+    copy("third copy", "simulate", staged, state);
+    read_back("read now", state, now);
+    read_back("read before", previous, before);
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    const RecordedPlan recorded(graph, plan, pool, TimestampMode::stages);
+    vulkan::FrameSlots slots(gpu().device);
+    constexpr int frame_count = 5;
+    const auto check_frame = [&](int frame) {
+        const auto slot = static_cast<std::uint32_t>(frame % 2);
+        EXPECT_EQ(values_of(pool.buffer("now", slot)), pattern(frame)) << "frame " << frame;
+        EXPECT_EQ(values_of(pool.buffer("before", slot)),
+                  frame > 1 ? pattern(frame - 1) : std::vector<float>(float_count))
+            << "frame " << frame << " (persistent images start zeroed)";
+    };
+    for (int frame = 1; frame <= frame_count; ++frame) {
+        const auto slot = static_cast<std::uint32_t>(frame % 2);
+        slots.wait(slot);
+        if (frame > 2) check_frame(frame - 2);
+        set_values(pool.buffer("input", slot), pattern(frame));
+        slots.submit(slot, recorded.commands(slot));
+    }
+    for (int frame = frame_count - 1; frame <= frame_count; ++frame) {
+        slots.wait(static_cast<std::uint32_t>(frame % 2));
+        check_frame(frame);
+    }
+    std::vector<float> downloaded(float_count);
+    vulkan::download(gpu().device, pool.image("state"), std::as_writable_bytes(std::span(downloaded)));
+    EXPECT_EQ(downloaded, pattern(frame_count));
+    EXPECT_EQ(gpu().instance.validation_log().count(), 0u);
+}
+
+TEST_F(GraphExecution, EveryMissingBarrierOfAChainIsReported) {
+    Handle a = image("a", Lifetime::persistent), b = image("b", Lifetime::persistent);
+    Handle c = image("c", Lifetime::persistent);
+    copy("a to b", "s", a, b);
+    copy("b to c", "s", b, c);
+    copy("c to a", "s", c, a);
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    { const RecordedPlan whole(graph, plan, pool, TimestampMode::none); }
+    ASSERT_EQ(gpu().instance.validation_log().count(), 0u);
+    // The third pass has two barriers: c just written, a read by the first pass; merged into one memory
+    // barrier, so each is planted by dropping all of its pass.
+    for (const std::uint32_t pass : {1u, 2u}) {
+        const test::ExpectValidationMessages expected;
+        const RecordedPlan broken(
+            graph, plan, pool, TimestampMode::none,
+            [&](const PlannedPass& planned, const Barrier&) { return planned.pass != pass; });
+        EXPECT_THAT(expected.messages(), Contains(HasSubstr("SYNC-HAZARD-READ-AFTER-WRITE"))) << pass;
+    }
+}
+
+TEST_F(GraphExecution, MissingWriteAfterReadBarrierIsReported) {
+    Handle a = image("a", Lifetime::persistent), b = image("b", Lifetime::persistent);
+    const Handle c = image("c", Lifetime::constant);
+    copy("a to b", "s", a, b);
+    copy("c to a", "s", c, a);
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    const test::ExpectValidationMessages expected;
+    const RecordedPlan broken(graph, plan, pool, TimestampMode::none,
+                              [&](const PlannedPass& planned, const Barrier&) { return planned.pass != 1; });
+    EXPECT_THAT(expected.messages(), Contains(HasSubstr("SYNC-HAZARD-WRITE-AFTER-READ")));
+}
+
+TEST_F(GraphExecution, AttachmentsKeepTheirContentsBetweenPlansAndComeBackToGeneral) {
+    Handle color = image("color", Lifetime::persistent);
+    Handle result = buffer("result", Lifetime::host_output);
+    read_back("read old", color, result);
+    auto drawn = std::make_shared<Handle>();
+    graph.add_pass(
+        {"clear", "raster", "clear"},
+        [&](PassSetup& setup) { *drawn = color = setup.write(color, Access::color_write); },
+        [drawn](PassContext& context) {
+            auto attachment =
+                vulkan::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+            attachment.imageView = context.image(*drawn).view();
+            attachment.imageLayout = context.layout(*drawn);
+            attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+            attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+            attachment.clearValue.color = {{7, 7, 7, 7}};
+            auto rendering = vulkan::structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+            rendering.renderArea.extent = {width, height};
+            rendering.layerCount = 1;
+            rendering.colorAttachmentCount = 1;
+            rendering.pColorAttachments = &attachment;
+            vkCmdBeginRendering(context.commands(), &rendering);
+            vkCmdEndRendering(context.commands());
+        });
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    const RecordedPlan recorded(graph, plan, pool, TimestampMode::none);
+    run_once(recorded);
+    EXPECT_EQ(values_of(pool.buffer("result")), std::vector<float>(float_count, 0.0f));
+    run_once(recorded);
+    EXPECT_EQ(values_of(pool.buffer("result")), std::vector<float>(float_count, 7.0f));
+    std::vector<float> rested(float_count);
+    vulkan::download(gpu().device, pool.image("color"), std::as_writable_bytes(std::span(rested)));
+    EXPECT_EQ(rested, std::vector<float>(float_count, 7.0f));
+    EXPECT_EQ(gpu().instance.validation_log().count(), 0u);
+}
+
+TEST_F(GraphExecution, TwoPlansShareTheirResources) {
+    const Handle input = buffer("input", Lifetime::host_input);
+    Handle state = image("state", Lifetime::persistent);
+    Handle staged = image("staged", Lifetime::transient);
+    fill_from(input, staged);
+    copy("to state", "simulate", staged, state);
+    const Graph simulation = std::exchange(graph, {});
+    const Handle same_state = image("state", Lifetime::persistent);
+    Handle result = buffer("result", Lifetime::host_output);
+    read_back("read", same_state, result);
+    const Plan simulate = make_plan(simulation), show = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&simulation, &simulate}, {&graph, &show}});
+    const RecordedPlan first(simulation, simulate, pool, TimestampMode::none);
+    const RecordedPlan second(graph, show, pool, TimestampMode::none);
+    for (int frame = 1; frame <= 2; ++frame) {
+        set_values(pool.buffer("input"), pattern(frame));
+        run_once(first);
+        run_once(second);
+        EXPECT_EQ(values_of(pool.buffer("result")), pattern(frame));
+    }
+}
+
+TEST_F(GraphExecution, UndeclaredAccessIsRefusedNamingPassAndResource) {
+    Handle a = image("a", Lifetime::persistent), b = image("b", Lifetime::persistent);
+    const Handle old = a;
+    copy("b to a", "s", b, a);
+    const auto record_with = [&](Handle handle) {
+        Graph other = graph;
+        other.add_pass(
+            {"sly pass", "s", "sly"},
+            [&](PassSetup& setup) {
+                b = setup.write(Handle{b.resource, 0}, Access::compute_write);
+            },
+            [handle](PassContext& context) { (void)context.image(handle); });
+        const Plan plan = make_plan(other);
+        const ResourcePool pool(gpu().device, Plans{{&other, &plan}});
+        const RecordedPlan recorded(other, plan, pool, TimestampMode::none);
+    };
+    EXPECT_THAT([&] { record_with(a); },
+                testing::ThrowsMessage<GraphError>(AllOf(HasSubstr("'sly pass'"), HasSubstr("'a'"))));
+    EXPECT_THAT([&] { record_with(old); },
+                testing::ThrowsMessage<GraphError>(AllOf(HasSubstr("'a'"), HasSubstr("version 0"))));
+    EXPECT_THAT([&] { record_with(Handle{}); }, testing::ThrowsMessage<GraphError>(HasSubstr("'sly pass'")));
+    EXPECT_NO_THROW(record_with(Handle{b.resource, 1}));
+}
+
+struct BindingMistake {
+    std::string name;
+    std::function<void(PassSetup&, Handle good, Handle& target, Handle wrong_format, Handle buffer)> setup;
+    std::vector<std::string> words;
+};
+
+class GraphBinding : public GraphExecution, public ::testing::WithParamInterface<BindingMistake> {};
+
+TEST_P(GraphBinding, MistakeIsRefusedByName) {
+    const Handle good = image("good", Lifetime::constant);
+    Handle target = image("target", Lifetime::persistent);
+    const Handle wrong_format = graph.image({.name = "wrong format",
+                                             .format = VK_FORMAT_R32_SFLOAT,
+                                             .width = width,
+                                             .height = height,
+                                             .lifetime = Lifetime::constant});
+    const Handle some_buffer = buffer("buffer", Lifetime::constant);
+    graph.add_pass(
+        {"bad pass", "s", "bad"},
+        [&](PassSetup& setup) { GetParam().setup(setup, good, target, wrong_format, some_buffer); },
+        [this](PassContext& context) { dispatch(context); });
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    try {
+        const RecordedPlan recorded(graph, plan, pool, TimestampMode::none);
+        FAIL() << "not refused";
+    } catch (const GraphError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("'bad pass'"), HasSubstr("'canary'")));
+        for (const std::string& word : GetParam().words) EXPECT_THAT(error.what(), HasSubstr(word));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mistakes, GraphBinding,
+    ::testing::Values(
+        BindingMistake{"BindingNotDeclared",
+                       [](PassSetup& setup, Handle, Handle& target, Handle, Handle) {
+                           target = setup.write(target, Access::compute_write, 1);
+                       },
+                       {"binding 0", "'source'"}},
+        BindingMistake{"BindingThePipelineLacks",
+                       [](PassSetup& setup, Handle good, Handle& target, Handle wrong_format, Handle) {
+                           setup.read(good, Access::compute_read, 0);
+                           target = setup.write(target, Access::compute_write, 1);
+                           setup.read(wrong_format, Access::compute_read, 2);
+                       },
+                       {"'wrong format'", "binding 2"}},
+        BindingMistake{"ReadDeclaredWhereTheShaderWrites",
+                       [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
+                           setup.read(good, Access::compute_read, 1);
+                           target = setup.write(target, Access::compute_write, 0);
+                       },
+                       {"'good'", "binding 1", "writes"}},
+        BindingMistake{"WrongFormat",
+                       [](PassSetup& setup, Handle, Handle& target, Handle wrong_format, Handle) {
+                           setup.read(wrong_format, Access::compute_read, 0);
+                           target = setup.write(target, Access::compute_write, 1);
+                       },
+                       {"'wrong format'", "VkFormat 100", "109"}},
+        BindingMistake{"BufferForAnImage",
+                       [](PassSetup& setup, Handle, Handle& target, Handle, Handle some_buffer) {
+                           setup.read(some_buffer, Access::compute_read, 0);
+                           target = setup.write(target, Access::compute_write, 1);
+                       },
+                       {"'buffer'", "not an image"}},
+        BindingMistake{"VertexReadInACompute",
+                       [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
+                           setup.read(good, Access::vertex_read, 0);
+                           target = setup.write(target, Access::compute_write, 1);
+                       },
+                       {"'good'", "vertex_read"}}),
+    [](const auto& parameter) { return parameter.param.name; });
+
+TEST_F(GraphExecution, PushConstantsOfTheWrongSizeAreRefused) {
+    const Handle a = image("a", Lifetime::constant);
+    Handle b = image("b", Lifetime::persistent);
+    graph.add_pass(
+        {"pushes", "s", "pushes"},
+        [&](PassSetup& setup) {
+            setup.read(a, Access::compute_read, 0);
+            b = setup.write(b, Access::compute_write, 1);
+        },
+        [this](PassContext& context) { context.dispatch(canary, 1.0f, width, height); });
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    EXPECT_THAT([&] { const RecordedPlan recorded(graph, plan, pool, TimestampMode::none); },
+                testing::ThrowsMessage<GraphError>(AllOf(HasSubstr("'pushes'"), HasSubstr("4 bytes"))));
+}
+
+TEST_F(GraphExecution, TimingsAreSummedByStageOrByLabel) {
+    Handle a = image("a", Lifetime::persistent), b = image("b", Lifetime::persistent);
+    copy("forth", "simulate", a, b);
+    copy("back", "collide", b, a);
+    copy("forth", "simulate", a, b);
+    const Plan plan = make_plan(graph);
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    const auto names_of = [&](TimestampMode mode) {
+        const RecordedPlan recorded(graph, plan, pool, mode);
+        EXPECT_TRUE(recorded.timings(0).empty()) << "before the first submit";
+        run_once(recorded);
+        std::vector<std::string> names;
+        for (const Timing& timing : recorded.timings(0)) {
+            names.push_back(timing.name);
+            EXPECT_GT(timing.milliseconds, 0) << timing.name;
+            EXPECT_LT(timing.milliseconds, 10000) << timing.name;
+        }
+        EXPECT_TRUE(recorded.timings(1).empty()) << "slot 1 was never submitted";
+        return names;
+    };
+    if (gpu().device.timestamp_valid_bits() == 0) GTEST_SKIP() << "the device has no timestamps";
+    EXPECT_THAT(names_of(TimestampMode::stages), testing::ElementsAre("simulate", "collide"));
+    EXPECT_THAT(names_of(TimestampMode::passes), testing::ElementsAre("forth", "back"));
+    EXPECT_THAT(names_of(TimestampMode::none), testing::IsEmpty());
+}
+
+TEST_F(GraphExecution, ResourceThatNoPlanUsesDoesNotExist) {
+    Handle used = image("used", Lifetime::persistent), unread = image("unread", Lifetime::transient);
+    (void)image("untouched", Lifetime::persistent);
+    const Handle source = image("source", Lifetime::constant);
+    copy("to used", "s", source, used);
+    copy("to unread", "s", source, unread);
+    const Plan plan = make_plan(graph);
+    const std::uint64_t before = gpu().device.budget().used();
+    const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+    EXPECT_TRUE(pool.has("used"));
+    EXPECT_TRUE(pool.has("source"));
+    for (const char* name : {"unread", "untouched"}) {
+        EXPECT_FALSE(pool.has(name));
+        EXPECT_THAT([&] { (void)pool.image(name); }, testing::ThrowsMessage<GraphError>(HasSubstr(name)));
+    }
+    EXPECT_GE(gpu().device.budget().used() - before, plan.byte_count);
+    EXPECT_LT(gpu().device.budget().used() - before, 2 * plan.byte_count);
+}
+
+TEST_F(GraphExecution, DifferentDeclarationsOfOneNameAreRefused) {
+    Handle one = image("shared", Lifetime::persistent);
+    const Handle source = image("source", Lifetime::constant);
+    copy("copy", "s", source, one);
+    Graph other;
+    (void)other.image(
+        {.name = "shared", .width = width + 1, .height = height, .lifetime = Lifetime::persistent});
+    const Plan plan = make_plan(graph), other_plan = make_plan(other);
+    const Plans plans{{&graph, &plan}, {&other, &other_plan}};
+    EXPECT_THAT([&] { const ResourcePool pool(gpu().device, plans); },
+                testing::ThrowsMessage<GraphError>(HasSubstr("'shared'")));
+}
+
+TEST_F(GraphExecution, BudgetIsCheckedForAllTogetherBeforeAnythingIsMade) {
+    const std::uint64_t half = gpu().device.budget().limit() / 2 & ~std::uint64_t{3};
+    Handle first = graph.buffer({.name = "first", .byte_count = half, .lifetime = Lifetime::persistent});
+    Handle second =
+        graph.buffer({.name = "second", .byte_count = half + 64, .lifetime = Lifetime::persistent});
+    graph.add_pass({"fill", "s", "fill"},
+                   [&](PassSetup& setup) {
+                       first = setup.write(first, Access::transfer_write);
+                       second = setup.write(second, Access::transfer_write);
+                   },
+                   {});
+    const Plan plan = make_plan(graph);
+    const std::uint64_t before = gpu().device.budget().used();
+    EXPECT_THAT(
+        [&] {
+            const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+        },
+        testing::ThrowsMessage<vulkan::VulkanError>(HasSubstr("the 2 images and buffers")));
+    EXPECT_EQ(gpu().device.budget().used(), before);
+}
+
+}  // namespace
+}  // namespace drape::graph
