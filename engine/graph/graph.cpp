@@ -92,7 +92,9 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
                    fmt::format("{} and {} in one pass need two layouts", access_name(other.access),
                                access_name(use.access)));
         }
-        if (other.handle == use.handle && other.access == use.access) {
+        // One version may be read through several bindings: a shader's slots may share a resource.
+        const bool at_other_binding = use.binding && other.binding && use.binding != other.binding;
+        if (other.handle == use.handle && other.access == use.access && !at_other_binding) {
             refuse(pass, resource.name, fmt::format("{} declared twice", access_name(use.access)));
         }
         if (!use.binding || other.binding != use.binding) continue;

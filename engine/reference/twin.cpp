@@ -85,7 +85,7 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
-            vec3 sum{0, 0, 0};
+            vec3 sum = empty_sum();
             for_triangles_around(model.grid, {x, y}, [&](ivec2 cell, int which) {
                 std::size_t corner[3];
                 for (int k = 0; k < 3; ++k) {
@@ -197,7 +197,7 @@ void Twin::normals(std::size_t index) {
     TwinCloth& state = cloths_[index];
     for (int y = 0; y < grid.size().y; ++y)
         for (int x = 0; x < grid.size().x; ++x) {
-            vec3 sum{0, 0, 0};
+            vec3 sum = empty_sum();
             for_triangles_around(grid, {x, y}, [&](ivec2 cell, int which) {
                 vec3 corner[3];
                 for (int k = 0; k < 3; ++k) {

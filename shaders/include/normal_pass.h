@@ -11,7 +11,7 @@ layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D cells;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    vec3 sum = empty_sum();
     for (int k = 0; k < triangles_around_particle; ++k) {
         ivec4 around = triangle_around(k);
         ivec2 cell = texel + around.xy;

@@ -24,6 +24,10 @@ SHARED vec3 triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 w
     return force;
 }
 
+/// What a sum over triangles starts from: -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
+/// addition of a zero.
+SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
+
 /// `sum` plus one corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
 SHARED vec3 add_wind_share(vec3 sum, vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step,
                            vec3 wind, float drag_coefficient, float lift_coefficient) {

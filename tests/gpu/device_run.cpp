@@ -14,18 +14,18 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
     const Grid& grid = state.model->grid;
     const graph::Handle empty =
         graph.buffer({normal_buffer(*state.model), grid.particle_count() * 16, graph::Lifetime::host_output});
-    graph::Handle target;
+    const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
     graph.add_pass(
         state.pass_name("normal readback", "readback"),
         [&](graph::PassSetup& setup) {
             setup.read(state.normal, graph::Access::transfer_read);
-            target = setup.write(empty, graph::Access::transfer_write);
+            *target = setup.write(empty, graph::Access::transfer_write);
         },
         [normal = state.normal, target, &grid](graph::PassContext& context) {
             const VkBufferImageCopy region{
                 0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {grid.columns(), grid.rows(), 1}};
             vkCmdCopyImageToBuffer(context.commands(), context.image(normal).handle(), VK_IMAGE_LAYOUT_GENERAL,
-                                   context.buffer(target).handle(), 1, &region);
+                                   context.buffer(*target).handle(), 1, &region);
         });
 }
 
