@@ -99,7 +99,7 @@ void compare(const SceneDescription& scene, const ModelOptions& options = {}) {
         ASSERT_TRUE(std::isfinite(b.x) && std::isfinite(b.y) && std::isfinite(b.z));
         moved = std::max(moved, std::abs(double(b.y) - double(a.y)));
     }
-    EXPECT_GT(moved, 0.05);
+    EXPECT_GT(moved, 0.01);
 }
 
 TEST(TwinTest, EverythingAtOnce) { compare(everything()); }
