@@ -72,6 +72,14 @@ void ClothModel::place(const Cloth& cloth, const Vec3& gravity) {
     if (!masked) skipped.push_back({name + "/stiffness", "no holes or cuts: the grid's extent gives every stiffness"});
 }
 
+void ClothModel::make_masked() {
+    if (masked) return;
+    masked = true;
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column)
+            stiffness.push_back(grid.spring_shares(column, row));
+}
+
 void ClothModel::hold_pins(const Cloth& cloth) {
     // A later pin overrides an earlier one on the particles that they share.
     std::vector<int> owner(grid.particle_count(), -1);

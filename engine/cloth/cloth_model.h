@@ -40,6 +40,9 @@ struct DynamicPin {
 struct ClothModel {
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
 
+    /// Makes the stiffness image exist, with the shares of the grid as it is now; does nothing the second time.
+    void make_masked();
+
     std::string name;
     Grid grid;
     double spacing[2];      ///< m along columns, rows

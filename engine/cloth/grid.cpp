@@ -21,6 +21,11 @@ std::uint32_t Grid::cell(int column, int row) const {
     return cells_[static_cast<std::size_t>(row) * (columns_ - 1) + static_cast<std::size_t>(column)];
 }
 
+void Grid::remove_triangle(std::size_t cell, std::uint32_t which) {
+    cells_[cell] &= ~which;
+    whole_ = false;
+}
+
 float Grid::relative_inverse_mass(std::uint32_t column, std::uint32_t row) const {
     const int i = static_cast<int>(column), j = static_cast<int>(row);
     int count = 0;

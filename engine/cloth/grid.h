@@ -30,6 +30,8 @@ class Grid {
     std::uint32_t cell(int column, int row) const;
     /// (columns-1) x (rows-1), row by row.
     const std::vector<std::uint32_t>& cells() const { return cells_; }
+    /// Cutting took a triangle: wind, normals and rest pieces do without it; masses and springs are not touched.
+    void remove_triangle(std::size_t cell, std::uint32_t which);
     /// Whether every cell is whole: then no mask is needed anywhere.
     bool whole() const { return whole_; }
 

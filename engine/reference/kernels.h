@@ -8,6 +8,7 @@ namespace drape::glsl {
 #include "include/vector.h"
 
 #include "include/colliders.h"
+#include "include/cut.h"
 #include "include/pin.h"
 #include "include/spring.h"
 #include "include/triangles.h"

@@ -152,6 +152,15 @@ struct Colliders {
     bool operator==(const Colliders&) const = default;
 };
 
+/// A triangle that cuts every cloth it meets while active. Between two frames it sweeps the surface of the prism
+/// from its last pose to the new one. A path rotates it about its centroid.
+struct Cutter {
+    std::array<Vec3, 3> triangle{};
+    double begin = 0.0, end = 0.0;  ///< s; active from begin to end, both included
+    MotionPath path;
+    bool operator==(const Cutter&) const = default;
+};
+
 enum class SolverMethod { automatic, relax };
 enum class CollideWhen { iteration, substep };
 
@@ -199,6 +208,7 @@ struct SceneDescription {
     Wind wind;
     std::vector<Cloth> cloths;
     Colliders colliders;
+    std::vector<Cutter> cutters;
     SolverSettings solver;
     Camera camera;
     std::vector<DirectionalLight> lights{DirectionalLight{}};  ///< at most 4

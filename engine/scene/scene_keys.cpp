@@ -28,6 +28,7 @@ constexpr Key plane_keys[] = {"normal", "offset", "friction", "rotate", "path", 
 constexpr Key sphere_keys[] = {"center", "radius", "friction", "rotate", "path", "color"};
 constexpr Key box_keys[] = {"center", "half_extents", "friction", "rotate", "path", "color"};
 constexpr Key ellipsoid_keys[] = {"center", "radii", "friction", "rotate", "path", "color"};
+constexpr Key cutter_keys[] = {"triangle", "active", "path"};
 constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance"};
 constexpr Key camera_keys[] = {"position", "target", "fov"};
 constexpr Key light_keys[] = {"direction", "color", "intensity"};
@@ -49,6 +50,7 @@ constexpr std::array tables{ObjectKeys{ObjectKind::scene, "scene", scene_keys},
                             ObjectKeys{ObjectKind::sphere, "sphere", sphere_keys},
                             ObjectKeys{ObjectKind::box, "box", box_keys},
                             ObjectKeys{ObjectKind::ellipsoid, "ellipsoid", ellipsoid_keys},
+                            ObjectKeys{ObjectKind::cutter, "cutter", cutter_keys},
                             ObjectKeys{ObjectKind::solver, "solver", solver_keys},
                             ObjectKeys{ObjectKind::camera, "camera", camera_keys},
                             ObjectKeys{ObjectKind::light, "light", light_keys},

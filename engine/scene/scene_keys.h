@@ -25,6 +25,7 @@ enum class ObjectKind : std::uint8_t {
     sphere,
     box,
     ellipsoid,
+    cutter,
     solver,
     camera,
     light,

@@ -24,10 +24,7 @@ void read_document(SceneReport& report, SceneDescription& scene) {
     read_wind(root.member("wind"), scene.wind);
     read_cloths(root.member("cloths"), scene.cloths);
     read_colliders(root.member("colliders"), scene.colliders);
-    const SceneNode cutters = root.member("cutters");
-    constexpr std::size_t any_count = 1'000'000;
-    if (cutters.open_array("an array", 0, any_count) && !cutters.value()->empty())
-        cutters.fail("cutters are not supported yet");
+    read_cutters(root.member("cutters"), scene.cutters);
     read_solver(root.member("solver"), scene.solver);
     read_camera(root.member("camera"), scene.camera);
     read_lights(root.member("lights"), scene.lights);

@@ -17,6 +17,8 @@ void read_path(SceneNode node, MotionPath& path);
 
 void read_colliders(SceneNode node, Colliders& colliders);
 
+void read_cutters(SceneNode node, std::vector<Cutter>& cutters);
+
 void read_cloths(SceneNode node, std::vector<Cloth>& cloths);
 
 }  // namespace drape

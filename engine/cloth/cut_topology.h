@@ -1,0 +1,83 @@
+// What a cut does to a cloth: which springs and triangles are gone, and how the cut triangles are drawn. Pure; the
+// device finds the crossings, this keeps both sides consistent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "cloth/cloth_model.h"
+#include "shared/cut_types.h"
+
+namespace drape {
+
+/// What the cut pass found at the end of a frame.
+struct CutFindings {
+    std::vector<std::uint32_t> triangle_flags;  ///< 2 per cell, row by row: upper, lower; 1 = intersects a cutter
+    std::vector<glsl::vec4> fractions;          ///< per particle: fraction along each owned spring, -1 = not crossed
+};
+
+struct CutCounts {
+    std::uint32_t springs = 0;    ///< cut now
+    std::uint32_t triangles = 0;  ///< split now: gone from the whole ones
+    bool any() const { return springs > 0; }
+};
+
+class CutTopology {
+  public:
+    explicit CutTopology(const Cloth& cloth, const ClothModel& model);
+
+    /// Cuts the springs that were crossed (their shares in `model` become 0), and the cell's other diagonal where
+    /// its corners no longer hang together; triangles with two or three cut edges leave the model's cells and are
+    /// split for drawing. A triangle with one cut edge is the end of a slit: it stays whole. Masses stay.
+    CutCounts apply(ClothModel& model, const CutFindings& findings);
+
+    /// Three indices per triangle: each triangle of the uncut grid at its own place (its first index three times
+    /// once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`.
+    const std::vector<std::uint32_t>& indices() const { return indices_; }
+    const std::vector<glsl::CutVertex>& vertices() const { return vertices_; }
+    /// Whole triangles alone, as exported: particle indices.
+    std::vector<std::uint32_t> whole_triangles(const ClothModel& model) const;
+    /// Drawn area at rest, m^2: whole triangles and parts; cutting does not change it.
+    double drawn_rest_area(const ClothModel& model) const;
+    /// Fraction along an owned spring where it was cut; -1 when it was not.
+    float cut_fraction(std::size_t particle, std::size_t direction) const;
+
+  private:
+    struct Triangle {
+        std::array<std::uint32_t, 3> corner;
+        std::array<float, 3> cut;  ///< of the edge from corner k to k+1: fraction from corner k, -1 = whole
+        int cut_count() const { return (cut[0] >= 0) + (cut[1] >= 0) + (cut[2] >= 0); }
+    };
+
+    Triangle triangle(std::size_t cell, std::uint32_t which) const;
+    float edge_cut(std::uint32_t from, std::uint32_t to) const;
+    bool cut_spring(ClothModel& model, std::size_t particle, std::size_t direction, float fraction);
+    bool diagonal_holds(std::size_t cell) const;
+    CutCounts take_crossings(ClothModel& model, const CutFindings& findings);
+    std::uint32_t split_triangles(ClothModel& model);
+    void rebuild_drawing(const ClothModel& model);
+    void add_parts(const ClothModel& model, const Triangle& triangle);
+    void add_isolated_corners(const ClothModel& model, const Triangle& triangle);
+    std::uint32_t edge_vertex(const ClothModel& model, std::uint32_t anchor, std::uint32_t other, float fraction);
+    std::uint32_t add_vertex(const ClothModel& model, std::uint32_t anchor, std::array<double, 2> material);
+    std::array<double, 2> material(const ClothModel& model, std::uint32_t vertex) const;
+
+    Vec3 world_u_, world_v_;  ///< unit directions of growing column and row at rest
+    std::uint32_t columns_, rows_;
+    std::vector<std::uint32_t> original_cells_;  ///< triangles that existed before any cut
+    std::vector<glsl::vec4> cuts_;               ///< per particle and direction: fraction, -1 = not cut
+    std::vector<std::uint32_t> indices_;
+    std::vector<glsl::CutVertex> vertices_;
+    std::unordered_map<std::uint64_t, std::uint32_t> edge_vertices_;  ///< (anchor, other) -> vertex
+};
+
+/// Cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), cutter_triangle_count
+/// per cutter; triangles that do not cut have a.w = 0. At frame 0 both times are 0.
+std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cutters, double frame_start,
+                                                   double frame_end);
+/// Whether any cutter is active between the two times.
+bool cutters_active(const std::vector<Cutter>& cutters, double frame_start, double frame_end);
+
+}  // namespace drape

@@ -1,0 +1,71 @@
+#include <array>
+
+#include "cloth/collider_pose.h"
+#include "cloth/cut_topology.h"
+#include "scene/motion.h"
+
+namespace drape {
+
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_at(const Cutter& cutter, double time) {
+    const RigidTransform motion = motion_at(cutter.path, time);
+    Vec3 centroid{};
+    for (const Vec3& corner : cutter.triangle)
+        for (std::size_t k = 0; k < 3; ++k) centroid[k] += corner[k] / 3;
+    Corners corners;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        Vec3 arm;
+        for (std::size_t k = 0; k < 3; ++k) arm[k] = cutter.triangle[corner][k] - centroid[k];
+        const Vec3 turned = rotate(motion.rotation, arm);
+        for (std::size_t k = 0; k < 3; ++k) corners[corner][k] = centroid[k] + turned[k] + motion.translation[k];
+    }
+    return corners;
+}
+
+glsl::vec4 texel(const Vec3& v, float w) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), w};
+}
+
+glsl::CutterTriangle active(const Vec3& a, const Vec3& b, const Vec3& c) { return {texel(a, 1), texel(b, 0), texel(c, 0)}; }
+
+bool overlaps(const Cutter& cutter, double frame_start, double frame_end) {
+    return cutter.begin <= frame_end && cutter.end >= frame_start;
+}
+
+}  // namespace
+
+bool cutters_active(const std::vector<Cutter>& cutters, double frame_start, double frame_end) {
+    for (const Cutter& cutter : cutters)
+        if (overlaps(cutter, frame_start, frame_end)) return true;
+    return false;
+}
+
+std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cutters, double frame_start,
+                                                   double frame_end) {
+    std::vector<glsl::CutterTriangle> all;
+    for (const Cutter& cutter : cutters) {
+        std::vector<glsl::CutterTriangle> own;
+        if (overlaps(cutter, frame_start, frame_end)) {
+            // Only the time within the active interval counts.
+            const Corners from = corners_at(cutter, std::max(frame_start, cutter.begin));
+            const Corners to = corners_at(cutter, std::min(frame_end, cutter.end));
+            own.push_back(active(to[0], to[1], to[2]));
+            if (from != to) {
+                own.push_back(active(from[0], from[1], from[2]));
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t next = (k + 1) % 3;
+                    own.push_back(active(from[k], from[next], to[next]));
+                    own.push_back(active(from[k], to[next], to[k]));
+                }
+            }
+        }
+        own.resize(glsl::cutter_triangle_count);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+}
+
+}  // namespace drape

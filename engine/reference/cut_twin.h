@@ -1,0 +1,14 @@
+// The cut pass in plain C++, with the shader's own predicate.
+#pragma once
+
+#include <vector>
+
+#include "cloth/cut_topology.h"
+
+namespace drape {
+
+/// What the cut pass finds on `position` (one texel per particle); equals the device's images bit for bit.
+CutFindings find_cuts(const ClothModel& model, const std::vector<glsl::vec4>& position,
+                      const std::vector<glsl::CutterTriangle>& cutters);
+
+}  // namespace drape

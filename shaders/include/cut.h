@@ -1,0 +1,39 @@
+// Does a segment cross a triangle, do two triangles intersect: by signs of volumes, with + - * alone, so that
+// shader and C++ agree bit for bit. Planes are half open (a point on the plane belongs to the positive side), so
+// a blade exactly through a particle separates it from one side only; triangles are closed along their edges, so
+// nothing slips through the seam of two.
+#ifndef DRAPE_CUT_H
+#define DRAPE_CUT_H
+
+#include "include/vector.h"
+
+/// Marks a spring that nothing crosses.
+const float not_crossed = -1.0f;
+
+/// Fraction along p -> q where it crosses triangle a b c, in [0, 1]; not_crossed when it does not. A degenerate
+/// triangle crosses nothing.
+SHARED float crossing_fraction(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
+    vec3 normal = ordered_cross(b - a, c - a);
+    float height_p = ordered_dot(normal, p - a);
+    float height_q = ordered_dot(normal, q - a);
+    if ((height_p < 0.0f) == (height_q < 0.0f)) return not_crossed;
+    // The line p q passes the three edges on the same side.
+    vec3 along = q - p;
+    float ab = ordered_dot(along, ordered_cross(a - p, b - p));
+    float bc = ordered_dot(along, ordered_cross(b - p, c - p));
+    float ca = ordered_dot(along, ordered_cross(c - p, a - p));
+    bool inside = (ab >= 0.0f && bc >= 0.0f && ca >= 0.0f) || (ab <= 0.0f && bc <= 0.0f && ca <= 0.0f);
+    if (!inside) return not_crossed;
+    precise float drop = height_p - height_q;
+    precise float fraction = height_p / drop;
+    return fraction;
+}
+
+/// Whether two triangles intersect: an edge of one crosses the other. Coplanar triangles do not.
+SHARED bool triangles_intersect(vec3 p, vec3 q, vec3 r, vec3 a, vec3 b, vec3 c) {
+    return crossing_fraction(p, q, a, b, c) >= 0.0f || crossing_fraction(q, r, a, b, c) >= 0.0f ||
+           crossing_fraction(r, p, a, b, c) >= 0.0f || crossing_fraction(a, b, p, q, r) >= 0.0f ||
+           crossing_fraction(b, c, p, q, r) >= 0.0f || crossing_fraction(c, a, p, q, r) >= 0.0f;
+}
+
+#endif

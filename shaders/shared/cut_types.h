@@ -1,0 +1,40 @@
+// Structs of the cut pass and of the drawing of cut edges, shared by GLSL and C++. std430.
+#ifndef DRAPE_CUT_TYPES_H
+#define DRAPE_CUT_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// A triangle of the surface that a cutter sweeps in one frame.
+struct CutterTriangle {
+    vec4 a, b, c;  // xyz: corners, metres; a.w: 1 when it cuts in this frame, 0 when not
+};
+
+/// A cutter at rest is its triangle; a moving one is the surface of the prism it sweeps: both caps and two
+/// triangles per side.
+const int cutter_triangle_count = 8;
+
+struct CutPush {
+    ivec2 grid;          // columns, rows
+    int triangle_count;  // in the cutter buffer
+    int unused;
+};
+
+/// A vertex on a cut spring (or inside a shattered triangle), drawn with the side it belongs to: position of
+/// `anchor` + alpha (first - anchor) + beta (second - anchor) + offset, which is affine in particles of its own
+/// side alone and exact where the cloth is flat.
+struct CutVertex {
+    uvec4 particles;  // anchor, first, second particle; w unused
+    vec4 weights;     // alpha, beta; z, w unused
+    vec4 offset;      // m, in the world frame of the rest pose: what no pair of own particles spans
+    vec4 material;    // m along columns, rows of the undeformed cloth; z, w unused
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

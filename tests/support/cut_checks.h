@@ -1,0 +1,109 @@
+// Invariants of a cut cloth, checked from its images and draw lists alone.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "cloth/cut_topology.h"
+#include "cloth/directions.h"
+
+namespace drape::test {
+
+inline double number(float x) { return static_cast<double>(x); }
+
+inline std::vector<std::size_t> pieces(const ClothModel& model) {
+    std::vector<std::size_t> parent(model.grid.particle_count());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::size_t k) {
+        while (parent[k] != k) k = parent[k] = parent[parent[k]];
+        return k;
+    };
+    for (std::uint32_t row = 0; row < model.grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < model.grid.columns(); ++column) {
+            const std::size_t here = model.grid.particle(column, row);
+            const glsl::vec4 share = model.masked ? model.stiffness[here] : model.grid.spring_shares(column, row);
+            const float shares[4] = {share.x, share.y, share.z, share.w};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const glsl::ivec2 offset = spring_directions[k].offset;
+                const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
+                if (shares[k] == 0 || x < 0 || x >= model.grid.size().x || y >= model.grid.size().y) continue;
+                parent[root(here)] = root(static_cast<std::size_t>(y * model.grid.size().x + x));
+            }
+        }
+    for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
+    return parent;
+}
+
+inline std::size_t piece_count(const ClothModel& model) {
+    const std::vector<std::size_t> roots = pieces(model);
+    return std::set<std::size_t>(roots.begin(), roots.end()).size();
+}
+
+inline int cut_edge_count(const CutTopology& topology, const ClothModel& model, const std::uint32_t* corner) {
+    int count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = std::min(corner[k], corner[(k + 1) % 3]), b = std::max(corner[k], corner[(k + 1) % 3]);
+        const std::size_t direction = b - a == 1 ? 0 : b - a == model.grid.columns() ? 1 : 3;
+        count += topology.cut_fraction(a, direction) >= 0;
+    }
+    return count;
+}
+
+inline Vec3 evaluate(const glsl::CutVertex& vertex, const std::vector<glsl::vec4>& position) {
+    const auto at = [&](std::uint32_t k) {
+        return Vec3{number(position[k].x), number(position[k].y), number(position[k].z)};
+    };
+    const Vec3 anchor = at(vertex.particles.x), first = at(vertex.particles.y), second = at(vertex.particles.z);
+    const double offset[3] = {number(vertex.offset.x), number(vertex.offset.y), number(vertex.offset.z)};
+    Vec3 result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = anchor[k] + number(vertex.weights.x) * (first[k] - anchor[k]) +
+                    number(vertex.weights.y) * (second[k] - anchor[k]) + offset[k];
+    return result;
+}
+
+/// No index out of range; no drawn triangle spans a cut: the particles that a drawn triangle hangs on are one piece,
+/// and a whole triangle has at most one cut edge (a slit's end); no spring's share is negative; a cut spring has
+/// share 0; the corners of a cell that the mesh has let go are joined by no diagonal.
+inline void expect_consistent(const ClothModel& model, const CutTopology& topology) {
+    const std::vector<std::size_t> piece = pieces(model);
+    const std::size_t particle_count = model.grid.particle_count();
+    const std::vector<std::uint32_t>& indices = topology.indices();
+    ASSERT_EQ(indices.size() % 3, 0u);
+    const auto anchor = [&](std::uint32_t index) {
+        return index < particle_count ? index : topology.vertices()[index - particle_count].particles.x;
+    };
+    for (std::size_t k = 0; k < indices.size(); k += 3) {
+        for (std::size_t c = 0; c < 3; ++c) ASSERT_LT(indices[k + c], particle_count + topology.vertices().size());
+        ASSERT_EQ(piece[anchor(indices[k])], piece[anchor(indices[k + 1])]);
+        ASSERT_EQ(piece[anchor(indices[k])], piece[anchor(indices[k + 2])]);
+        const bool whole = indices[k] != indices[k + 1] && indices[k] < particle_count &&
+                           indices[k + 1] < particle_count && indices[k + 2] < particle_count;
+        if (whole) {
+            ASSERT_LE(cut_edge_count(topology, model, &indices[k]), 1);
+        }
+    }
+    for (const glsl::CutVertex& vertex : topology.vertices()) {
+        ASSERT_LT(std::max(vertex.particles.y, vertex.particles.z), particle_count);
+        ASSERT_EQ(piece[vertex.particles.x], piece[vertex.particles.y]) << "own side's particles alone";
+        ASSERT_EQ(piece[vertex.particles.x], piece[vertex.particles.z]);
+    }
+    if (!model.masked) return;
+    for (std::size_t particle = 0; particle < particle_count; ++particle) {
+        const glsl::vec4& s = model.stiffness[particle];
+        const float shares[4] = {s.x, s.y, s.z, s.w};
+        for (std::size_t k = 0; k < 4; ++k) {
+            ASSERT_TRUE(shares[k] == 0 || shares[k] == 0.5f || shares[k] == 1.0f);
+            if (topology.cut_fraction(particle, k) >= 0) {
+                ASSERT_EQ(shares[k], 0.0f);
+            }
+        }
+    }
+}
+
+}  // namespace drape::test
