@@ -62,11 +62,16 @@ void FrameLoop::build(FrameKind kind) {
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }
+    if (output && options_.statistics)
+        solver_.add_statistics(frame.graph);
+    else if (!options_.statistics)
+        frame.graph.skip("statistics", "nobody asked for them");
     frame.plan = graph::make_plan(frame.graph);
 }
 
 void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind) {
-    if (kind != FrameKind::initial) solver_.write_inputs(*pool_, slot, frame);
+    // The initial frame simulates nothing, but its statistics need to know where the colliders are.
+    if (kind != FrameKind::initial || options_.statistics) solver_.write_inputs(*pool_, slot, frame);
     if (kind != FrameKind::simulate && raster_) raster_->write_frame(*pool_, slot, frame / model_.scene.time.fps);
     slots_.submit(slot, frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
     in_flight_[slot] = InFlight{frame, kind, kind != FrameKind::simulate};
@@ -77,7 +82,7 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
     if (!in_flight_[slot]) return;
     const InFlight done = *in_flight_[slot];
     in_flight_[slot].reset();
-    FinishedFrame result{done.frame, {}, {}, frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot)};
+    FinishedFrame result{done.frame, {}, {}, {}, frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot)};
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
@@ -88,6 +93,7 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
             result.positions.push_back(
                 {reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
         }
+    if (done.output && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);
 }
 

@@ -17,8 +17,9 @@
 namespace drape {
 
 struct FrameLoopOptions {
-    bool draw = true;        ///< colour images are wanted
-    bool positions = false;  ///< position arrays are wanted
+    bool draw = true;         ///< colour images are wanted
+    bool positions = false;   ///< position arrays are wanted
+    bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
     graph::BarrierFilter barrier_filter;  ///< canary tests only
@@ -32,6 +33,7 @@ struct FinishedFrame {
     std::uint32_t frame;
     std::span<const std::uint8_t> rgba;             ///< empty unless drawn: rows from the top, sRGB
     std::vector<std::span<const float>> positions;  ///< per cloth: x y z w per particle; empty unless wanted
+    std::vector<ClothStatistics> statistics;        ///< per cloth; empty unless wanted
     std::vector<graph::Timing> timings;             ///< device time by stage; empty without timestamps
 };
 

@@ -96,7 +96,7 @@ std::size_t collider_record_count(const SceneDescription& scene, ColliderKind ki
 
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
-    const double frame_start = (frame - 1) / scene.time.fps;
+    const double frame_start = (static_cast<double>(frame) - 1) / scene.time.fps;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
     const std::array<bool, collider_kind_count> moving = moving_kinds(scene.colliders);
     FrameInputs inputs;

@@ -24,7 +24,8 @@ struct FrameInputs {
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 
-/// Inputs for simulating from frame-1 to `frame` (1 .. frame_count-1).
+/// Inputs for simulating from frame-1 to `frame` (1 .. frame_count-1). Frame 0 is not simulated; its last substep
+/// ends at time 0, so its colliders are where they start.
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame);
 
 /// First record of each kind in a substep.

@@ -7,6 +7,7 @@
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
 #include "passes/spring_pass.h"
+#include "passes/statistics_pass.h"
 #include "passes/wind_pass.h"
 
 namespace drape {
@@ -70,6 +71,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
     if (drawn) state.normal = image("normal", Lifetime::transient, vec4);
     if (model.masked) {
         state.stiffness = image("stiffness", Lifetime::constant, vec4);
+        state.mass = image("mass share", Lifetime::constant, VK_FORMAT_R32_SFLOAT);
         state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
     }
     for (std::size_t direction = 0; direction < 4; ++direction)
@@ -112,6 +114,21 @@ void ClothSolver::add_normals(graph::Graph& graph) {
     for (ClothState& state : cloths_) drape::add_normals(graph, pipelines_, state);
 }
 
+void ClothSolver::add_statistics(graph::Graph& graph) {
+    for (ClothState& state : cloths_) drape::add_statistics(graph, pipelines_, state, inputs_, model_);
+    if (model_.collider_count == 0) graph.skip("statistics: penetration", "no colliders in the scene");
+}
+
+std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
+    std::vector<ClothStatistics> all;
+    for (const ClothModel& cloth : model_.cloths) {
+        glsl::StatisticsRecord record;
+        std::memcpy(&record, pool.buffer(statistics_readback_name(cloth), slot).mapped().data(), sizeof record);
+        all.push_back(cloth_statistics(model_, cloth, record));
+    }
+    return all;
+}
+
 void ClothSolver::upload(const graph::ResourcePool& pool) const {
     const auto image = [&](const ClothModel& cloth, const char* part, auto bytes) {
         const std::string name = cloth.name + "/" + part;
@@ -129,6 +146,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         image(cloth, "displacement rest", bytes_of(zero));
         if (cloth.masked) {
             image(cloth, "stiffness", bytes_of(cloth.stiffness));
+            image(cloth, "mass share", bytes_of(mass_shares(cloth)));
             image(cloth, "cells", bytes_of(cloth.grid.cells()));
         }
         buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/cloth_statistics.h"
 #include "passes/pass_kit.h"
 
 namespace drape {
@@ -21,6 +22,8 @@ class ClothSolver {
     void add_simulation(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
     void add_normals(graph::Graph& graph);
+    /// Adds the statistics of every cloth (passes/statistics_pass.h), to be read by `statistics`.
+    void add_statistics(graph::Graph& graph);
     /// The newest handles since `declare`.
     const std::vector<ClothState>& cloths() const { return cloths_; }
 
@@ -28,6 +31,9 @@ class ClothSolver {
     void upload(const graph::ResourcePool& pool) const;
     /// Writes the host inputs for simulating to `frame` (1 ..) into a slot.
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const;
+
+    /// Per cloth, of the slot's last finished frame; its graph must have had `add_statistics`.
+    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const;
 
     const SimulationModel& model() const { return model_; }
     std::size_t pipeline_count() const { return pipelines_.size(); }

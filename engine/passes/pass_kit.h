@@ -35,12 +35,13 @@ class PipelineCache {
 ///   normal         rgba32f  unit normal of the front; only when something is drawn
 ///   multiplier     r32f     XPBD multiplier per direction, by first particle; compliant and iterated springs
 ///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
+///   mass           r32f     mass share (1 = an inner particle's); holes and cuts, where statistics are wanted
 ///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
 struct ClothState {
     const ClothModel* model = nullptr;
     std::size_t index = 0;
     graph::Handle position, displacement, position_rest, displacement_rest;
-    graph::Handle wind_force, normal, stiffness, cells;
+    graph::Handle wind_force, normal, stiffness, mass, cells;
     std::array<graph::Handle, 4> multiplier;
     graph::Handle triangles;              ///< index buffer
     graph::Handle pinned, pin_motions;    ///< dynamic pins

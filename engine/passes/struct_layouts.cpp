@@ -47,6 +47,22 @@ constexpr vulkan::MemberLayout pin_push_members[] = {
 constexpr vulkan::MemberLayout grid_push_members[] = {
     {"grid", offsetof(GridPush, grid)},
 };
+constexpr vulkan::MemberLayout statistics_push_members[] = {
+    {"rest_length", offsetof(StatisticsPush, rest_length)},
+    {"half_stiffness", offsetof(StatisticsPush, half_stiffness)},
+    {"reference", offsetof(StatisticsPush, reference)},
+    {"collider_first", offsetof(StatisticsPush, collider_first)},
+    {"collider_count", offsetof(StatisticsPush, collider_count)},
+    {"grid", offsetof(StatisticsPush, grid)},
+};
+constexpr vulkan::MemberLayout statistics_sum_push_members[] = {
+    {"partial_count", offsetof(StatisticsSumPush, partial_count)},
+};
+constexpr vulkan::MemberLayout statistics_record_members[] = {
+    {"squares", offsetof(StatisticsRecord, squares)}, {"moments", offsetof(StatisticsRecord, moments)},
+    {"strains", offsetof(StatisticsRecord, strains)}, {"extents", offsetof(StatisticsRecord, extents)},
+    {"counts", offsetof(StatisticsRecord, counts)},
+};
 constexpr vulkan::MemberLayout collider_members[] = {
     {"pose_x", offsetof(Collider, pose_x)},
     {"pose_y", offsetof(Collider, pose_y)},
@@ -75,6 +91,10 @@ const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_mem
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};
 const vulkan::StructLayout grid_push{"GridPush", sizeof(GridPush), grid_push_members};
+const vulkan::StructLayout statistics_push{"StatisticsPush", sizeof(StatisticsPush), statistics_push_members};
+const vulkan::StructLayout statistics_sum_push{"StatisticsSumPush", sizeof(StatisticsSumPush),
+                                               statistics_sum_push_members};
+const vulkan::StructLayout statistics_record{"StatisticsRecord", sizeof(StatisticsRecord), statistics_record_members};
 const vulkan::StructLayout collider{"Collider", sizeof(Collider), collider_members};
 const vulkan::StructLayout pinned_particle{"PinnedParticle", sizeof(PinnedParticle), pinned_particle_members};
 const vulkan::StructLayout pin_motion{"PinMotion", sizeof(PinMotion), pin_motion_members};

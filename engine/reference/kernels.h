@@ -11,6 +11,7 @@ namespace drape::glsl {
 #include "include/cut.h"
 #include "include/pin.h"
 #include "include/spring.h"
+#include "include/statistics.h"
 #include "include/triangles.h"
 #include "include/verlet.h"
 #include "include/wind.h"

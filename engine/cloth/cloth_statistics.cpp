@@ -1,0 +1,84 @@
+#include "cloth/cloth_statistics.h"
+
+#include <cmath>
+
+#include "cloth/frame_inputs.h"
+
+namespace drape {
+
+namespace {
+
+StrainStatistics strain_statistics(std::uint32_t count, double square_sum, double largest, double minus_smallest) {
+    if (count == 0) return {};
+    return {count, std::sqrt(square_sum / count), largest, -minus_smallest};
+}
+
+float& component(glsl::vec4& v, std::size_t index) {
+    return index == 0 ? v.x : index == 1 ? v.y : index == 2 ? v.z : v.w;
+}
+
+}  // namespace
+
+bool ClothStatistics::is_finite() const {
+    // A sum is finite only when all are.
+    double sum = kinetic_energy + potential_energy + elastic_energy + mass + penetration.value_or(0) +
+                 largest_distance + largest_speed;
+    for (const double coordinate : center_of_mass) sum += coordinate;
+    for (const StrainStatistics& strain : {stretch, shear}) sum += strain.rms + strain.largest + strain.smallest;
+    return non_finite_count == 0 && std::isfinite(sum);
+}
+
+glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth) {
+    glsl::StatisticsPush push{};
+    const double h2 = cloth.substep_length * cloth.substep_length;
+    for (const SpringWork& work : cloth.springs) {
+        const auto direction = static_cast<std::size_t>(work.pass.direction);
+        component(push.rest_length, direction) = work.push.rest_length;
+        const double compliance = static_cast<double>(work.push.compliance);
+        component(push.half_stiffness, direction) =
+            compliance > 0 ? static_cast<float>(0.5 * cloth.inner_mass / (compliance * h2)) : 0.0f;
+    }
+    // Sums relative to the cloth's middle keep their digits far from the origin.
+    const glsl::vec4 first = cloth.position.front(), last = cloth.position.back();
+    push.reference = {0.5f * (first.x + last.x), 0.5f * (first.y + last.y), 0.5f * (first.z + last.z),
+                      cloth.collision.contact.x};
+    push.collider_first = first_colliders(model.scene, model.scene.solver.substeps - 1);
+    push.collider_count = cloth.collision.count;
+    push.grid = cloth.grid.size();
+    return push;
+}
+
+std::vector<float> mass_shares(const ClothModel& cloth) {
+    std::vector<float> shares;
+    shares.reserve(cloth.free_weight.size());
+    for (const float weight : cloth.free_weight) shares.push_back(weight > 0 ? 1.0f / weight : 0.0f);
+    return shares;
+}
+
+ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
+                                 const glsl::StatisticsRecord& record) {
+    const double h = cloth.substep_length;
+    const glsl::vec4 reference = statistics_push(model, cloth).reference;
+    ClothStatistics statistics;
+    // Adding +0 turns the -0 of an empty sum into 0.
+    statistics.stretch = strain_statistics(record.counts.z, record.squares.x + 0.0, record.strains.x, record.strains.z);
+    statistics.shear = strain_statistics(record.counts.w, record.squares.y + 0.0, record.strains.y, record.strains.w);
+    statistics.elastic_energy = record.squares.z + 0.0;
+    statistics.kinetic_energy = 0.5 * cloth.inner_mass * (record.squares.w + 0.0) / (h * h);
+    const double share = record.moments.w + 0.0;
+    statistics.mass = cloth.inner_mass * share;
+    const double moments[3] = {record.moments.x, record.moments.y, record.moments.z};
+    const double start[3] = {reference.x, reference.y, reference.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+        statistics.center_of_mass[k] = start[k] + (share > 0 ? moments[k] / share : 0.0);
+        statistics.potential_energy -= statistics.mass * model.scene.gravity[k] * statistics.center_of_mass[k];
+    }
+    if (model.collider_count > 0) statistics.penetration = record.extents.z;
+    statistics.largest_distance = std::sqrt(static_cast<double>(record.extents.x));
+    statistics.largest_speed = std::sqrt(static_cast<double>(record.extents.y)) / h;
+    statistics.non_finite_count = record.counts.x;
+    statistics.first_non_finite = record.counts.x > 0 ? record.counts.y : 0;
+    return statistics;
+}
+
+}  // namespace drape

@@ -1,0 +1,53 @@
+// What is said about a cloth at the end of a frame: how far its springs are from their rest lengths, its energies,
+// how deep it is in the colliders, whether it is finite. The device (passes/statistics_pass.h) and the twin
+// (reference/statistics.h) reduce a state to a record; here its numbers get their units. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cloth/schedule.h"
+
+namespace drape {
+
+/// Strain = (length - rest length) / rest length, over every existing spring of a family, each counted once.
+struct StrainStatistics {
+    std::uint32_t spring_count = 0;  ///< 0: the other members mean nothing
+    double rms = 0;
+    double largest = 0;   ///< most stretched
+    double smallest = 0;  ///< most compressed (negative)
+};
+
+/// SI units. Without particles that are not finite, the numbers are of all particles, held ones included.
+struct ClothStatistics {
+    /// Strain of the state. The *stretch error* of a solver, RMS of strain - tension/(k l), needs the tension that
+    /// the solver applied: the multiplier, which `relax` stores only when it iterates. Whoever stores it adds a
+    /// family here and reads it in add_spring_strain; until then a soft cloth's true stretch is in these numbers.
+    StrainStatistics stretch, shear;
+    /// J, with the velocities of the middle of the last substep: displacement / h.
+    double kinetic_energy = 0;
+    double potential_energy = 0;  ///< J, gravity's; 0 at the origin
+    double elastic_energy = 0;    ///< J, of the stretch and shear springs; rigid ones store none
+    double mass = 0;              ///< kg
+    Vec3 center_of_mass{};        ///< m
+    /// m, of the deepest particle in the zone that contacts keep free, thickness included; nothing without colliders.
+    std::optional<double> penetration;
+    double largest_distance = 0;  ///< m from the origin
+    double largest_speed = 0;     ///< m/s
+    std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
+    std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
+
+    /// Whether every particle and every number above is finite (numbers may overflow before positions do).
+    bool is_finite() const;
+};
+
+/// What a state of this cloth is reduced with; colliders are those of the frame's last substep.
+glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth);
+
+/// Mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
+std::vector<float> mass_shares(const ClothModel& cloth);
+
+ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
+                                 const glsl::StatisticsRecord& record);
+
+}  // namespace drape

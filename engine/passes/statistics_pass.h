@@ -1,0 +1,17 @@
+// Reduces a cloth's state at the end of a frame to one record on the device; the host reads only that.
+#pragma once
+
+#include "cloth/cloth_statistics.h"
+#include "passes/pass_kit.h"
+
+namespace drape {
+
+/// Host output buffer with one glsl::StatisticsRecord.
+std::string statistics_readback_name(const ClothModel& cloth);
+
+/// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". The sums are trees in a
+/// fixed order without atomics, so they repeat bit for bit and equal the twin's (reference/statistics.h).
+void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+                    const SimulationModel& model);
+
+}  // namespace drape

@@ -1,0 +1,111 @@
+#include "reference/statistics.h"
+
+#include <array>
+
+#include "reference/kernels.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+using Workgroup = std::array<StatisticsRecord, workgroup_width>;
+
+StatisticsRecord joined_over_workgroup(Workgroup& lanes) {
+    for (std::size_t stride = workgroup_width / 2; stride > 0; stride /= 2)
+        for (std::size_t lane = 0; lane < stride; ++lane) lanes[lane] = joined(lanes[lane], lanes[lane + stride]);
+    return lanes[0];
+}
+
+/// One cloth's state as the shader's invocations see it.
+class Reduction {
+  public:
+    Reduction(const SimulationModel& model, const ClothModel& cloth, const TwinCloth& state, const FrameInputs& inputs)
+        : cloth_(cloth),
+          state_(state),
+          inputs_(inputs),
+          push_(statistics_push(model, cloth)),
+          masses_(mass_shares(cloth)) {}
+
+    StatisticsRecord run() const {
+        std::vector<StatisticsRecord> partials;
+        for (int row = 0; row < push_.grid.y; ++row)
+            for (int first = 0; first < push_.grid.x; first += workgroup_width) {
+                Workgroup lanes;
+                for (int lane = 0; lane < workgroup_width; ++lane) {
+                    const ivec2 particle{first + lane, row};
+                    lanes[static_cast<std::size_t>(lane)] =
+                        inside(particle) ? statistics_of(particle) : empty_statistics();
+                }
+                partials.push_back(joined_over_workgroup(lanes));
+            }
+        Workgroup lanes;
+        lanes.fill(empty_statistics());
+        for (std::size_t i = 0; i < partials.size(); ++i)
+            lanes[i % workgroup_width] = joined(lanes[i % workgroup_width], partials[i]);
+        return joined_over_workgroup(lanes);
+    }
+
+  private:
+    bool inside(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < push_.grid.x && p.y < push_.grid.y; }
+    std::size_t at(ivec2 p) const { return static_cast<std::size_t>(p.y * push_.grid.x + p.x); }
+    static vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }
+    static float component(const vec4& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
+
+    StatisticsRecord statistics_of(ivec2 particle) const {
+        const std::size_t index = at(particle);
+        const vec4 position = state_.position[index];
+        const float share = cloth_.masked ? masses_[index] : border_mass_share(particle, push_.grid);
+        StatisticsRecord record = particle_statistics(xyz(position), xyz(state_.displacement[index]), share,
+                                                      xyz(push_.reference), static_cast<uint>(index));
+        if (record.counts.x != 0) return record;
+        for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
+        if (position.w != 0.0f) record.extents.z = penetration(xyz(position));
+        return record;
+    }
+
+    StatisticsRecord with_spring(const StatisticsRecord& record, ivec2 first, int direction) const {
+        const ivec2 offset = spring_directions[static_cast<std::size_t>(direction)].offset;
+        const ivec2 second{first.x + offset.x, first.y + offset.y};
+        if (!inside(second)) return record;
+        const float share = cloth_.masked ? component(cloth_.stiffness[at(first)], direction)
+                                          : border_stiffness(first, offset, push_.grid);
+        return add_spring_strain(record, xyz(state_.position[at(first)]), xyz(state_.position[at(second)]),
+                                 component(push_.rest_length, direction), component(push_.half_stiffness, direction),
+                                 share, direction >= 2);
+    }
+
+    float penetration(vec3 position) const {
+        const vec3 rest{0, 0, 0};
+        const int firsts[4] = {push_.collider_first.x, push_.collider_first.y, push_.collider_first.z,
+                               push_.collider_first.w};
+        const int counts[4] = {push_.collider_count.x, push_.collider_count.y, push_.collider_count.z,
+                               push_.collider_count.w};
+        using ContactFunction = Contact (*)(Collider, vec3, vec3, float, float);
+        constexpr ContactFunction contacts[4] = {plane_contact, sphere_contact, box_contact, ellipsoid_contact};
+        float deepest = 0.0f;
+        for (std::size_t kind = 0; kind < 4; ++kind)
+            for (int k = 0; k < counts[kind]; ++k) {
+                const Collider& collider = inputs_.colliders[kind][static_cast<std::size_t>(firsts[kind] + k)];
+                const float depth = contacts[kind](collider, position, rest, push_.reference.w, 0.0f).depth;
+                deepest = depth > deepest ? depth : deepest;
+            }
+        return deepest;
+    }
+
+    const ClothModel& cloth_;
+    const TwinCloth& state_;
+    const FrameInputs& inputs_;
+    StatisticsPush push_;
+    std::vector<float> masses_;
+};
+
+}  // namespace
+
+StatisticsRecord twin_statistics(const SimulationModel& model, std::size_t cloth, const TwinCloth& state,
+                                 const FrameInputs& inputs) {
+    return Reduction(model, model.cloths[cloth], state, inputs).run();
+}
+
+}  // namespace drape

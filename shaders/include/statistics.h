@@ -1,0 +1,89 @@
+// Statistics of a cloth's state: what one particle and the springs that it owns give, and how two records join.
+// A strain is (length - rest length) / rest length. Every spring that exists counts once, whatever its share of
+// the stiffness: "RMS over the springs" is then what anyone computes from exported positions.
+// What is not finite is counted by its bits, before any comparison could hide it (max(NaN, 0) may be 0), and
+// gives nothing else, so that the other numbers still say something.
+#ifndef DRAPE_STATISTICS_H
+#define DRAPE_STATISTICS_H
+
+#include "include/vector.h"
+
+const float lowest_float = -3.402823466e38f;
+const uint no_particle = 0xffffffffu;
+
+SHARED bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+
+SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+/// What a sum or a maximum over nothing is: -0 + x is x for every x.
+SHARED StatisticsRecord empty_statistics() {
+    return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
+                            vec4(lowest_float, lowest_float, lowest_float, lowest_float),
+                            vec4(0.0f, 0.0f, 0.0f, 0.0f), uvec4(0u, no_particle, 0u, 0u));
+}
+
+SHARED vec4 ordered_sum(vec4 a, vec4 b) {
+    precise vec4 sum = vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w);
+    return sum;
+}
+
+SHARED vec4 larger(vec4 a, vec4 b) {
+    return vec4(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z, a.w > b.w ? a.w : b.w);
+}
+
+SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
+    return StatisticsRecord(ordered_sum(a.squares, b.squares), ordered_sum(a.moments, b.moments),
+                            larger(a.strains, b.strains), larger(a.extents, b.extents),
+                            uvec4(a.counts.x + b.counts.x, a.counts.y < b.counts.y ? a.counts.y : b.counts.y,
+                                  a.counts.z + b.counts.z, a.counts.w + b.counts.w));
+}
+
+/// Mass of a particle of a cloth without holes, in units of an inner particle's.
+SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
+    float across = particle.x == 0 || particle.x == grid.x - 1 ? 0.5f : 1.0f;
+    float down = particle.y == 0 || particle.y == grid.y - 1 ? 0.5f : 1.0f;
+    precise float share = across * down;
+    return share;
+}
+
+/// A particle without its springs. It counts as not finite when its position or displacement is.
+SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, float share, vec3 reference,
+                                            uint index) {
+    StatisticsRecord record = empty_statistics();
+    if (!is_finite(position) || !is_finite(displacement)) {
+        record.counts = uvec4(1u, index, 0u, 0u);
+        return record;
+    }
+    precise vec3 moment = (position - reference) * share;
+    precise float moved_squared = ordered_dot(displacement, displacement);
+    precise float moving = share * moved_squared;
+    record.squares.w = moving;
+    record.moments = vec4(moment.x, moment.y, moment.z, share);
+    record.extents.x = ordered_dot(position, position);
+    record.extents.y = moved_squared;
+    return record;
+}
+
+/// `record` plus the spring between two particles; `first` is finite. `rest_length`, m, and the spring's `share`
+/// of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m. Shear belongs to the diagonals.
+SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
+                                          float half_stiffness, float share, bool shear) {
+    if (!(rest_length > 0.0f) || !(share > 0.0f) || !is_finite(second)) return record;
+    precise vec3 edge = second - first;
+    precise float current = sqrt(ordered_dot(edge, edge));
+    precise float extension = current - rest_length;
+    precise float strain = extension / rest_length;
+    precise float square = strain * strain;
+    precise float energy = share * half_stiffness * (extension * extension);
+    record.squares = ordered_sum(record.squares, shear ? vec4(-0.0f, square, energy, -0.0f)
+                                                       : vec4(square, -0.0f, energy, -0.0f));
+    record.strains = larger(record.strains, shear ? vec4(lowest_float, strain, lowest_float, -strain)
+                                                  : vec4(strain, lowest_float, -strain, lowest_float));
+    if (shear)
+        record.counts.w += 1u;
+    else
+        record.counts.z += 1u;
+    return record;
+}
+
+#endif

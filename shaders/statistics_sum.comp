@@ -1,0 +1,20 @@
+// Joins the workgroups' records into the cloth's: lane l takes every 64th from the l-th on, then the tree.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/statistics.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { StatisticsSumPush push; };
+layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
+
+#include "include/statistics_reduction.h"
+
+void main() {
+    StatisticsRecord record = empty_statistics();
+    for (int i = int(gl_LocalInvocationIndex); i < push.partial_count; i += workgroup_width)
+        record = joined(record, partials[i]);
+    record = joined_over_workgroup(record);
+    if (gl_LocalInvocationIndex == 0u) result[0] = record;
+}

@@ -1,0 +1,420 @@
+// The statistics of a frame: the device's record equals the twin's bit for bit, and its numbers are those of a
+// plain evaluation of the downloaded state in double precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "device_run.h"
+#include "frame_loop.h"
+#include "gpu_test.h"
+#include "passes/statistics_pass.h"
+#include "reference/statistics.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+using glsl::vec4;
+
+/// Runs the statistics passes alone, on a state that the test gives.
+class StatisticsRun {
+  public:
+    explicit StatisticsRun(const SimulationModel& model)
+        : model_(model), solver_(test::gpu().device, model), slots_(test::gpu().device) {
+        solver_.declare(graph_, false);
+        solver_.add_statistics(graph_);
+        plan_ = graph::make_plan(graph_);
+        const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
+        pool_ = std::make_unique<graph::ResourcePool>(test::gpu().device, plans);
+        recorded_ = std::make_unique<graph::RecordedPlan>(graph_, plan_, *pool_, graph::TimestampMode::none);
+        solver_.upload(*pool_);
+    }
+
+    /// Of cloth 0.
+    glsl::StatisticsRecord record(const TwinCloth& state, std::uint32_t frame) {
+        const std::string name = model_.cloths[0].name;
+        vulkan::upload(test::gpu().device, pool_->image(name + "/position"), std::as_bytes(std::span(state.position)));
+        vulkan::upload(test::gpu().device, pool_->image(name + "/displacement"),
+                       std::as_bytes(std::span(state.displacement)));
+        solver_.write_inputs(*pool_, 0, frame);
+        slots_.submit(0, recorded_->commands(0));
+        slots_.wait(0);
+        glsl::StatisticsRecord result;
+        const auto bytes = pool_->buffer(statistics_readback_name(model_.cloths[0]), 0).mapped();
+        std::memcpy(&result, bytes.data(), sizeof result);
+        return result;
+    }
+
+    const graph::Graph& graph() const { return graph_; }
+
+  private:
+    const SimulationModel& model_;
+    ClothSolver solver_;
+    graph::Graph graph_;
+    graph::Plan plan_;
+    std::unique_ptr<graph::ResourcePool> pool_;
+    std::unique_ptr<graph::RecordedPlan> recorded_;
+    vulkan::FrameSlots slots_;
+};
+
+/// The initial state, stretched by `stretch`, crumpled at random by up to `noise` (m), moving at random.
+TwinCloth crumpled_state(const SimulationModel& model, float stretch, float noise, unsigned seed) {
+    TwinCloth state = Twin(model).cloth(0);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> jitter(-noise, noise), speed(-1e-3f, 1e-3f);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        vec4& x = state.position[i];
+        x = {stretch * x.x + jitter(random), stretch * x.y + jitter(random), stretch * x.z + jitter(random), x.w};
+        state.displacement[i] = {speed(random), speed(random), speed(random), 0};
+    }
+    return state;
+}
+
+std::size_t particle_at(const Grid& grid, int column, int row) {
+    return static_cast<std::size_t>(row) * grid.columns() + static_cast<std::size_t>(column);
+}
+
+struct Difference {
+    double x, y, z;
+    double length() const { return std::hypot(x, y, z); }
+};
+
+Difference difference(const vec4& a, const vec4& b) {
+    return {double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z)};
+}
+
+/// Strain and elastic energy of the springs of `family`, spring by spring in double.
+StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& model, const TwinCloth& state,
+                              SpringFamily family, double& energy) {
+    const Stiffness& stiffness = scene.cloths[0].stiffness;
+    const double dx = model.spacing[0], dy = model.spacing[1];
+    StrainStatistics strain{0, 0, -1e300, 1e300};
+    for (std::size_t direction = 0; direction < 4; ++direction) {
+        if (spring_directions[direction].family != family) continue;
+        const auto [i, j] = spring_directions[direction].offset;
+        const double rest = std::hypot(i * dx, j * dy);
+        const double k = family == SpringFamily::shear ? stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)
+                                                       : stiffness.stretch * (j == 0 ? dy / dx : dx / dy);
+        for (int row = 0; row < model.grid.size().y; ++row)
+            for (int column = 0; column < model.grid.size().x; ++column) {
+                if (column + i < 0 || column + i >= model.grid.size().x || row + j >= model.grid.size().y) continue;
+                const vec4 shares =
+                    model.grid.spring_shares(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+                const float all[] = {shares.x, shares.y, shares.z, shares.w};
+                if (all[direction] == 0) continue;
+                const double length = difference(state.position[particle_at(model.grid, column, row)],
+                                                 state.position[particle_at(model.grid, column + i, row + j)]).length();
+                const double value = (length - rest) / rest;
+                ++strain.spring_count;
+                strain.rms += value * value;
+                strain.largest = std::max(strain.largest, value);
+                strain.smallest = std::min(strain.smallest, value);
+                if (!stiffness.rigid) energy += 0.5 * k * all[direction] * (length - rest) * (length - rest);
+            }
+    }
+    strain.rms = std::sqrt(strain.rms / strain.spring_count);
+    return strain;
+}
+
+/// Everything but penetration, evaluated plainly in double from the scene and the state.
+ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model, const TwinCloth& state) {
+    const ClothModel& cloth = model.cloths[0];
+    ClothStatistics plain;
+    plain.stretch = plain_strain(scene, cloth, state, SpringFamily::stretch, plain.elastic_energy);
+    plain.shear = plain_strain(scene, cloth, state, SpringFamily::shear, plain.elastic_energy);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const float weight = cloth.free_weight[i];
+        const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
+        const vec4 x = state.position[i], d = state.displacement[i];
+        const double speed = std::hypot(double(d.x), double(d.y), double(d.z)) / cloth.substep_length;
+        const double at[] = {x.x, x.y, x.z};
+        plain.kinetic_energy += 0.5 * mass * speed * speed;
+        plain.mass += mass;
+        for (std::size_t k = 0; k < 3; ++k) {
+            plain.potential_energy -= mass * scene.gravity[k] * at[k];
+            plain.center_of_mass[k] += mass * at[k];
+        }
+        plain.largest_distance = std::max(plain.largest_distance, std::hypot(at[0], at[1], at[2]));
+        plain.largest_speed = std::max(plain.largest_speed, speed);
+    }
+    for (double& coordinate : plain.center_of_mass) coordinate /= plain.mass;
+    return plain;
+}
+
+void expect_relative(double value, double expected, const char* what, double floor = 0) {
+    EXPECT_NEAR(value, expected, 1e-5 * std::abs(expected) + floor) << what;
+}
+
+void expect_strain(const StrainStatistics& strain, const StrainStatistics& expected, double floor) {
+    EXPECT_EQ(strain.spring_count, expected.spring_count);
+    expect_relative(strain.rms, expected.rms, "rms strain", floor);
+    expect_relative(strain.largest, expected.largest, "largest strain", floor);
+    expect_relative(strain.smallest, expected.smallest, "smallest strain", floor);
+}
+
+/// `floor`: absolute rounding of a strain.
+void expect_plain(const ClothStatistics& statistics, const ClothStatistics& plain, double floor = 0) {
+    expect_strain(statistics.stretch, plain.stretch, floor);
+    expect_strain(statistics.shear, plain.shear, floor);
+    expect_relative(statistics.kinetic_energy, plain.kinetic_energy, "kinetic energy");
+    expect_relative(statistics.potential_energy, plain.potential_energy, "potential energy");
+    expect_relative(statistics.elastic_energy, plain.elastic_energy, "elastic energy");
+    expect_relative(statistics.mass, plain.mass, "mass");
+    // Coordinates may cancel: relative to the distance.
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(statistics.center_of_mass[k], plain.center_of_mass[k], 1e-5 * plain.largest_distance);
+    expect_relative(statistics.largest_distance, plain.largest_distance, "largest distance");
+    expect_relative(statistics.largest_speed, plain.largest_speed, "largest speed");
+    EXPECT_EQ(statistics.non_finite_count, 0u);
+    EXPECT_TRUE(statistics.is_finite());
+}
+
+glsl::StatisticsRecord expect_same_record(const SimulationModel& model, const TwinCloth& state,
+                                          std::uint32_t frame = 1) {
+    StatisticsRun run(model);
+    const glsl::StatisticsRecord device = run.record(state, frame);
+    const glsl::StatisticsRecord twin = twin_statistics(model, 0, state, frame_inputs(model, frame));
+    EXPECT_EQ(std::memcmp(&device, &twin, sizeof device), 0)
+        << "stretch " << device.squares.x << " against " << twin.squares.x << ", shear " << device.squares.y
+        << " against " << twin.squares.y << ", springs " << device.counts.z << " against " << twin.counts.z;
+    return device;
+}
+
+SceneDescription soft_sheet(std::uint32_t columns, std::uint32_t rows) {
+    SceneDescription scene = test::sheet(columns, rows, 1.2, 0.8, 10);
+    scene.cloths[0].stiffness = {false, 700, 90, 0};
+    scene.cloths[0].placement.origin = {3, 5, -2};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0)};
+    return scene;
+}
+
+void compare(const SceneDescription& scene, const ModelOptions& options = {}) {
+    const SimulationModel model(scene, options);
+    const float cell = static_cast<float>(std::min(model.cloths[0].spacing[0], model.cloths[0].spacing[1]));
+    const TwinCloth state = crumpled_state(model, 1.15f, 0.1f * cell, 5);
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
+    expect_plain(statistics, plain_statistics(scene, model, state));
+}
+
+TEST(StatisticsTest, SmallestGrid) { compare(soft_sheet(2, 2)); }
+TEST(StatisticsTest, OneColumnMoreThanAWorkgroup) { compare(soft_sheet(65, 33)); }
+TEST(StatisticsTest, ManyWorkgroupsWide) { compare(soft_sheet(300, 7)); }
+TEST(StatisticsTest, MoreWorkgroupsThanLanes) { compare(soft_sheet(40, 130)); }
+
+TEST(StatisticsTest, Holes) {
+    SceneDescription scene = soft_sheet(65, 33);
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{50, 20}, {64, 32}}};
+    compare(scene);
+    const SimulationModel with_holes(scene), whole(soft_sheet(65, 33));
+    const TwinCloth state = crumpled_state(with_holes, 1.1f, 0, 1), all = crumpled_state(whole, 1.1f, 0, 1);
+    const auto statistics = [](const SimulationModel& model, const TwinCloth& of) {
+        return cloth_statistics(model, model.cloths[0], expect_same_record(model, of));
+    };
+    const ClothStatistics few = statistics(with_holes, state), many = statistics(whole, all);
+    // 70 and 168 cells less: as many masses, twice as many diagonals, and the sides that have no cell left.
+    EXPECT_NEAR(few.mass / many.mass, 1 - 238.0 / (64 * 32), 1e-6);
+    EXPECT_EQ(many.shear.spring_count - few.shear.spring_count, 2 * 238u);
+    EXPECT_LT(few.stretch.spring_count, many.stretch.spring_count);
+}
+
+TEST(StatisticsTest, AMaskChangesNothingOnAWholeCloth) {
+    const SceneDescription scene = soft_sheet(37, 20);
+    const SimulationModel plain(scene), masked(scene, {.skip = false});
+    ASSERT_TRUE(masked.cloths[0].masked);
+    const TwinCloth state = crumpled_state(plain, 1.1f, 1e-3f, 3);
+    const glsl::StatisticsRecord a = expect_same_record(plain, state), b = expect_same_record(masked, state);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+}
+
+TEST(StatisticsTest, SmallStrainsUpToTheRoundingOfALength) {
+    SceneDescription scene = soft_sheet(64, 48);
+    scene.cloths[0].placement.origin = {0, 0, 0};
+    const SimulationModel model(scene);
+    const TwinCloth state = crumpled_state(model, 1.001f, 0, 1);
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
+    const ClothStatistics plain = plain_statistics(scene, model, state);
+    // A strain is the difference of two nearly equal lengths, each rounded to 24 bits.
+    constexpr double rounding = 0x1p-22;
+    expect_strain(statistics.stretch, plain.stretch, rounding);
+    expect_strain(statistics.shear, plain.shear, rounding);
+    EXPECT_NEAR(statistics.stretch.rms, 1e-3, 1e-5);
+}
+
+TEST(StatisticsTest, SpringsOfZeroStiffnessAreNotCounted) {
+    SceneDescription scene = soft_sheet(20, 20);
+    scene.cloths[0].stiffness.shear = 0;
+    const SimulationModel model(scene);
+    const TwinCloth state = crumpled_state(model, 1.2f, 0, 1);
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
+    EXPECT_EQ(statistics.shear.spring_count, 0u);
+    EXPECT_EQ(statistics.shear.rms, 0.0);
+    EXPECT_EQ(statistics.stretch.spring_count, 2u * 20 * 19);
+    EXPECT_NEAR(statistics.stretch.rms, 0.2, 1e-5);
+}
+
+TEST(StatisticsTest, RigidSpringsStoreNoEnergy) {
+    SceneDescription scene = soft_sheet(20, 20);
+    scene.cloths[0].stiffness.rigid = true;
+    const SimulationModel model(scene);
+    const TwinCloth state = crumpled_state(model, 1.2f, 0, 1);
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
+    EXPECT_EQ(statistics.elastic_energy, 0.0);
+    EXPECT_NEAR(statistics.stretch.rms, 0.2, 1e-5);
+    EXPECT_FALSE(statistics.penetration.has_value());
+}
+
+TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (const bool holes : {false, true}) {
+        SceneDescription scene = soft_sheet(65, 33);
+        if (holes) scene.cloths[0].holes = {{{1, 1}, {3, 3}}};
+        const SimulationModel model(scene);
+        const TwinCloth good = crumpled_state(model, 1.1f, 1e-3f, 2);
+        const ClothStatistics before = cloth_statistics(model, model.cloths[0], expect_same_record(model, good));
+        TwinCloth bad = good;
+        const Grid& grid = model.cloths[0].grid;
+        bad.position[grid.particle(64, 32)].z = nan;
+        bad.position[grid.particle(40, 17)].x = -infinity;
+        bad.displacement[grid.particle(7, 12)].y = -nan;
+        const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, bad));
+        EXPECT_EQ(before.non_finite_count, 0u);
+        EXPECT_EQ(statistics.non_finite_count, 3u);
+        EXPECT_EQ(statistics.first_non_finite, grid.particle(7, 12));
+        EXPECT_FALSE(statistics.is_finite());
+        // Two of them are inner particles, one is a corner.
+        EXPECT_NEAR(statistics.mass, before.mass - 2.25 * model.cloths[0].inner_mass, 1e-6 * before.mass);
+        EXPECT_LT(statistics.stretch.spring_count, before.stretch.spring_count);
+        EXPECT_TRUE(std::isfinite(statistics.stretch.rms + statistics.kinetic_energy + statistics.largest_speed));
+    }
+}
+
+TEST(StatisticsTest, FiniteNumbersThatOverflowAreNotCalledFinite) {
+    const SimulationModel model(soft_sheet(10, 10));
+    TwinCloth state = crumpled_state(model, 1, 0, 1);
+    state.position[model.cloths[0].grid.particle(4, 4)].x = 1e30f;
+    StatisticsRun run(model);
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], run.record(state, 1));
+    EXPECT_EQ(statistics.non_finite_count, 0u);
+    EXPECT_FALSE(statistics.is_finite());
+}
+
+/// Four kinds, one of them key-framed.
+Colliders four_kinds() {
+    Colliders colliders;
+    colliders.planes.emplace_back();
+    colliders.planes[0].offset = 4.3;
+    colliders.spheres.emplace_back();
+    colliders.spheres[0].center = {3.4, 4.9, -2.05};
+    colliders.spheres[0].radius = 0.1;
+    colliders.spheres[0].path.keys = {{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}};
+    colliders.boxes.emplace_back();
+    colliders.boxes[0].center = {3.9, 4.7, -2};
+    colliders.boxes[0].half_extents = {0.1, 0.02, 0.3};
+    colliders.boxes[0].rotate = {0, 0, 30};
+    colliders.ellipsoids.emplace_back();
+    colliders.ellipsoids[0].center = {3.3, 4.5, -1.95};
+    colliders.ellipsoids[0].radii = {0.2, 0.1, 0.07};
+    return colliders;
+}
+
+TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {
+    for (const std::uint32_t frame : {0u, 1u, 20u})
+        for (int kind = -1; kind < 4; ++kind) {  // -1: all at once
+            SceneDescription scene = soft_sheet(70, 50);
+            scene.time.frame_count = 31;
+            const Colliders all = four_kinds();
+            if (kind < 0) scene.colliders = all;
+            if (kind == 0) scene.colliders.planes = all.planes;
+            if (kind == 1) scene.colliders.spheres = all.spheres;
+            if (kind == 2) scene.colliders.boxes = all.boxes;
+            if (kind == 3) scene.colliders.ellipsoids = all.ellipsoids;
+            const SimulationModel model(scene);
+            const TwinCloth state = Twin(model).cloth(0);
+            const auto statistics =
+                cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame));
+            ASSERT_TRUE(statistics.penetration.has_value());
+            EXPECT_GT(*statistics.penetration, 0.003) << "kind " << kind;
+        }
+}
+
+TEST(StatisticsTest, PenetrationIsTheDepthUnderTheThicknessOfFreeParticles) {
+    SceneDescription scene = test::sheet(33, 17, 1, 0.5, 4);  // y from 0 down to -0.5
+    scene.time.frame_count = 31;
+    scene.cloths[0].thickness = 0.01;
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.colliders.planes.emplace_back();
+    scene.colliders.planes[0].offset = -0.45;
+    scene.colliders.planes[0].path.keys = {{0, {0, 0, 0}, {}}, {0.5, {0, 0.4, 0}, {}}};
+    const SimulationModel model(scene);
+    const TwinCloth state = Twin(model).cloth(0);
+    const auto penetration = [&](std::uint32_t frame) {
+        return cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame)).penetration.value();
+    };
+    EXPECT_NEAR(penetration(0), 0.05 + 0.01, 1e-6);
+    EXPECT_NEAR(penetration(30), 0.45 + 0.01, 1e-6);  // the plane has come up to y = -0.05
+    scene.cloths[0].pins = {test::pin_box(0, 0, 32, 16)};
+    const SimulationModel held(scene);
+    const glsl::StatisticsRecord record = expect_same_record(held, Twin(held).cloth(0), 0);
+    EXPECT_EQ(cloth_statistics(held, held.cloths[0], record).penetration, 0.0);
+}
+
+TEST(StatisticsTest, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
+    SceneDescription scene = soft_sheet(40, 30);
+    scene.time.frame_count = 9;
+    scene.colliders = four_kinds();
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.grid = {24, 41};
+    scene.cloths.push_back(second);
+    const SimulationModel model(scene);
+    FrameLoopOptions options;
+    options.draw = false;
+    options.statistics = true;
+    FrameLoop loop(test::gpu().device, model, options);
+    Twin twin(model);
+    std::uint32_t next = 0;
+    loop.run(8, [](std::uint32_t frame) { return frame % 2 == 0; }, [&](const FinishedFrame& frame) {
+        ASSERT_EQ(frame.frame, next);
+        ASSERT_EQ(frame.statistics.size(), 2u);
+        EXPECT_TRUE(frame.positions.empty());
+        for (std::size_t cloth = 0; cloth < 2; ++cloth) {
+            const ClothStatistics expected = cloth_statistics(
+                model, model.cloths[cloth],
+                twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)));
+            EXPECT_EQ(frame.statistics[cloth].stretch.rms, expected.stretch.rms);
+            EXPECT_EQ(frame.statistics[cloth].kinetic_energy, expected.kinetic_energy);
+            EXPECT_EQ(frame.statistics[cloth].potential_energy, expected.potential_energy);
+            EXPECT_EQ(frame.statistics[cloth].penetration, expected.penetration);
+            EXPECT_EQ(frame.statistics[cloth].largest_speed, expected.largest_speed);
+        }
+        twin.run_frame(next + 1);
+        twin.run_frame(next + 2);
+        next += 2;
+    });
+    EXPECT_EQ(next, 10u);
+}
+
+TEST(StatisticsTest, NobodyAsksNothingRuns) {
+    const SimulationModel model(soft_sheet(16, 16));
+    FrameLoopOptions options;
+    options.draw = false;
+    options.positions = true;
+    const FrameLoop loop(test::gpu().device, model, options);
+    EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0])));
+    const auto& skipped = loop.plan(FrameKind::simulate_and_output).skipped;
+    EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Skipped& s) { return s.what == "statistics"; }));
+    options.statistics = true;
+    const FrameLoop asked(test::gpu().device, model, options);
+    const auto statistics_passes = [&](FrameKind kind) {
+        return std::ranges::count(asked.graph(kind).passes(), "statistics", &graph::Pass::stage);
+    };
+    EXPECT_EQ(statistics_passes(FrameKind::simulate), 0);
+    EXPECT_EQ(statistics_passes(FrameKind::simulate_and_output), 2);
+    EXPECT_EQ(statistics_passes(FrameKind::initial), 2);
+}
+
+}  // namespace
+}  // namespace drape
