@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
+#include <set>
 #include <thread>
 
 #include "frame_loop.h"
+#include "graph/dump.h"
+#include "output/kept_frames.h"
 #include "output/manifest.h"
 #include "output/npy.h"
 #include "output/png_sequence.h"
 #include "output/progress.h"
+#include "spirv_modules.h"
 
 namespace drape {
 
@@ -44,22 +48,61 @@ FrameRange frame_range(const RunRequest& request, const SceneDescription& scene,
     return range;
 }
 
-/// Hash of the file's bytes and the overrides: what decides the result besides program and device.
-std::string scene_hash(const SceneRequest& request) {
-    std::ifstream file(request.path, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    for (const std::string& value : request.overrides) text += '\0' + value;
-    return xxh3_128_hex(std::as_bytes(std::span(text)));
+struct LoadedScene {
+    SceneDescription description;
+    std::string hash;  ///< of the text and the overrides: what decides the result besides program and device
+    std::vector<std::string> warnings;
+};
+
+/// The file's text; nothing when it cannot be read. At most one byte more than a scene may have.
+std::optional<std::string> read_text(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text;
+    std::array<char, 65536> chunk;
+    while (file && text.size() <= scene_file_byte_limit) {
+        file.read(chunk.data(), std::min(chunk.size(), scene_file_byte_limit + 1 - text.size()));
+        text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    }
+    if (file.bad() || (file.fail() && !file.eof())) return std::nullopt;
+    return text;
+}
+
+LoadedScene load(const SceneRequest& request) {
+    // Read once: what is hashed is what is run, also when the file changes meanwhile or is a pipe.
+    const std::optional<std::string> text = read_text(request.path);
+    SceneResult result = text ? read_scene_text(*text, request.path, request.overrides)
+                              : read_scene(request.path, request.overrides);
+    if (!result.scene) throw SceneFailure(std::move(result));
+    LoadedScene loaded{std::move(*result.scene), {}, {}};
+    for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
+    std::vector<std::string> hashed{text.value_or("")};
+    hashed.insert(hashed.end(), request.overrides.begin(), request.overrides.end());
+    loaded.hash = run_key(hashed);
+    if (request.image_size) loaded.description.image.size = *request.image_size;
+    if (request.samples) loaded.description.image.samples = *request.samples;
+    return loaded;
+}
+
+/// Two runs with the same key give the same bytes for the same frame.
+std::string key_of(const RunRequest& request, const LoadedScene& scene, const vulkan::DeviceInfo& device) {
+    std::vector<std::string> parts{program_version(), scene.hash, device.uuid_text(), device.driver,
+                                   device.driver_version};
+    for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    const ImageSettings& image = scene.description.image;
+    parts.push_back(request.draw ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
+                                 : "arrays");
+    return run_key(parts);
 }
 
 /// Where finished frames go: PNG files, position arrays, times.
 class Sink {
   public:
-    Sink(OutputFolder& folder, const SimulationModel& model, const RunRequest& request, const FrameRange& range)
-        : scene_(model.scene) {
+    Sink(OutputFolder& folder, const SimulationModel& model, const RunRequest& request, const FrameRange& range,
+         const std::string& key)
+        : model_(model), scene_(model.scene) {
         if (request.draw) {
             const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-            pictures_ = std::make_unique<PngSequence>(folder, frame_digits(range.end), std::min(cores, 4u));
+            pictures_ = std::make_unique<PngSequence>(folder, frame_digits(range.end), std::min(cores, 4u), key);
         }
         if (!request.export_npy) return;
         for (const ClothModel& cloth : model.cloths) {
@@ -70,7 +113,9 @@ class Sink {
         }
     }
 
+    /// Throws Diverged before anything of the frame is kept.
     void add(const FinishedFrame& frame) {
+        check_finite(frame);
         if (pictures_) {
             std::vector<std::uint8_t> rgba = pictures_->take_buffer(frame.rgba.size());
             std::ranges::copy(frame.rgba, rgba.begin());
@@ -98,6 +143,24 @@ class Sink {
     }
 
   private:
+    void check_finite(const FinishedFrame& frame) const {
+        for (std::size_t cloth = 0; cloth < frame.positions.size(); ++cloth) {
+            const std::span<const float> xyzw = frame.positions[cloth];
+            for (std::size_t i = 0; i < xyzw.size(); i += 4) {
+                if (std::isfinite(xyzw[i]) && std::isfinite(xyzw[i + 1]) && std::isfinite(xyzw[i + 2])) continue;
+                const Grid& grid = model_.cloths[cloth].grid;
+                // The sign of a NaN says nothing, and differs between devices.
+                const auto text = [](float x) { return std::isnan(x) ? "nan" : fmt::format("{}", x); };
+                throw Diverged(fmt::format(
+                    "the simulation diverged: in frame {}, cloth '{}', the particle in column {}, row {} is at "
+                    "({}, {}, {}); more substeps, weaker forces or stiffness may help",
+                    frame.frame, model_.cloths[cloth].name, i / 4 % grid.columns(), i / 4 / grid.columns(),
+                    text(xyzw[i]), text(xyzw[i + 1]), text(xyzw[i + 2])));
+            }
+        }
+    }
+
+    const SimulationModel& model_;
     const SceneDescription& scene_;
     std::unique_ptr<PngSequence> pictures_;
     std::vector<std::unique_ptr<NpyWriter>> arrays_;
@@ -106,15 +169,17 @@ class Sink {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Manifest describe_run(const RunRequest& request, const SimulationModel& model, const vulkan::Device& device,
+Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const vulkan::Device& device,
                       const FrameLoop& loop, const FrameRange& range) {
-    const SceneDescription& scene = model.scene;
+    const SceneDescription& scene = loaded.description;
     const vulkan::DeviceInfo& info = device.info();
     Manifest manifest;
     manifest.program_version = program_version();
-    manifest.scene = {request.scene.path, scene.name, scene_hash(request.scene), request.scene.overrides};
+    manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
     manifest.device = {info.name, info.driver, info.driver_version, info.api_version, info.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
+    if (request.draw)
+        manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
     manifest.solver = {"relax", scene.solver.substeps, scene.solver.iterations};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
@@ -133,6 +198,70 @@ FrameLoopOptions loop_options(const SceneDescription& scene, bool draw, bool pos
     return options;
 }
 
+/// What `-v` says before the first frame.
+std::vector<std::string> notes(const vulkan::Device& device, const SimulationModel& model, const FrameLoop& loop) {
+    const vulkan::DeviceInfo& info = device.info();
+    std::uint64_t particle_count = 0;
+    for (const ClothModel& cloth : model.cloths) particle_count += cloth.grid.particle_count();
+    const auto plan_text = [&](FrameKind kind) {
+        const graph::Plan& plan = loop.plan(kind);
+        return fmt::format("{} passes, {} barriers", plan.passes.size(), graph::barrier_count(plan));
+    };
+    const vulkan::MemoryBudget& budget = device.budget();
+    return {fmt::format("device {}: {} ({}), driver {} {}, Vulkan {}, UUID {}", info.index, info.name, info.type,
+                        info.driver, info.driver_version, info.api_version, info.uuid_text()),
+            fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", model.cloths.size(),
+                        model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps, model.scene.solver.iterations),
+            fmt::format("plan: {} in a frame that is written, {} in one that is only simulated; `drape graph` "
+                        "lists them, and what was skipped",
+                        plan_text(FrameKind::simulate_and_output), plan_text(FrameKind::simulate)),
+            fmt::format("device memory: {} of at most {}", graph::size_text(budget.used()),
+                        graph::size_text(budget.limit()))};
+}
+
+/// The frames of the range whose pictures are not there yet, and the records of those that are.
+struct MissingFrames {
+    std::set<std::uint32_t> frames;
+    std::vector<FileRecord> kept;
+};
+
+MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& request, const FrameRange& range,
+                             const std::string& key) {
+    std::map<std::string, FileRecord> there;
+    if (request.existing == ExistingFiles::resume) there = kept_frames(folder, key);
+    MissingFrames missing;
+    for (std::uint64_t frame = range.start; frame <= range.end; frame += range.step) {
+        const auto kept = there.find(frame_file_name(frame, frame_digits(range.end)));
+        if (request.draw && kept != there.end())
+            missing.kept.push_back(kept->second);
+        else
+            missing.frames.insert(static_cast<std::uint32_t>(frame));
+    }
+    return missing;
+}
+
+/// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
+bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, const RunRequest& request,
+                  RunSummary& summary) {
+    if (missing.frames.empty()) return true;
+    Progress progress(missing.frames.size(), Progress::standard_options(request.quiet));
+    try {
+        return loop.run(
+            *missing.frames.rbegin(), [&](std::uint32_t frame) { return missing.frames.contains(frame); },
+            [&](const FinishedFrame& frame) {
+                sink.add(frame);
+                progress.frame_done(frame.frame);
+                ++summary.frame_count;
+            },
+            request.stop);
+    } catch (const Diverged& diverged) {
+        if (summary.frame_count == 0) throw;
+        sink.finish();  // a run again would diverge again: what came before it is the result
+        throw Diverged(fmt::format("{}; what was written before it is kept ({} of {} frames)", diverged.what(),
+                                   summary.frame_count, missing.frames.size()));
+    }
+}
+
 }  // namespace
 
 SceneFailure::SceneFailure(SceneResult result) : std::runtime_error(failure_text(result)), result_(std::move(result)) {}
@@ -140,44 +269,42 @@ SceneFailure::SceneFailure(SceneResult result) : std::runtime_error(failure_text
 const char* program_version() { return DRAPE_VERSION; }
 
 SceneDescription load_scene(const SceneRequest& request, std::vector<std::string>* warnings) {
-    SceneResult result = read_scene(request.path, request.overrides);
-    if (!result.scene) throw SceneFailure(std::move(result));
-    if (warnings)
-        for (const SceneError& warning : result.warnings) warnings->push_back(warning.text());
-    SceneDescription scene = std::move(*result.scene);
-    if (request.image_size) scene.image.size = *request.image_size;
-    if (request.samples) scene.image.samples = *request.samples;
-    return scene;
+    LoadedScene loaded = load(request);
+    if (warnings) warnings->insert(warnings->end(), loaded.warnings.begin(), loaded.warnings.end());
+    return std::move(loaded.description);
 }
 
 RunSummary run_scene(const RunRequest& request) {
     RunSummary summary;
-    const SceneDescription scene = load_scene(request.scene, &summary.warnings);
-    const FrameRange range = frame_range(request, scene, summary.warnings);
+    const LoadedScene scene = load(request.scene);
+    summary.warnings = scene.warnings;
+    const FrameRange range = frame_range(request, scene.description, summary.warnings);
+    const auto say = [&](const std::string& text) {
+        if (request.message) request.message(text);
+    };
+    for (const std::string& warning : summary.warnings) say("warning: " + warning);
     OutputFolder folder(request.output, request.existing);
-    Progress progress(range.count(), Progress::standard_options(request.quiet));
-    for (const std::string& warning : summary.warnings) progress.message("warning: " + warning);
 
     const vulkan::Instance instance({.validation = request.scene.validate});
     const vulkan::Device device(instance, request.scene.device);
-    const SimulationModel model(scene, {.skip = request.scene.skip});
+    const std::string key = key_of(request, scene, device.info());
+    const MissingFrames missing = missing_frames(folder, request, range, key);
+    summary.kept_count = missing.kept.size();
+    const SimulationModel model(scene.description, {.skip = request.scene.skip});
     Manifest manifest;
     {
-        FrameLoop loop(device, model, loop_options(scene, request.draw, request.export_npy));
-        manifest = describe_run(request, model, device, loop, range);
-        Sink sink(folder, model, request, range);
-        summary.complete = loop.run(
-            range.end, [&](std::uint32_t frame) { return range.wants(frame); },
-            [&](const FinishedFrame& frame) {
-                sink.add(frame);
-                progress.frame_done(frame.frame);
-                ++summary.frame_count;
-            },
-            request.stop);
-        manifest.files = sink.finish();
+        FrameLoop loop(device, model, loop_options(scene.description, request.draw, request.export_npy));
+        if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);
+        manifest = describe_run(request, scene, device, loop, range);
+        manifest.run_key = key;
+        Sink sink(folder, model, request, range, key);
+        summary.complete = write_frames(loop, sink, missing, request, summary);
+        // Arrays of a stopped run would look complete; its pictures each are.
+        if (summary.complete || request.draw) manifest.files = sink.finish();
+        manifest.files.insert(manifest.files.end(), missing.kept.begin(), missing.kept.end());
+        std::ranges::sort(manifest.files, {}, &FileRecord::name);
         sink.add_timings(manifest);
     }
-    progress.finish();
     summary.validation_count = instance.validation_log().count();
     manifest.validation = {request.scene.validate, summary.validation_count};
     if (summary.complete) write_manifest(folder, manifest);

@@ -31,6 +31,11 @@ class SceneFailure : public std::runtime_error {
     SceneResult result_;
 };
 
+/// The simulation is no longer finite, with the frame, cloth and particle: exit code 5.
+class Diverged : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// What the scene is asked to become. Unset values are the scene's own.
 struct SceneRequest {
     std::string path;
@@ -50,20 +55,29 @@ struct RunRequest {
     bool export_npy = false;  ///< positions.npy, or positions_<cloth>.npy
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
-    bool quiet = false;
+    bool quiet = false;    ///< no progress
+    bool verbose = false;  ///< notes on device, plan and memory through `message`
     std::vector<std::string> command_line;
+    std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
     std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
 };
 
 struct RunSummary {
-    std::uint64_t frame_count = 0;       ///< written
+    std::uint64_t frame_count = 0;       ///< written by this run
+    std::uint64_t kept_count = 0;        ///< of an earlier run, kept by ExistingFiles::resume
     std::uint64_t validation_count = 0;  ///< messages
     bool complete = true;                ///< false: stopped before the last frame; no manifest was written
     std::vector<std::string> warnings;
 };
 
-/// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError,
+/// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
 /// vulkan::VulkanError; nothing is written before everything that can be checked up front has been.
+///
+/// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
+/// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
+/// bytes of an undisturbed run, but for the manifest's "run". Pictures of any other run are an OutputError.
+/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged; whether it did
+/// is seen only where positions are exported.
 RunSummary run_scene(const RunRequest& request);
 
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.

@@ -4,10 +4,11 @@
 #include <json/json.h>
 
 #include <csignal>
-#include <cstdio>
 #include <new>
 
+#include "output/json_text.h"
 #include "output/output_error.h"
+#include "streams.h"
 #include "vulkan/instance.h"
 
 namespace drape::cli {
@@ -18,7 +19,32 @@ volatile std::sig_atomic_t signal_number = 0;
 
 void remember_signal(int number) { signal_number = number; }
 
-void print_error(const std::string& text) { fmt::print(stderr, "drape: {}\n", text); }
+/// From here on SIGINT and SIGTERM are remembered; a second one ends the program at once.
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = remember_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESETHAND;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+void print_error(const std::string& text) { print_message("drape: " + text); }
+
+std::string frame_count_text(std::uint64_t count) {
+    return fmt::format("{} frame{}", count, count == 1 ? "" : "s");
+}
+
+ExitCode report_stop(const RunRequest& request, const RunSummary& summary) {
+    const bool terminated = signal_number == SIGTERM;
+    print_error(fmt::format(
+        "stopped by {}: {}; no manifest was written{}", terminated ? "SIGTERM" : "SIGINT",
+        request.draw ? fmt::format("{} in {}", frame_count_text(summary.frame_count + summary.kept_count),
+                                   request.output)
+                     : "the arrays, incomplete, were dropped",
+        request.draw ? "; --resume draws the missing ones" : ""));
+    return terminated ? ExitCode::terminated : ExitCode::interrupted;
+}
 
 Json::Value json_error(const SceneError& error) {
     Json::Value value(Json::objectValue);
@@ -30,43 +56,50 @@ Json::Value json_error(const SceneError& error) {
     return value;
 }
 
-void print_json(const Json::Value& value) {
-    Json::StreamWriterBuilder builder;
-    builder["indentation"] = "  ";
-    fmt::print("{}\n", Json::writeString(builder, value));
+Json::Value json_device(const vulkan::DeviceInfo& info) {
+    Json::Value row(Json::objectValue);
+    row["index"] = info.index;
+    row["name"] = info.name;
+    row["type"] = info.type;
+    row["driver"] = info.driver;
+    row["driver_version"] = info.driver_version;
+    row["api_version"] = info.api_version;
+    row["uuid"] = info.uuid_text();
+    row["usable"] = info.usable;
+    if (!info.usable) row["unusable_reason"] = info.unusable_reason;
+    return row;
 }
 
-ExitCode signal_code(int number) { return number == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
+std::string vulkan_hint(const vulkan::VulkanError& error) {
+    if (error.result() != VK_ERROR_INCOMPATIBLE_DRIVER) return {};
+    return "\n  A driver that runs on any CPU is in Debian's package mesa-vulkan-drivers; VK_ICD_FILENAMES, "
+           "if set, "
+           "must name existing driver files.";
+}
 
 }  // namespace
 
-int caught_signal() { return signal_number; }
-
-void catch_signals() {
-    struct sigaction action {};
-    action.sa_handler = remember_signal;
-    sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESETHAND;  // a second signal ends the program at once
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
-
-ExitCode run(const RunRequest& request) {
+ExitCode run(RunRequest request) {
+    catch_signals();
+    request.stop = [] { return signal_number != 0; };
+    request.message = print_message;
     const RunSummary summary = run_scene(request);
-    if (!summary.complete) {
-        print_error(fmt::format("stopped by a signal after {} frames; no manifest was written", summary.frame_count));
-        return signal_code(caught_signal());
-    }
+    if (!summary.complete) return report_stop(request, summary);
     if (summary.validation_count > 0) {
         print_error(fmt::format("{} validation messages", summary.validation_count));
         return ExitCode::validation;
     }
-    if (!request.quiet) fmt::print(stderr, "{} frames in {}\n", summary.frame_count, request.output);
+    if (!request.quiet) {
+        const std::string kept =
+            summary.kept_count > 0 ? fmt::format(" ({} of them kept)", summary.kept_count) : std::string();
+        print_message(fmt::format("{} in {}{}", frame_count_text(summary.frame_count + summary.kept_count),
+                                  request.output, kept));
+    }
     return ExitCode::ok;
 }
 
 ExitCode graph(const SceneRequest& request, bool draw, const std::string& format) {
-    fmt::print("{}", describe_graph(request, draw, format));
+    print_data(describe_graph(request, draw, format));
     return ExitCode::ok;
 }
 
@@ -83,55 +116,47 @@ ExitCode check(const std::vector<std::string>& paths, const std::vector<std::str
         row["errors"] = row["warnings"] = Json::Value(Json::arrayValue);
         for (const SceneError& error : result.errors) {
             row["errors"].append(json_error(error));
-            if (!json) fmt::print(stderr, "{}\n", error.text());
+            if (!json) print_message(error.text());
         }
         for (const SceneError& warning : result.warnings) {
             row["warnings"].append(json_error(warning));
-            if (!json) fmt::print(stderr, "warning: {}\n", warning.text());
+            if (!json) print_message("warning: " + warning.text());
         }
         report.append(row);
-        if (!json && !quiet && result.scene) fmt::print("{}: ok\n", path);
+        if (!json && !quiet && result.scene) print_data(path + ": ok\n");
     }
-    if (json) print_json(report);
+    if (json) print_data(json_text(report));
     return code;
 }
 
 ExitCode schema() {
-    fmt::print("{}", scene_schema());
+    print_data(scene_schema());
     return ExitCode::ok;
 }
 
 ExitCode devices(bool json) {
     const vulkan::Instance instance({});
     Json::Value list(Json::arrayValue);
+    std::string text;
     for (const vulkan::DeviceInfo& info : instance.devices()) {
-        if (json) {
-            Json::Value row(Json::objectValue);
-            row["index"] = info.index;
-            row["name"] = info.name;
-            row["type"] = info.type;
-            row["driver"] = info.driver;
-            row["driver_version"] = info.driver_version;
-            row["api_version"] = info.api_version;
-            row["uuid"] = info.uuid_text();
-            row["usable"] = info.usable;
-            if (!info.usable) row["unusable_reason"] = info.unusable_reason;
-            list.append(row);
-        } else {
-            fmt::print("{}  {}  ({}, {} {}, Vulkan {})\n   uuid {}{}\n", info.index, info.name, info.type, info.driver,
-                       info.driver_version, info.api_version, info.uuid_text(),
-                       info.usable ? "" : "\n   not usable: " + info.unusable_reason);
-        }
+        list.append(json_device(info));
+        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name,
+                            info.type, info.driver, info.driver_version, info.api_version, info.uuid_text(),
+                            info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n");
     }
-    if (json) print_json(list);
-    return ExitCode::ok;
+    print_data(json ? json_text(list) : text);
+    if (!instance.devices().empty()) return ExitCode::ok;
+    print_error("no Vulkan device found");
+    return ExitCode::device;
 }
 
 ExitCode report_current_exception() {
     try {
         throw;
+    } catch (const ReaderGone&) {
+        return ExitCode::io;
     } catch (const SceneFailure& failure) {
-        fmt::print(stderr, "{}\n", failure.what());
+        print_message(failure.what());
         return failure.result().unreadable ? ExitCode::io : ExitCode::scene;
     } catch (const UsageError& error) {
         print_error(error.what());
@@ -139,8 +164,11 @@ ExitCode report_current_exception() {
     } catch (const OutputError& error) {
         print_error(error.what());
         return ExitCode::io;
+    } catch (const Diverged& error) {
+        print_error(fmt::format("{}; no manifest was written", error.what()));
+        return ExitCode::diverged;
     } catch (const vulkan::VulkanError& error) {
-        print_error(error.what());
+        print_error(error.what() + vulkan_hint(error));
         return ExitCode::device;
     } catch (const std::bad_alloc&) {
         print_error("out of memory");

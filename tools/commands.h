@@ -9,13 +9,14 @@
 namespace drape::cli {
 
 /// Renders or simulates into a folder.
-ExitCode run(const RunRequest& request);
+ExitCode run(RunRequest request);
 
 /// Prints the plan of a frame.
 ExitCode graph(const SceneRequest& request, bool draw, const std::string& format);
 
-/// Checks scene files; every error of every file on stderr.
-ExitCode check(const std::vector<std::string>& paths, const std::vector<std::string>& overrides, bool json, bool quiet);
+/// Checks scene files; every error of every file on stderr, or as JSON on stdout.
+ExitCode check(const std::vector<std::string>& paths, const std::vector<std::string>& overrides, bool json,
+               bool quiet);
 
 ExitCode schema();
 
@@ -23,9 +24,5 @@ ExitCode devices(bool json);
 
 /// The exit code that the current exception stands for; prints its message. Call in a catch block.
 ExitCode report_current_exception();
-
-/// 0 until SIGINT or SIGTERM arrived, then its number.
-int caught_signal();
-void catch_signals();
 
 }  // namespace drape::cli

@@ -1,7 +1,7 @@
 // The `drape` command: parses the command line, says what went wrong, returns the documented exit code.
-#include <CLI/CLI.hpp>
-
 #include "commands.h"
+#include "options.h"
+#include "streams.h"
 
 namespace {
 
@@ -9,120 +9,193 @@ using drape::ExitCode;
 using drape::RunRequest;
 using drape::SceneRequest;
 
-constexpr const char* footer = R"(
-Exit codes: 0 ok, 1 file or folder, 2 usage, 3 scene, 4 device, 5 diverged, 6 validation message,
-7 comparison over its limit, 8 tolerance not reachable, 130/143 stopped by SIGINT/SIGTERM.
+constexpr const char* exit_codes = R"text(
+Data goes to stdout, messages to stderr. Exit codes: 0 ok, 1 file, folder or stdout, 2 usage, 3 scene, 4 device,
+5 diverged, 6 validation message, 130/143 stopped by SIGINT/SIGTERM.
+)text";
+
+constexpr const char* main_examples = R"text(
+Examples:
+  drape check scenes/*.json
+  drape render scenes/flag.json -o out/flag
+  drape simulate scenes/hanging_sheet.json -o out/hang
+  drape graph scenes/flag.json --format dot | dot -Tsvg > flag.svg
+`drape COMMAND --help` has each command's options and examples.
+)text";
+
+constexpr const char* render_examples = R"text(
+Writes frame_0000.png ... (8-bit sRGB) and, last, manifest.json: a folder that has one is done.
 
 Examples:
   drape render scenes/cloth_on_sphere.json -o out/sphere
   drape render scenes/flag.json -o out/flag -s 60 -e 120 -j 10 --size 640x360
-  drape render scenes/flag.json -o out/calm --set /wind/velocity='[1,0,0]' --set /solver/substeps=40
-  drape simulate scenes/hanging_sheet.json -o out/hang --export npy
+  drape render scenes/flag.json -o out/calm --set '/wind/velocity=[1,0,0]' --set /solver/substeps=40
+  drape render scenes/flag.json -o out/flag --resume          after an interruption
+  ffmpeg -framerate 60 -i out/flag/frame_%04d.png -pix_fmt yuv420p flag.mp4
+)text";
+
+constexpr const char* simulate_examples = R"text(
+Writes positions.npy, or positions_CLOTH.npy for each of several cloths: float32 [frame, row, column, 3], metres;
+and, last, manifest.json. When a position is no longer finite the run ends with exit code 5; the arrays then hold
+the frames before.
+
+Examples:
+  drape simulate scenes/hanging_sheet.json -o out/hang
+  drape simulate scenes/flag.json -o out/flag -s 60 -j 2 -q
+  python3 -c "import numpy; print(numpy.load('out/hang/positions.npy').shape)"
+)text";
+
+constexpr const char* graph_examples = R"text(
+Examples:
+  drape graph scenes/flag.json
+  drape graph scenes/flag.json --simulate --format json
   drape graph scenes/flag.json --format dot | dot -Tsvg > flag.svg
+)text";
+
+constexpr const char* check_examples = R"text(
+Errors read file:line:column: /json/pointer: message.
+
+Examples:
   drape check scenes/*.json
-)";
+  drape check my.json --set /solver/substeps=40 --json
+)text";
 
-void add_scene_options(CLI::App& command, SceneRequest& scene) {
-    command.add_option("SCENE", scene.path, "Scene file (JSON; `drape schema` prints its schema)")->required();
-    command.add_option("--set", scene.overrides, "Override a value: /json/pointer=value (repeatable)")
-        ->allow_extra_args(false);
-    command.add_option("--device", scene.device, "INDEX, NAME, UUID or cpu; default: a GPU when there is one");
-    command.add_flag("--validate", scene.validate,
-                     "Core and synchronization validation; exit code 6 when there was a message");
-    command.add_flag("!--no-skip", scene.skip, "Keep the work of the exact skips (it changes no result bit)");
+/// What the command line asks for, and what came of it.
+struct CommandLine {
+    RunRequest render, simulate;
+    SceneRequest graph_scene;
+    std::string graph_format = "text";
+    bool graph_simulate = false;
+    std::vector<std::string> check_paths, check_overrides;
+    bool check_json = false, check_quiet = false, devices_json = false;
+    ExitCode code = ExitCode::ok;
+};
+
+std::string footer(const char* text) { return std::string(text) + exit_codes; }
+
+void add_runs(CLI::App& app, CommandLine& line) {
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene and draw it: PNG files and manifest.json");
+    command->footer(footer(render_examples));
+    drape::cli::add_run_options(*command, line.render);
+    drape::cli::add_image_options(*command, line.render.scene);
+    command->callback([&line] { line.code = drape::cli::run(line.render); });
+
+    line.simulate.draw = false;
+    line.simulate.export_npy = true;
+    command = app.add_subcommand("simulate", "Simulate a scene without drawing: positions as NumPy arrays");
+    command->footer(footer(simulate_examples));
+    drape::cli::add_run_options(*command, line.simulate);
+    const auto check_export = [](const std::string& text) {
+        return text == "npy" ? std::string() : "expected npy, the one format there is, got '" + text + "'";
+    };
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--export", [](const std::vector<std::string>&) {}, "What to write: npy; default: npy")
+        ->delimiter(',')
+        ->type_name("FORMAT")
+        ->check(check_export, "");
+    command->callback([&line] { line.code = drape::cli::run(line.simulate); });
 }
 
-std::array<std::uint32_t, 2> parse_size(const std::string& text) {
-    unsigned width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-        width > 16384 || height > 16384)
-        throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT, 1 to 16384 each, got '" + text + "'");
-    return {width, height};
+void add_graph(CLI::App& app, CommandLine& line) {
+    CLI::App* command = app.add_subcommand("graph", "Print what runs in a frame, what was skipped, and why");
+    command->footer(footer(graph_examples));
+    drape::cli::add_scene_options(*command, line.graph_scene);
+    drape::cli::add_image_options(*command, line.graph_scene);
+    const auto check_format = [](const std::string& text) {
+        return text == "text" || text == "json" || text == "dot"
+                   ? std::string()
+                   : "expected text, json or dot, got '" + text + "'";
+    };
+    command->add_option("--format", line.graph_format, "text, json or dot (for Graphviz); default: text")
+        ->type_name("FORMAT")
+        ->check(check_format, "");
+    command->add_flag("--simulate", line.graph_simulate, "As `drape simulate` runs it: nothing is drawn");
+    command->callback([&line] {
+        line.code = drape::cli::graph(line.graph_scene, !line.graph_simulate, line.graph_format);
+    });
 }
 
-void add_image_options(CLI::App& command, SceneRequest& scene) {
-    command.add_option_function<std::string>(
-        "--size", [&scene](const std::string& text) { scene.image_size = parse_size(text); }, "Image size, WIDTHxHEIGHT");
-    command.add_option("--samples", scene.samples, "Samples per pixel")->check(CLI::IsMember({1u, 4u}));
+void add_checks(CLI::App& app, CommandLine& line) {
+    CLI::App* command = app.add_subcommand("check", "Check scene files; needs no device");
+    command->footer(footer(check_examples));
+    command->add_option("SCENE", line.check_paths, "Scene files")->required()->type_name("");
+    drape::cli::add_override_option(*command, line.check_overrides);
+    command->add_flag("--json", line.check_json, "Errors and warnings as JSON on stdout");
+    command->add_flag("-q,--quiet", line.check_quiet, "Say nothing about good files");
+    command->callback([&line] {
+        line.code =
+            drape::cli::check(line.check_paths, line.check_overrides, line.check_json, line.check_quiet);
+    });
+
+    command =
+        app.add_subcommand("schema", "Print the JSON Schema (draft-07) of scene files, with every default");
+    command->footer(footer("\nExample:\n  drape schema > scene.schema.json\n"));
+    command->callback([&line] { line.code = drape::cli::schema(); });
+
+    command = app.add_subcommand("devices", "List the Vulkan devices, and why one cannot be used");
+    command->footer(footer("\nExample:\n  drape devices --json\n"));
+    command->add_flag("--json", line.devices_json, "As JSON");
+    command->callback([&line] { line.code = drape::cli::devices(line.devices_json); });
 }
 
-void add_run_options(CLI::App& command, RunRequest& request) {
-    add_scene_options(command, request.scene);
-    command.add_option("-o,--output", request.output, "Folder for the results; must be empty or not there")->required();
-    command.add_option("-s,--start", request.start, "First frame written (default 0, the initial state)");
-    command.add_option("-e,--end", request.end, "Last frame written, inclusive (default: the scene's last)");
-    command.add_option("-j,--step", request.step, "Write every N-th frame")->check(CLI::PositiveNumber);
-    command.add_flag_callback("--overwrite", [&request] { request.existing = drape::ExistingFiles::overwrite; },
-                              "Replace what an earlier run wrote there; other files stay");
-    command.add_flag("-q,--quiet", request.quiet, "No progress, errors only");
+/// Says what is wrong with the command line, and where help is.
+int usage_error(const CLI::App& app, const std::string& text) {
+    std::string name = "drape";
+    for (const CLI::App* command : app.get_subcommands()) name += " " + command->get_name();
+    drape::cli::print_message(name + ": " + text + "\nSee `" + name + " --help`.");
+    return static_cast<int>(ExitCode::usage);
 }
 
-std::vector<std::string> arguments(int argc, char** argv) { return {argv, argv + argc}; }
+/// Empty when `name` is a command, else the names of all.
+std::string other_commands(const CLI::App& app, const std::string& name) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) return {};
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    return names;
+}
+
+int run_command_line(int argc, char** argv, CLI::App& app) {
+    const std::string first = argc < 2 ? "" : argv[1];
+    if (!first.starts_with('-')) {
+        const std::string commands = other_commands(app, first);
+        if (!commands.empty())
+            return usage_error(app, (first.empty() ? "no command given" : "unknown command '" + first + "'") +
+                                        ": expected one of " + commands);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        drape::cli::print_data(app.help());
+    } catch (const CLI::CallForVersion& version) {
+        drape::cli::print_data(std::string(version.what()) + "\n");
+    } catch (const CLI::ParseError& error) {
+        return usage_error(app, error.what());
+    }
+    return 0;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.", "drape"};
-    app.set_version_flag("--version", std::string("drape ") + drape::program_version());
-    app.require_subcommand(1);
-    app.footer(footer);
-    ExitCode code = ExitCode::ok;
-
-    RunRequest render;
-    CLI::App* command = app.add_subcommand("render", "Simulate and draw a scene: frame_0000.png ... and manifest.json");
-    add_run_options(*command, render);
-    add_image_options(*command, render.scene);
-    command->callback([&] { code = drape::cli::run(render); });
-
-    RunRequest simulate;
-    simulate.draw = false;
-    std::vector<std::string> exports{"npy"};
-    command = app.add_subcommand("simulate", "Simulate without drawing; positions as arrays");
-    add_run_options(*command, simulate);
-    command->add_option("--export", exports, "What to write: npy (float32 [frame, row, column, 3], metres)")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"npy"}));
-    command->callback([&] {
-        simulate.export_npy = true;
-        code = drape::cli::run(simulate);
-    });
-
-    SceneRequest graph_scene;
-    std::string format = "text";
-    bool without_raster = false;
-    command = app.add_subcommand("graph", "Print what runs in a frame, what was skipped, and why");
-    add_scene_options(*command, graph_scene);
-    add_image_options(*command, graph_scene);
-    command->add_option("--format", format, "text, json or dot")->check(CLI::IsMember({"text", "json", "dot"}));
-    command->add_flag("--simulate", without_raster, "As `drape simulate` runs it: no raster");
-    command->callback([&] { code = drape::cli::graph(graph_scene, !without_raster, format); });
-
-    std::vector<std::string> paths, overrides;
-    bool json = false, quiet = false;
-    command = app.add_subcommand("check", "Check scene files; prints every error with its place");
-    command->add_option("SCENE", paths, "Scene files")->required();
-    command->add_option("--set", overrides, "Override a value: /json/pointer=value")->allow_extra_args(false);
-    command->add_flag("--json", json, "Errors and warnings as JSON on stdout");
-    command->add_flag("-q,--quiet", quiet, "Say nothing about good files");
-    command->callback([&] { code = drape::cli::check(paths, overrides, json, quiet); });
-
-    app.add_subcommand("schema", "Print the JSON Schema of scene files")->callback([&] { code = drape::cli::schema(); });
-
-    bool devices_json = false;
-    command = app.add_subcommand("devices", "List the Vulkan devices");
-    command->add_flag("--json", devices_json, "As JSON");
-    command->callback([&] { code = drape::cli::devices(devices_json); });
-
-    drape::cli::catch_signals();
-    render.command_line = simulate.command_line = arguments(argc, argv);
-    render.stop = simulate.stop = [] { return drape::cli::caught_signal() != 0; };
+    drape::cli::prepare_streams();
+    CommandLine line;
+    line.render.command_line = line.simulate.command_line = {argv, argv + argc};
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+        CLI::App app{"drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.",
+                     "drape"};
+        app.set_version_flag("--version", std::string("drape ") + drape::program_version());
+        app.require_subcommand(1);
+        app.footer(footer(main_examples));
+        add_runs(app, line);
+        add_graph(app, line);
+        add_checks(app, line);
+        const int usage = run_command_line(argc, argv, app);
+        return usage != 0 ? usage : static_cast<int>(line.code);
     } catch (...) {
         return static_cast<int>(drape::cli::report_current_exception());
     }
-    return static_cast<int>(code);
 }

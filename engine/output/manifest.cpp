@@ -130,6 +130,12 @@ std::string manifest_json(const Manifest& manifest) {
     json["scene"] = scene_json(manifest.scene);
     json["device"] = device_json(manifest.device);
     json["frames"] = frames_json(manifest.frames);
+    if (manifest.picture) {
+        json["picture"]["width"] = manifest.picture->width;
+        json["picture"]["height"] = manifest.picture->height;
+        json["picture"]["samples"] = manifest.picture->samples;
+    }
+    json["run_key"] = manifest.run_key;
     json["solver"]["method"] = manifest.solver.method;
     json["solver"]["substeps"] = manifest.solver.substeps;
     json["solver"]["iterations"] = manifest.solver.iterations;

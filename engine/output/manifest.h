@@ -38,6 +38,11 @@ struct Manifest {
         std::uint64_t count = 0;
         double fps = 0;
     };
+    struct Picture {
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+        std::uint32_t samples = 0;  // per pixel
+    };
     struct Solver {
         std::string method;
         std::uint32_t substeps = 0;
@@ -63,9 +68,11 @@ struct Manifest {
 
     std::string program_version;
     std::string status = "done";
+    std::string run_key;  // kept_frames.h
     Scene scene;
     Device device;
     Frames frames;
+    std::optional<Picture> picture;  // nothing when no picture was drawn
     Solver solver;
     Validation validation;
     std::vector<Skipped> skipped;

@@ -220,6 +220,32 @@ bool OutputFolder::has_file(const std::string& name) const {
     return fstatat(descriptor_.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0;
 }
 
+std::vector<std::string> OutputFolder::file_names() const {
+    std::vector<std::string> names;
+    for (Entry& entry : list_entries(path_))
+        if (!entry.is_folder) names.push_back(std::move(entry.name));
+    return names;
+}
+
+std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const {
+    // O_NONBLOCK: a named pipe must not make the program wait for a writer.
+    const FileDescriptor file(
+        openat(descriptor_.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (!file || fstat(file.get(), &status) != 0) throw system_error_at("read", path_of(name), errno);
+    if (!S_ISREG(status.st_mode))
+        throw OutputError(fmt::format("cannot read '{}': not a regular file", path_of(name)));
+    std::vector<std::uint8_t> bytes(static_cast<size_t>(status.st_size));
+    for (size_t done = 0; done < bytes.size();) {
+        const ssize_t count = read(file.get(), bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) throw system_error_at("read", path_of(name), errno);
+        if (count == 0) bytes.resize(done);  // shortened meanwhile
+        done += static_cast<size_t>(count);
+    }
+    return bytes;
+}
+
 void OutputFolder::begin_writing() {
     const std::scoped_lock lock(writing_mutex_);
     if (writing_begun_) return;

@@ -55,6 +55,11 @@ class OutputFolder {
     const std::vector<std::string>& files_to_remove() const { return files_to_remove_; }
 
     bool has_file(const std::string& name) const;
+    // Names of everything in the folder that is no folder itself, sorted. Throws OutputError.
+    std::vector<std::string> file_names() const;
+    // The whole file; a symbolic link or anything else that is no regular file is refused. Throws
+    // OutputError.
+    std::vector<std::uint8_t> read_file(const std::string& name) const;
 
     // Removes files_to_remove() once. Every writer calls it; any thread may. Throws OutputError.
     void begin_writing();

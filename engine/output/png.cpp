@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include <cstring>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -39,6 +40,31 @@ int append_bytes(spng_ctx*, void* user, void* source, size_t length) noexcept {
     return 0;
 }
 
+constexpr const char* text_keyword = "drape";
+
+// The encoder keeps the pointer: `text` must live until the picture is encoded.
+void set_text(spng_ctx* context, std::string& text) {
+    if (text.empty()) return;
+    spng_text chunk{};
+    std::strcpy(chunk.keyword, text_keyword);
+    chunk.type = SPNG_TEXT;
+    chunk.length = text.size();
+    chunk.text = text.data();
+    check(spng_set_text(context, &chunk, 1), "set the text chunk");
+}
+
+std::string read_text_chunk(spng_ctx* context) {
+    std::uint32_t count = 0;
+    const int result = spng_get_text(context, nullptr, &count);
+    if (result == SPNG_ECHUNKAVAIL) return {};
+    check(result, "count the text chunks");
+    std::vector<spng_text> chunks(count);
+    check(spng_get_text(context, chunks.data(), &count), "read the text chunks");
+    for (const spng_text& chunk : chunks)
+        if (std::strcmp(chunk.keyword, text_keyword) == 0) return {chunk.text, chunk.length};
+    return {};
+}
+
 void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, const std::uint8_t* rgba) {
     std::vector<std::uint8_t> row(size_t{width} * 3);
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -56,7 +82,7 @@ void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, c
 }  // namespace
 
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                std::vector<std::uint8_t>& png) {
+                std::vector<std::uint8_t>& png, const std::string& text) {
     if (width == 0 || height == 0 || width > side_limit || height > side_limit) {
         throw std::invalid_argument(
             fmt::format("PNG: size {}x{} is not in 1..{}", width, height, side_limit));
@@ -75,6 +101,8 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     check(spng_set_png_stream(context.get(), append_bytes, &png), "set the stream");
     check(spng_set_ihdr(context.get(), &header), "set the header");
     check(spng_set_srgb(context.get(), 0), "set the sRGB chunk");
+    std::string kept_text = text;  // not const, as the encoder's structure wants it
+    set_text(context.get(), kept_text);
     // Measured at 1080p on smooth, checkered and unevenly lit pictures: level 1 without filters takes 15 to
     // 23 ms for 300 to 600 KB; with the sub or up filter 25 to 40 ms for 370 to 860 KB; level 6 with sub 81
     // ms. Pictures without noise repeat pixels exactly, which a filter hides from level 1's short search.
@@ -93,10 +121,11 @@ Picture decode_png(std::span<const std::uint8_t> png) {
     check(spng_set_png_buffer(context.get(), png.data(), png.size()), "read");
     spng_ihdr header{};
     check(spng_get_ihdr(context.get(), &header), "read the header");
-    Picture picture{header.width, header.height, {}};
+    Picture picture{header.width, header.height, {}, {}};
     picture.rgb.resize(size_t{header.width} * header.height * 3);
     check(spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size(), SPNG_FMT_RGB8, 0),
           "decode");
+    picture.text = read_text_chunk(context.get());
     return picture;
 }
 

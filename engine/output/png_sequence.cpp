@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "output/kept_frames.h"
 #include "output/png.h"
 
 namespace drape {
@@ -18,8 +19,11 @@ std::string frame_file_name(std::uint64_t frame, int digits) {
     return fmt::format("frame_{:0{}}.png", frame, digits);
 }
 
-PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count)
-    : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)) {
+PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key)
+    : folder_(folder),
+      digits_(digits),
+      pending_limit_(2 * std::max(1u, worker_count)),
+      run_key_(std::move(run_key)) {
     for (unsigned worker = 0; worker < std::max(1u, worker_count); ++worker) {
         workers_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
     }
@@ -98,7 +102,8 @@ void PngSequence::keep_result(FileRecord record, std::vector<std::uint8_t> buffe
 }
 
 FileRecord PngSequence::write(const Frame& frame, std::vector<std::uint8_t>& png) {
-    encode_png(frame.width, frame.height, frame.rgba, png);
+    const std::string text = run_key_.empty() ? std::string() : frame_text(run_key_, frame.number);
+    encode_png(frame.width, frame.height, frame.rgba, png, text);
     return write_file(folder_, frame_file_name(frame.number, digits_), std::as_bytes(std::span(png)));
 }
 

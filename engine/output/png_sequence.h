@@ -27,8 +27,9 @@ std::string frame_file_name(std::uint64_t frame, int digits);
 // Destruction without finish() drops the frames that no worker has begun.
 class PngSequence {
   public:
-    // worker_count 0 means 1. The folder must outlive the sequence.
-    PngSequence(OutputFolder& folder, int digits, unsigned worker_count);
+    // worker_count 0 means 1. The folder must outlive the sequence. `run_key`, unless empty, goes into every
+    // file (kept_frames.h), so that a later run can tell whose frames these are.
+    PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key = {});
 
     // A buffer of this many bytes with arbitrary content, recycled from a written frame when there is one.
     std::vector<std::uint8_t> take_buffer(size_t bytes);
@@ -58,6 +59,7 @@ class PngSequence {
     OutputFolder& folder_;
     int digits_;
     size_t pending_limit_;
+    std::string run_key_;
 
     std::mutex mutex_;
     std::condition_variable_any frame_waits_;

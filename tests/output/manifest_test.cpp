@@ -24,6 +24,8 @@ Manifest example() {
         "scenes/flag.json", "flag \"red\"\n", "0123456789abcdef0123456789abcdef", {"/gravity/1=-1.62"}};
     manifest.device = {"llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe", "Mesa 22.3.6", "1.3.230", "6d657361"};
     manifest.frames = {0, 239, 2, 120, 60};
+    manifest.run_key = "00112233445566778899aabbccddeeff";
+    manifest.picture = Manifest::Picture{1280, 720, 4};
     manifest.solver = {"relax", 20, 1};
     manifest.validation = {true, 0};
     manifest.skipped = {{"collision", "the scene has no collider"}};
@@ -51,6 +53,7 @@ constexpr const char* golden = R"json({
   ],
   "format": "drape manifest 1",
   "frames": {"count": 120, "end": 239, "fps": 60, "start": 0, "step": 2},
+  "picture": {"height": 720, "samples": 4, "width": 1280},
   "program_version": "0.1.0",
   "run": {
     "command_line": ["drape", "render", "scenes/flag.json"],
@@ -58,6 +61,7 @@ constexpr const char* golden = R"json({
     "frame_ms": {"max": 120.25, "median": 33.5, "min": 30},
     "stage_median_ms": {"raster": 12.5}
   },
+  "run_key": "00112233445566778899aabbccddeeff",
   "scene": {
     "hash": "0123456789abcdef0123456789abcdef",
     "name": "flag \"red\"\n",

@@ -65,6 +65,24 @@ TEST(Png, SaysThatItIsSrgb) {
     EXPECT_THAT(text, testing::HasSubstr("IEND"));
 }
 
+TEST(Png, CarriesAText) {
+    const auto rgba = random_rgba(9, 4);
+    std::vector<std::uint8_t> png, plain;
+    const std::string text = "0123456789abcdef0123456789abcdef frame 7";
+    encode_png(9, 4, rgba, png, text);
+    encode_png(9, 4, rgba, plain);
+    EXPECT_EQ(decode_png(png).text, text);
+    EXPECT_EQ(decode_png(plain).text, "");
+    EXPECT_EQ(decode_with_libpng(png), without_alpha(rgba));
+    // Length, type, keyword, 0, text, checksum: nothing else is different.
+    EXPECT_EQ(png.size(), plain.size() + 12 + 6 + text.size());
+    const std::string bytes(png.begin(), png.end());
+    EXPECT_THAT(bytes, testing::HasSubstr(std::string("tEXtdrape\0", 10) + text));
+    const std::size_t at = bytes.find("frame 7");
+    png[at] ^= 1;  // its checksum no longer fits: no text is better than a wrong one
+    EXPECT_EQ(decode_png(png).text, "");
+}
+
 TEST(Png, CompressesAFlatPicture) {
     std::vector<std::uint8_t> png;
     encode_png(640, 360, std::vector<std::uint8_t>(640 * 360 * 4, 128), png);

@@ -1,0 +1,100 @@
+#include "output/kept_frames.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <charconv>
+#include <sstream>
+
+#include "output/png.h"
+
+namespace drape {
+
+namespace {
+
+constexpr std::string_view remedy =
+    "use --overwrite to replace an earlier run's files, or choose another folder";
+
+bool is_frame_file_name(std::string_view name) {
+    return name.starts_with("frame_") && is_output_file_name(name) && !is_temporary_file_name(name);
+}
+
+// Compared as text: a frame number may have more digits than any integer type.
+std::string_view without_zeros(std::string_view digits) {
+    const size_t first = digits.find_first_not_of('0');
+    return first == std::string_view::npos ? "0" : digits.substr(first);
+}
+
+std::string_view number_in(std::string_view file_name) {
+    const size_t begin = std::string_view("frame_").size();
+    return without_zeros(file_name.substr(begin, file_name.rfind('.') - begin));
+}
+
+void check_text(const std::string& path, std::string_view name, const std::string& text,
+                const std::string& key) {
+    const std::string expected = fmt::format("{} frame {}", key, number_in(name));
+    if (text == expected) return;
+    if (text.starts_with(key + " ")) {
+        throw OutputError(fmt::format("cannot resume: '{}' holds {}: give it its own name back, or remove it",
+                                      path, text.substr(key.size() + 1)));
+    }
+    throw OutputError(fmt::format(
+        "cannot resume: '{}' {}: {}", path,
+        text.empty()
+            ? "does not say which run drew it"
+            : "was drawn by another run (other scene, size, samples, program version, device or driver)",
+        remedy));
+}
+
+FileRecord check_frame(const OutputFolder& folder, const std::string& name, const std::string& key) {
+    const std::vector<std::uint8_t> bytes = folder.read_file(name);
+    std::string text;
+    try {
+        text = decode_png(bytes).text;
+    } catch (const OutputError& error) {
+        throw OutputError(fmt::format("cannot resume: '{}' is damaged ({}): remove it to have it drawn again",
+                                      folder.path_of(name), error.what()));
+    }
+    check_text(folder.path_of(name), name, text, key);
+    return {name, bytes.size(), xxh3_128_hex(std::as_bytes(std::span(bytes)))};
+}
+
+void check_manifest(const OutputFolder& folder, const std::string& key) {
+    const std::string name(manifest_file_name);
+    if (!folder.has_file(name)) return;
+    const std::vector<std::uint8_t> bytes = folder.read_file(name);
+    std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+    Json::Value root;
+    std::string errors;
+    // The folder has already refused a manifest that is not this program's.
+    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &root, &errors) ||
+        root["run_key"] != Json::Value(key)) {
+        throw OutputError(
+            fmt::format("cannot resume: '{}' is that of another run (other command, scene, size, samples, "
+                        "program version, "
+                        "device or driver): {}",
+                        folder.path_of(name), remedy));
+    }
+}
+
+}  // namespace
+
+std::string run_key(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += fmt::format("{}:{}\n", part.size(), part);
+    return xxh3_128_hex(text);
+}
+
+std::string frame_text(std::string_view run_key, std::uint64_t frame) {
+    return fmt::format("{} frame {}", run_key, frame);
+}
+
+std::map<std::string, FileRecord> kept_frames(const OutputFolder& folder, const std::string& run_key) {
+    check_manifest(folder, run_key);
+    std::map<std::string, FileRecord> kept;
+    for (const std::string& name : folder.file_names())
+        if (is_frame_file_name(name)) kept.emplace(name, check_frame(folder, name, run_key));
+    return kept;
+}
+
+}  // namespace drape

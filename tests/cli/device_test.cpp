@@ -1,0 +1,103 @@
+// Devices, drivers and the validation layer: found, missing, unknown.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <json/json.h>
+
+#include <sstream>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+Json::Value devices() {
+    const Outcome outcome = drape({"devices", "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::istringstream stream(outcome.out);
+    Json::Value list;
+    std::string errors;
+    EXPECT_TRUE(Json::parseFromStream(Json::CharReaderBuilder(), stream, &list, &errors)) << errors;
+    return list;
+}
+
+// Newer loaders read the second name.
+const std::vector<std::string> no_driver = {"VK_ICD_FILENAMES=/nowhere/driver.json",
+                                            "VK_DRIVER_FILES=/nowhere/driver.json"};
+
+TEST(Devices, AreListedAsTextAndJson) {
+    const Json::Value list = devices();
+    ASSERT_GE(list.size(), 1u);
+    const Outcome text = drape({"devices"});
+    EXPECT_EQ(text.code, 0);
+    EXPECT_THAT(text.out,
+                AllOf(HasSubstr("0: " + list[0]["name"].asString()), HasSubstr(list[0]["uuid"].asString())));
+}
+
+TEST(Devices, AreChosenByIndexNameAndUuid) {
+    const SceneFolder folder(small_scene(1));
+    const Json::Value list = devices();
+    const std::string uuid = list[0]["uuid"].asString();
+    for (const std::string& selector : {std::string("0"), uuid}) {
+        const Outcome outcome =
+            drape({"simulate", folder.scene(), "-o", folder.out(), "--overwrite", "--device", selector});
+        EXPECT_EQ(outcome.code, 0) << selector << ": " << outcome.err;
+        EXPECT_EQ(lasting_manifest(folder.out())["device"]["uuid"].asString(), uuid);
+    }
+}
+
+TEST(Devices, AnUnknownOneListsThoseThereAre) {
+    const SceneFolder folder(small_scene(2));
+    const std::string name = devices()[0]["name"].asString();
+    for (const char* selector : {"99", "no such device", "00000000-0000-0000-0000-000000000000"}) {
+        const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "--device", selector});
+        EXPECT_EQ(outcome.code, 4) << selector;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr(selector), HasSubstr("the devices are:\n  0: " + name)))
+            << selector;
+    }
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
+}
+
+TEST(Devices, WithoutADriverTheErrorSaysWhereOneIs) {
+    const SceneFolder folder(small_scene(2));
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"devices"},
+                                                      {"graph", folder.scene()},
+                                                      {"render", folder.scene(), "-o", folder.out()}}) {
+        const Outcome outcome = drape(arguments, {.environment = no_driver});
+        EXPECT_EQ(outcome.code, 4) << arguments[0];
+        EXPECT_THAT(outcome.err,
+                    AllOf(HasSubstr("no Vulkan driver found"), HasSubstr("mesa-vulkan-drivers")));
+        EXPECT_THAT(outcome.out, IsEmpty());
+    }
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
+    // What needs no device works without one.
+    EXPECT_EQ(drape({"check", folder.scene()}, {.environment = no_driver}).code, 0);
+    EXPECT_EQ(drape({"schema"}, {.environment = no_driver}).code, 0);
+}
+
+TEST(Validation, AGoodSceneIsClean) {
+    const SceneFolder folder(small_scene(3));
+    const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "--validate"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, Not(HasSubstr("validation")));
+    const Json::Value manifest = lasting_manifest(folder.out());
+    EXPECT_TRUE(manifest["validation"]["enabled"].asBool());
+    EXPECT_EQ(manifest["validation"]["messages"].asInt(), 0);
+}
+
+TEST(Validation, WithoutItsLayerIsAnError) {
+    const SceneFolder folder(small_scene(2));
+    const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "--validate"},
+                                  {.environment = {"VK_LAYER_PATH=/nowhere"}});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("the layer VK_LAYER_KHRONOS_validation is not installed"));
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,49 @@
+// A simulation that is no longer finite: exit code 5, with what came before.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Falls 3e38 m in the first second, and out of single precision in the next ones.
+const std::vector<std::string> overflowing = {
+    "--set", "/gravity=[0,-3e38,0]",       "--set", "/time/fps=1",   "--set", "/solver/substeps=1",
+    "--set", "/cloths/0/pins=[]",          "--set", "/colliders={}", "--set", "/cloths/0/stiffness/stretch=0",
+    "--set", "/cloths/0/stiffness/shear=0"};
+
+Outcome run_overflowing(const SceneFolder& folder, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "-q"};
+    arguments.insert(arguments.end(), overflowing.begin(), overflowing.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return drape(arguments);
+}
+
+TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
+    const SceneFolder folder(small_scene(9));
+    const Outcome outcome = run_overflowing(folder, {});
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    // Semi-implicit: frame 1 has fallen g, frame 2 would have fallen 3 g = 9e38 > 3.4e38.
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
+                                   HasSubstr("the particle in column 0, row 0 is at ("),
+                                   HasSubstr("(2 of 9 frames)"), HasSubstr("no manifest was written")));
+    ASSERT_THAT(names_in(folder.out()), ElementsAre("positions.npy"));
+    const std::string array = read_text(folder / "out/positions.npy");
+    EXPECT_THAT(array, HasSubstr("'shape': (2, 6, 8, 3)"));
+    EXPECT_EQ(array.size(), 128u + 2 * 6 * 8 * 3 * sizeof(float));
+}
+
+TEST(Divergence, WithNoFrameBeforeLeavesNothing) {
+    const SceneFolder folder(small_scene(9));
+    EXPECT_EQ(run_overflowing(folder, {"-s", "4"}).code, 5);
+    EXPECT_THAT(names_in(folder.path()), ElementsAre("scene.json"));
+}
+
+}  // namespace
+}  // namespace drape

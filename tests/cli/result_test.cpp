@@ -1,0 +1,138 @@
+// What a run leaves: the same bytes every time, the frames that were asked for, arrays that NumPy reads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+void run(const std::vector<std::string>& arguments) {
+    const Outcome outcome = drape(arguments);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, IsEmpty());
+}
+
+std::map<std::string, std::string> without_manifest(const fs::path& folder) {
+    auto files = everything_below(folder);
+    files.erase("manifest.json");
+    return files;
+}
+
+TEST(Results, ARenderTwiceGivesTheSameBytes) {
+    const SceneFolder folder(small_scene(12));
+    run({"render", folder.scene(), "-o", folder.out("a"), "--samples", "4"});
+    run({"render", folder.scene(), "-o", folder.out("b"), "--samples", "4", "-q"});
+    const auto files = without_manifest(folder / "a");
+    EXPECT_EQ(files.size(), 12u);
+    EXPECT_EQ(files, without_manifest(folder / "b"));
+    EXPECT_NE(files.at("frame_0000.png"), files.at("frame_0011.png"));
+    EXPECT_EQ(lasting_manifest(folder / "a"), lasting_manifest(folder / "b"));
+    EXPECT_EQ(lasting_manifest(folder / "a")["files"].size(), 12u);
+}
+
+TEST(Results, ASimulationTwiceGivesTheSameBytes) {
+    const SceneFolder folder(small_scene(12));
+    run({"simulate", folder.scene(), "-o", folder.out("a")});
+    run({"simulate", folder.scene(), "-o", folder.out("b")});
+    EXPECT_THAT(names_in(folder / "a"), ElementsAre("manifest.json", "positions.npy"));
+    EXPECT_EQ(without_manifest(folder / "a"), without_manifest(folder / "b"));
+    EXPECT_EQ(lasting_manifest(folder / "a"), lasting_manifest(folder / "b"));
+}
+
+TEST(Results, FramesAreThoseAskedForAndTheirBytesDoNotDependOnIt) {
+    const SceneFolder folder(small_scene(12));
+    run({"render", folder.scene(), "-o", folder.out("all"), "-q"});
+    run({"render", folder.scene(), "-o", folder.out("some"), "-s", "2", "-e", "10", "-j", "3", "-q"});
+    EXPECT_THAT(frame_numbers(folder / "some"), ElementsAre(2, 5, 8));
+    for (const int frame : {2, 5, 8})
+        EXPECT_EQ(read_text(folder / "some" / frame_name(frame)),
+                  read_text(folder / "all" / frame_name(frame)));
+    const Json::Value frames = lasting_manifest(folder / "some")["frames"];
+    EXPECT_EQ(frames["start"].asInt(), 2);
+    EXPECT_EQ(frames["end"].asInt(), 10);
+    EXPECT_EQ(frames["step"].asInt(), 3);
+    EXPECT_EQ(frames["count"].asInt(), 3);
+}
+
+TEST(Results, ATooLargeEndIsClampedWithAWarning) {
+    const SceneFolder folder(small_scene(3));
+    const Outcome outcome =
+        drape({"render", folder.scene(), "-o", folder.out(), "-e", "1000", "-s", "1", "-q"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "warning: the scene ends at frame 2: --end 1000 is clamped\n");
+    EXPECT_THAT(frame_numbers(folder.out()), ElementsAre(1, 2));
+}
+
+TEST(Results, SizeAndSamplesReplaceTheScenes) {
+    const SceneFolder folder(small_scene(1));
+    run({"render", folder.scene(), "-o", folder.out(), "--size", "33x17", "--samples", "4"});
+    EXPECT_TRUE(is_whole_picture(folder / "out/frame_0000.png", 33, 17));
+    const Json::Value picture = lasting_manifest(folder.out())["picture"];
+    EXPECT_EQ(picture["width"].asInt(), 33);
+    EXPECT_EQ(picture["height"].asInt(), 17);
+    EXPECT_EQ(picture["samples"].asInt(), 4);
+}
+
+TEST(Results, AnOverrideChangesTheResultAndIsRecorded) {
+    const SceneFolder folder(small_scene(6));
+    run({"simulate", folder.scene(), "-o", folder.out("a")});
+    run({"simulate", folder.scene(), "-o", folder.out("b"), "--set", "/gravity=[0,-1.62,0]"});
+    EXPECT_NE(read_text(folder / "a/positions.npy"), read_text(folder / "b/positions.npy"));
+    const Json::Value scene = lasting_manifest(folder / "b")["scene"];
+    EXPECT_EQ(scene["overrides"][0].asString(), "/gravity=[0,-1.62,0]");
+    EXPECT_NE(scene["hash"], lasting_manifest(folder / "a")["scene"]["hash"]);
+}
+
+// A scene from a pipe can be read once only; what is run is what is hashed.
+TEST(Results, ASceneMayComeFromAPipe) {
+    const SceneFolder folder(small_scene(2));
+    run({"simulate", folder.scene(), "-o", folder.out("file")});
+    const std::string command = "cat scene.json | '" DRAPE_PROGRAM "' simulate /dev/stdin -o pipe -q";
+    EXPECT_EQ(Running("/bin/sh", {"-c", command}, {.folder = folder.path()}).wait().code, 0);
+    EXPECT_EQ(read_text(folder / "pipe/positions.npy"), read_text(folder / "file/positions.npy"));
+    EXPECT_EQ(lasting_manifest(folder / "pipe")["scene"]["hash"],
+              lasting_manifest(folder / "file")["scene"]["hash"]);
+}
+
+TEST(Results, SeveralClothsGiveAnArrayEachThatNumPyReads) {
+    const SceneFolder folder(R"({
+  "time": {"fps": 60, "frames": 7}, "gravity": [0, -2, 0], "solver": {"substeps": 4},
+  "cloths": [{"name": "left", "grid": [8, 3], "size": [1, 0.5], "placement": {"origin": [-2, 1.5, 0.25]},
+              "pins": [{"edge": "top"}]},
+             {"name": "right", "grid": [4, 5], "size": [1, 1], "placement": {"origin": [1, 3, 0]}}]
+})");
+    run({"simulate", folder.scene(), "-o", folder.out(), "-j", "2"});
+    EXPECT_THAT(names_in(folder.out()),
+                ElementsAre("manifest.json", "positions_left.npy", "positions_right.npy"));
+    EXPECT_THAT(read_text(folder / "out/positions_left.npy"), HasSubstr("'shape': (4, 3, 8, 3)"));
+    const std::string python = "/usr/bin/python3";
+    if (access(python.c_str(), X_OK) != 0 || Running(python, {"-c", "import numpy"}).wait().code != 0)
+        GTEST_SKIP() << "no NumPy here";
+    const std::string script = R"(
+import numpy
+left, right = (numpy.load('out/positions_%s.npy' % name) for name in ('left', 'right'))
+print(left.dtype, left.shape, right.dtype, right.shape)
+print(left[0, 0, 0].tolist(), left[0, 2, 7].tolist(), right[0, 4, 0].tolist())
+print(bool(numpy.isfinite(left).all()), bool((left[:, 0] == left[0, 0]).all()))
+print(round(float(right[0, 0, 0, 1] - right[3, 0, 0, 1]), 3))
+)";
+    const Outcome read = Running(python, {"-c", script}, {.folder = folder.path()}).wait();
+    EXPECT_EQ(read.code, 0) << read.err;
+    // The free cloth has fallen 1/2 2 m/s^2 (0.1 s)^2 = 0.01 m; the pinned row has not moved.
+    EXPECT_EQ(read.out,
+              "float32 (4, 3, 8, 3) float32 (4, 5, 4, 3)\n"
+              "[-2.0, 1.5, 0.25] [-1.0, 1.0, 0.25] [1.0, 2.0, 0.0]\n"
+              "True True\n"
+              "0.01\n");
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,67 @@
+// SIGINT and SIGTERM: what is in flight is finished, pictures are whole, and the folder does not look done.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr int endless = 9000;  // frames: minutes of work
+
+struct Stop {
+    int signal, code;
+    const char* name;
+};
+
+class Signals : public testing::TestWithParam<Stop> {};
+
+TEST_P(Signals, EndARenderWithWholePicturesAndNoManifest) {
+    const SceneFolder folder(small_scene(endless));
+    Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out()});
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "out/frame_0003.png"); }))
+        << program.wait().err;
+    program.send(GetParam().signal);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, GetParam().code);
+    EXPECT_FALSE(outcome.by_signal);
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("drape: stopped by ") + GetParam().name));
+    EXPECT_THAT(outcome.err, HasSubstr("no manifest was written"));
+    const std::set<int> frames = frame_numbers(folder.out());
+    EXPECT_EQ(names_in(folder.out()).size(), frames.size());  // no manifest, no unfinished file
+    EXPECT_LT(frames.size(), static_cast<std::size_t>(endless));
+    int next = 0;
+    for (const int frame : frames) {
+        EXPECT_EQ(frame, next++);  // what was in flight was finished: no gaps
+        EXPECT_TRUE(is_whole_picture(folder / "out" / frame_name(frame), 64, 48)) << frame;
+    }
+}
+
+TEST_P(Signals, EndASimulationWithoutItsIncompleteArray) {
+    const SceneFolder folder(small_scene(endless));
+    Running program(DRAPE_PROGRAM, {"simulate", folder.scene(), "-o", folder.out()});
+    const auto has_data = [&] {
+        if (!fs::exists(folder.out())) return false;
+        for (const auto& entry : fs::directory_iterator(folder.out()))
+            if (entry.file_size() > 1000) return true;
+        return false;
+    };
+    ASSERT_TRUE(program.wait_until(has_data)) << program.wait().err;
+    program.send(GetParam().signal);
+    EXPECT_EQ(program.wait().code, GetParam().code);
+    EXPECT_THAT(names_in(folder.path()), ElementsAre("scene.json"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Signals,
+                         testing::Values(Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace drape

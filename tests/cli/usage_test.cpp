@@ -1,0 +1,108 @@
+// The command line: help, and what is refused as wrong usage (exit code 2).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
+    const Outcome general = drape({"--help"});
+    EXPECT_EQ(general.code, 0);
+    EXPECT_THAT(general.err, IsEmpty());
+    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices"}) {
+        EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
+        const Outcome help = drape({command, "--help"});
+        EXPECT_EQ(help.code, 0) << command;
+        EXPECT_THAT(help.err, IsEmpty()) << command;
+        EXPECT_THAT(help.out, AllOf(HasSubstr(std::string("Usage: drape ") + command), HasSubstr("Example"),
+                                    HasSubstr("Exit codes: 0 ok, 1 file")))
+            << command;
+    }
+    EXPECT_THAT(
+        drape({"render", "-h"}).out,
+        AllOf(HasSubstr("--resume"), HasSubstr("default: 0, the initial state"), HasSubstr("in pixels")));
+    EXPECT_THAT(drape({"simulate", "-h"}).out, HasSubstr("float32 [frame, row, column, 3], metres"));
+}
+
+TEST(Help, VersionIsData) {
+    const Outcome outcome = drape({"--version"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out, testing::MatchesRegex("drape [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+struct WrongUsage {
+    const char* name;
+    std::vector<std::string> arguments;  ///< SCENE and OUT stand for the paths
+    const char* message;
+};
+
+class Usage : public testing::TestWithParam<WrongUsage> {};
+
+TEST_P(Usage, IsRefusedAndNothingIsTouched) {
+    const SceneFolder folder(small_scene(4));
+    std::vector<std::string> arguments = GetParam().arguments;
+    for (std::string& argument : arguments) {
+        if (argument == "SCENE") argument = folder.scene();
+        if (argument == "OUT") argument = folder.out();
+    }
+    const auto before = everything_below(folder.path());
+    const Outcome outcome = drape(arguments, {.folder = folder.path()});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(GetParam().message));
+    EXPECT_THAT(outcome.err, StartsWith("drape"));
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_EQ(everything_below(folder.path()), before);
+}
+
+const WrongUsage wrong_usages[] = {
+    {"NoCommand", {}, "no command given: expected one of render, simulate, graph, check, schema, devices"},
+    {"UnknownCommand", {"rendr", "SCENE"}, "unknown command 'rendr': expected one of render, simulate"},
+    {"NoScene", {"render", "-o", "OUT"}, "drape render: SCENE is required"},
+    {"NoOutput", {"render", "SCENE"}, "--output is required"},
+    {"OutputWithoutFolder", {"render", "SCENE", "-o"}, "--output: 1 required DIR missing"},
+    {"UnknownOption", {"render", "SCENE", "-o", "OUT", "--fast"}, "not expected: --fast"},
+    {"SuperfluousArgument", {"render", "SCENE", "more", "-o", "OUT"}, "not expected: more"},
+    {"Size", {"render", "SCENE", "-o", "OUT", "--size", "640"}, "--size: expected WIDTHxHEIGHT in pixels"},
+    {"ZeroSize", {"render", "SCENE", "-o", "OUT", "--size", "0x48"}, "1 to 16384 each, got '0x48'"},
+    {"HugeSize", {"render", "SCENE", "-o", "OUT", "--size", "16385x48"}, "got '16385x48'"},
+    {"SignedSize", {"render", "SCENE", "-o", "OUT", "--size", "+64x+48"}, "got '+64x+48'"},
+    {"SizeAndMore", {"render", "SCENE", "-o", "OUT", "--size", "64x48x2"}, "got '64x48x2'"},
+    {"Samples", {"render", "SCENE", "-o", "OUT", "--samples", "2"}, "--samples: expected 1 or 4, got '2'"},
+    {"SimulateHasNoSize", {"simulate", "SCENE", "-o", "OUT", "--size", "64x48"}, "not expected: "},
+    {"NegativeStart",
+     {"render", "SCENE", "-o", "OUT", "-s", "-1"},
+     "--start: expected a whole number from 0 to 4294967295, got '-1'"},
+    {"HugeEnd", {"render", "SCENE", "-o", "OUT", "-e", "4294967296"}, "--end: expected a whole number"},
+    {"FractionalStart", {"render", "SCENE", "-o", "OUT", "-s", "1.5"}, "--start: expected a whole number"},
+    {"ZeroStep", {"render", "SCENE", "-o", "OUT", "-j", "0"}, "--step: expected a whole number from 1"},
+    {"StartAfterEnd",
+     {"render", "SCENE", "-o", "OUT", "-s", "3", "-e", "2"},
+     "no frame to write: --start 3 is after the last frame 2"},
+    {"StartAfterTheScene",
+     {"render", "SCENE", "-o", "OUT", "-s", "4"},
+     "--start 4 is after the last frame 3"},
+    {"SetWithoutPointer",
+     {"render", "SCENE", "-o", "OUT", "--set", "a=1"},
+     "--set: expected /json/pointer=value"},
+    {"SetWithoutValue",
+     {"check", "SCENE", "--set", "/time/fps"},
+     "expected /json/pointer=value, got '/time/fps'"},
+    {"SetWithNothing", {"render", "SCENE", "-o", "OUT", "--set"}, "--set: 1 required /POINTER=VALUE missing"},
+    {"OverwriteAndResume", {"render", "SCENE", "-o", "OUT", "--overwrite", "--resume"}, "excludes"},
+    {"QuietAndVerbose", {"render", "SCENE", "-o", "OUT", "-q", "-v"}, "excludes"},
+    {"Export", {"simulate", "SCENE", "-o", "OUT", "--export", "npy,pc2"}, "expected npy, the one format"},
+    {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text, json or dot, got 'svg'"},
+};
+INSTANTIATE_TEST_SUITE_P(Wrong, Usage, testing::ValuesIn(wrong_usages),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace drape

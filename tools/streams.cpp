@@ -1,0 +1,39 @@
+#include "streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "output/output_error.h"
+
+namespace drape::cli {
+
+void prepare_streams() {
+    std::signal(SIGPIPE, SIG_IGN);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+        // Opened for the other direction: reading or writing fails as it did before. open() takes the lowest
+        // free number, which is this one.
+        const int wrong_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        if (open("/dev/null", wrong_way) != stream) _exit(1);
+    }
+}
+
+void print_data(std::string_view text) {
+    const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
+    if (written == text.size() && std::fflush(stdout) == 0) return;
+    const int error = errno;
+    if (error == EPIPE) throw ReaderGone();
+    throw system_error_at("write to", "stdout", error);
+}
+
+void print_message(std::string_view text) {
+    const std::string line = std::string(text) + '\n';  // one write: whole lines where processes share a log
+    std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace drape::cli
