@@ -1,5 +1,9 @@
 #include "frame_loop.h"
 
+#include <algorithm>
+#include <cstring>
+
+#include "passes/cut_pass.h"
 #include "passes/readback_pass.h"
 
 namespace drape {
@@ -12,8 +16,7 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
         const Cloth& cloth = model.scene.cloths[state.index];
         const Grid& grid = state.model->grid;
         cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.appearance,
-                          state.position, state.normal, state.triangles,
-                          static_cast<std::uint32_t>(grid.triangle_indices().size())});
+                          state.position, state.normal, state.triangles, state.index_count, state.cut_vertices});
     }
     return cloths;
 }
@@ -21,19 +24,42 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
 }  // namespace
 
 FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
-    : device_(device), model_(model), options_(options), solver_(device, model), slots_(device) {
-    if (options.draw)
-        raster_ = std::make_unique<RasterPass>(device, model.scene, options.width, options.height, options.samples);
-    std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
-    for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
-        build(static_cast<FrameKind>(kind));
-        plans.emplace_back(&frames_[kind].graph, &frames_[kind].plan);
+    : device_(device), model_(model), options_(options), solver_(device, model_), slots_(device) {
+    if (!model_.scene.cutters.empty()) {
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            topologies_.emplace_back(model_.scene.cloths[cloth], model_.cloths[cloth]);
+        solver_.set_topologies(&topologies_);
     }
-    pool_ = std::make_unique<graph::ResourcePool>(device, plans);
-    for (Frame& frame : frames_)
-        frame.recorded = std::make_unique<graph::RecordedPlan>(frame.graph, frame.plan, *pool_, options.timestamps,
-                                                               options.barrier_filter);
+    build_graphs();
+    allocate_and_record();
     solver_.upload(*pool_);
+    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) solver_.upload_cut(*pool_, cloth, {});
+}
+
+void FrameLoop::build_graphs() {
+    frames_ = {};
+    const bool cut = std::ranges::any_of(topologies_, [](const CutTopology& t) { return !t.vertices().empty(); });
+    if (options_.draw && (!raster_ || cut != draws_cut_)) {
+        raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height,
+                                               options_.samples, RasterOptions{.cut = cut});
+        draws_cut_ = cut;
+    }
+    for (std::size_t kind = 0; kind < kind_count(); ++kind) build(static_cast<FrameKind>(kind));
+}
+
+void FrameLoop::allocate_and_record() {
+    std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
+    for (std::size_t kind = 0; kind < kind_count(); ++kind)
+        plans.emplace_back(&frames_[kind].graph, &frames_[kind].plan);
+    pool_.reset();
+    pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
+    record();
+}
+
+void FrameLoop::record() {
+    for (std::size_t kind = 0; kind < kind_count(); ++kind)
+        frames_[kind].recorded = std::make_unique<graph::RecordedPlan>(
+            frames_[kind].graph, frames_[kind].plan, *pool_, options_.timestamps, options_.barrier_filter);
 }
 
 FrameLoop::~FrameLoop() {
@@ -46,11 +72,68 @@ FrameLoop::~FrameLoop() {
     }
 }
 
+bool FrameLoop::cutters_active_in(std::uint32_t frame) const {
+    const double fps = model_.scene.time.fps;
+    return cutters_active(model_.scene.cutters, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+}
+
+void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
+    struct Hit {
+        std::size_t cloth;
+        CutFindings findings;
+        CutImages before;
+    };
+    std::vector<Hit> hits;  // all are fetched before any resource changes
+    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) {
+        const ClothModel& model = model_.cloths[cloth];
+        std::uint32_t crossed = 0;
+        std::memcpy(&crossed, pool_->buffer(cut_count_name(model), slot).mapped().data(), sizeof crossed);
+        if (crossed > 0) hits.push_back({cloth, read_findings(*pool_, model), solver_.cut_images(cloth)});
+    }
+    bool new_resources = false;
+    for (const Hit& hit : hits) {
+        ClothModel& model = model_.cloths[hit.cloth];
+        new_resources = new_resources || !model.masked;
+        const CutCounts counts = topologies_[hit.cloth].apply(model, hit.findings);
+        new_resources = new_resources || outgrown(hit.before, topologies_[hit.cloth]);
+        if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, model, topologies_[hit.cloth]);
+    }
+    if (new_resources) return rebuild_resources();
+    for (const Hit& hit : hits) solver_.upload_cut(*pool_, hit.cloth, hit.before);
+    if (hits.empty() || !options_.draw) return;
+    build_graphs();  // how much is drawn is part of the recording
+    record();
+}
+
+bool FrameLoop::outgrown(const CutImages& before, const CutTopology& topology) const {
+    const auto other_size = [](std::size_t was, std::size_t is) {
+        return (was == 0) != (is == 0) || draw_list_capacity(was) != draw_list_capacity(is);
+    };
+    return options_.draw && (other_size(before.indices.size(), topology.indices().size()) ||
+                             other_size(before.vertices.size(), topology.vertices().size()));
+}
+
+void FrameLoop::rebuild_resources() {
+    const auto state = solver_.download_state(*pool_);
+    for (Frame& frame : frames_) frame.recorded.reset();
+    build_graphs();
+    allocate_and_record();
+    solver_.upload(*pool_);
+    solver_.upload_state(*pool_, state);
+    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) solver_.upload_cut(*pool_, cloth, {});
+}
+
 void FrameLoop::build(FrameKind kind) {
     Frame& frame = frames_[static_cast<std::size_t>(kind)];
-    const bool output = kind != FrameKind::simulate;
+    const bool output = plain(kind) != FrameKind::simulate;
     solver_.declare(frame.graph, output && options_.draw);
-    if (kind != FrameKind::initial) solver_.add_simulation(frame.graph);
+    if (plain(kind) != FrameKind::initial) solver_.add_simulation(frame.graph);
+    if (searches_cuts(kind)) {
+        solver_.add_cuts(frame.graph);
+    } else {
+        frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
+                                                                    : "no cutter is active in this kind of frame");
+    }
     if (output && options_.draw) {
         solver_.add_normals(frame.graph);
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
@@ -69,12 +152,14 @@ void FrameLoop::build(FrameKind kind) {
     frame.plan = graph::make_plan(frame.graph);
 }
 
-void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind) {
+void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output) {
     // The initial frame simulates nothing, but its statistics need to know where the colliders are.
-    if (kind != FrameKind::initial || options_.statistics) solver_.write_inputs(*pool_, slot, frame);
-    if (kind != FrameKind::simulate && raster_) raster_->write_frame(*pool_, slot, frame / model_.scene.time.fps);
+    const double fps = model_.scene.time.fps;
+    if (plain(kind) != FrameKind::initial || options_.statistics) solver_.write_inputs(*pool_, slot, frame);
+    if (searches_cuts(kind)) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+    if (plain(kind) != FrameKind::simulate && raster_) raster_->write_frame(*pool_, slot, frame / fps);
     slots_.submit(slot, frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
-    in_flight_[slot] = InFlight{frame, kind, kind != FrameKind::simulate};
+    in_flight_[slot] = InFlight{frame, kind, output};
 }
 
 void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished) {
@@ -103,7 +188,8 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
     std::uint32_t next_slot = 0;
     for (std::uint32_t frame = 0; frame <= last; ++frame) {
         const bool output = wanted(frame);
-        if (frame == 0 && !output) continue;  // the initial state is already there
+        const bool cutting = cutters_active_in(frame);
+        if (frame == 0 && !output && !cutting) continue;  // the initial state is already there
         if (stop && stop()) {
             complete = false;
             break;
@@ -112,8 +198,14 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
         const FrameKind kind = frame == 0 ? FrameKind::initial
                                : output   ? FrameKind::simulate_and_output
                                           : FrameKind::simulate;
-        submit(next_slot, frame, kind);
+        submit(next_slot, frame, cutting ? with_cut_search(kind) : kind, output);
+        const std::uint32_t slot = next_slot;
         next_slot = (next_slot + 1) % vulkan::frame_slot_count;
+        if (!cutting) continue;
+        // A cut acts from the next frame on, always: so that frame waits for this one's findings.
+        deliver(next_slot, finished);
+        deliver(slot, finished);
+        take_cuts(slot, frame);
     }
     for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
         deliver((next_slot + slot) % vulkan::frame_slot_count, finished);

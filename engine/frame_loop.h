@@ -16,18 +16,36 @@
 
 namespace drape {
 
+/// A cut found at the end of a frame; it acts from the next frame on.
+struct CutEvent {
+    std::uint32_t frame;
+    std::size_t cloth;
+    CutCounts counts;
+};
+
 struct FrameLoopOptions {
     bool draw = true;         ///< colour images are wanted
     bool positions = false;   ///< position arrays are wanted
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
+    /// Told of every cut, with the topology after it; the model is the loop's own, as cut so far.
+    std::function<void(const CutEvent&, const ClothModel&, const CutTopology&)> on_cut;
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 
-/// What happens in a frame: frame 0 is the initial state; frames that nobody asked for are only simulated.
-enum class FrameKind { initial, simulate, simulate_and_output };
-inline constexpr std::size_t frame_kind_count = 3;
+/// What happens in a frame: frame 0 is the initial state; frames that nobody asked for are only simulated. The
+/// second three also search for cuts; they exist only when the scene has cutters.
+enum class FrameKind { initial, simulate, simulate_and_output, initial_cut, simulate_cut, simulate_and_output_cut };
+inline constexpr std::size_t plain_frame_kind_count = 3, frame_kind_count = 6;
+constexpr bool searches_cuts(FrameKind kind) { return static_cast<std::size_t>(kind) >= plain_frame_kind_count; }
+constexpr FrameKind with_cut_search(FrameKind kind) {
+    return static_cast<FrameKind>(static_cast<std::size_t>(kind) + plain_frame_kind_count);
+}
+/// The kind without the search for cuts.
+constexpr FrameKind plain(FrameKind kind) {
+    return static_cast<FrameKind>(static_cast<std::size_t>(kind) % plain_frame_kind_count);
+}
 
 struct FinishedFrame {
     std::uint32_t frame;
@@ -40,8 +58,8 @@ struct FinishedFrame {
 class FrameLoop {
   public:
     /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
-    /// budget, before anything is allocated), records them, and uploads the initial state. `model` and
-    /// `device` must outlive the loop.
+    /// budget, before anything is allocated), records them, and uploads the initial state. `device`
+    /// must outlive the loop; `model` is copied, because cutting changes it.
     FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
     ~FrameLoop();
 
@@ -66,15 +84,25 @@ class FrameLoop {
         bool output = false;
     };
 
+    std::size_t kind_count() const { return model_.scene.cutters.empty() ? plain_frame_kind_count : frame_kind_count; }
+    bool cutters_active_in(std::uint32_t frame) const;
+    void build_graphs();
+    void allocate_and_record();
+    void record();
+    void take_cuts(std::uint32_t slot, std::uint32_t frame);
+    bool outgrown(const CutImages& before, const CutTopology& topology) const;
+    void rebuild_resources();
     void build(FrameKind kind);
-    void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind);
+    void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
     void deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished);
 
     const vulkan::Device& device_;
-    const SimulationModel& model_;
+    SimulationModel model_;
+    std::vector<CutTopology> topologies_;  ///< per cloth, when the scene has cutters
     FrameLoopOptions options_;
     ClothSolver solver_;
     std::unique_ptr<RasterPass> raster_;
+    bool draws_cut_ = false;  ///< raster_ was made for cut cloths
     std::array<Frame, frame_kind_count> frames_;
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;

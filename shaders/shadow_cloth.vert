@@ -6,9 +6,6 @@
 #include "include/shadow_clip.h"
 layout(push_constant) uniform Push { ClothPush push; };
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
+#include "include/cloth_vertex.h"
 
-void main() {
-    int columns = int(push.grid.x);
-    ivec2 texel = ivec2(gl_VertexIndex % columns, gl_VertexIndex / columns);
-    gl_Position = shadow_clip(imageLoad(position, texel).xyz);
-}
+void main() { gl_Position = shadow_clip(vertex_position(uint(gl_VertexIndex))); }

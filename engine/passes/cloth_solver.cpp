@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "passes/collision_pass.h"
+#include "passes/cut_pass.h"
 #include "passes/force_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
@@ -78,10 +79,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
         if (model.multiplied[direction])
             state.multiplier[direction] = image("multiplier " + std::string(spring_directions[direction].name),
                                                 Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
-    if (drawn)
-        state.triangles = graph.buffer({model.name + "/triangles",
-                                        model.grid.triangle_indices().size() * sizeof(std::uint32_t),
-                                        Lifetime::constant});
+    if (drawn) declare_drawing(graph, state);
     if (!model.pinned.empty()) {
         state.pinned = graph.buffer({model.name + "/pinned particles",
                                      model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
@@ -91,6 +89,26 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
                                           Lifetime::host_input});
     }
     cloths_.push_back(state);
+}
+
+void ClothSolver::declare_drawing(graph::Graph& graph, ClothState& state) const {
+    const std::string& name = state.model->name;
+    const bool cuttable = topologies_ != nullptr;
+    const std::size_t index_count =
+        cuttable ? (*topologies_)[state.index].indices().size() : state.model->grid.triangle_indices().size();
+    state.index_count = static_cast<std::uint32_t>(index_count);
+    const std::size_t room = cuttable ? draw_list_capacity(index_count) : index_count;
+    state.triangles = graph.buffer({name + "/triangles", room * sizeof(std::uint32_t), Lifetime::constant});
+    if (!cuttable || (*topologies_)[state.index].vertices().empty()) return;
+    const std::size_t vertex_room = draw_list_capacity((*topologies_)[state.index].vertices().size());
+    state.cut_vertices =
+        graph.buffer({name + "/cut vertices", vertex_room * sizeof(glsl::CutVertex), Lifetime::constant});
+}
+
+void ClothSolver::add_cuts(graph::Graph& graph) {
+    const std::size_t count = model_.scene.cutters.size();
+    const graph::Handle cutters = declare_cutters(graph, count);
+    for (ClothState& state : cloths_) add_cut(graph, pipelines_, state, cutters, count);
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
@@ -149,7 +167,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
             image(cloth, "mass share", bytes_of(mass_shares(cloth)));
             image(cloth, "cells", bytes_of(cloth.grid.cells()));
         }
-        buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
+        if (topologies_ == nullptr) buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
         buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
     }
 }

@@ -2,19 +2,37 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "cloth/cloth_statistics.h"
+#include "cloth/cut_topology.h"
 #include "passes/pass_kit.h"
 
 namespace drape {
+
+/// The host's copies of what a cut changes.
+struct CutImages {
+    std::vector<glsl::vec4> stiffness;
+    std::vector<std::uint32_t> cells, indices;
+    std::vector<glsl::CutVertex> vertices;
+};
+
+/// The images that carry a cloth from frame to frame, without the cloth's name; a scene may lack some.
+std::vector<std::string> state_image_parts();
+
+/// Elements that a draw list of `count` elements has room for: it grows in powers of two, so that few cuts need
+/// new buffers.
+std::size_t draw_list_capacity(std::size_t count);
 
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
     ClothSolver(const vulkan::Device& device, const SimulationModel& model);
 
+    /// Cut cloths are drawn from their topology's lists; one per cloth, which must outlive the graphs.
+    void set_topologies(const std::vector<CutTopology>* topologies) { topologies_ = topologies; }
     /// Declares the images and host inputs that the scene needs, and only those. `drawn`: also what drawing
     /// needs (triangles, normals).
     void declare(graph::Graph& graph, bool drawn);
@@ -24,11 +42,22 @@ class ClothSolver {
     void add_normals(graph::Graph& graph);
     /// Adds the statistics of every cloth (passes/statistics_pass.h), to be read by `statistics`.
     void add_statistics(graph::Graph& graph);
+    /// Adds the search for springs and triangles that the cutters cross.
+    void add_cuts(graph::Graph& graph);
     /// The newest handles since `declare`.
     const std::vector<ClothState>& cloths() const { return cloths_; }
 
     /// Uploads the initial state, masks, triangles and pins to whatever of them the pool holds.
     void upload(const graph::ResourcePool& pool) const;
+    /// The persistent images of all cloths, by name: to carry the state over to new resources.
+    std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
+    void upload_state(const graph::ResourcePool& pool, const std::map<std::string, std::vector<std::byte>>& state) const;
+    /// Uploads what of a cut cloth's stiffness, cells and draw lists differs from `before`.
+    void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
+    /// What `upload_cut` compares with: copies of the host's side.
+    CutImages cut_images(std::size_t cloth) const;
+    /// Writes the cutters of the frame that spans the two times (s).
+    void write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start, double frame_end) const;
     /// Writes the host inputs for simulating to `frame` (1 ..) into a slot.
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const;
 
@@ -39,10 +68,12 @@ class ClothSolver {
     std::size_t pipeline_count() const { return pipelines_.size(); }
 
   private:
+    void declare_drawing(graph::Graph& graph, ClothState& state) const;
     void declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, bool drawn);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
+    const std::vector<CutTopology>* topologies_ = nullptr;
     PipelineCache pipelines_;
     std::vector<ClothState> cloths_;
     SceneInputs inputs_;

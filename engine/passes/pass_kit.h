@@ -44,6 +44,8 @@ struct ClothState {
     graph::Handle wind_force, normal, stiffness, mass, cells;
     std::array<graph::Handle, 4> multiplier;
     graph::Handle triangles;              ///< index buffer
+    graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
+    std::uint32_t index_count = 0;
     graph::Handle pinned, pin_motions;    ///< dynamic pins
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;
     graph::PassName step_name(const std::string& pass, const Step& step) const;

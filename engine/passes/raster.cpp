@@ -63,10 +63,10 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     const BoundingSphere extent = scene_extent(scene);
     plane_extent_ = plane_extent(scene, extent);
     constants_ = frame_constants(scene, extent, width, height);
-    make_pipelines(device, !scene.cloths.empty());
+    make_pipelines(device, !scene.cloths.empty(), options.cut);
 }
 
-void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth) {
+void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth) {
     const bool shadow = casts_shadow();
     vulkan::GraphicsState state;
     state.color_format = color_format;
@@ -83,6 +83,14 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth) {
         shadow_state.vertex = interfaces::shadow_cloth_vertex;
         if (shadow)
             shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
+    }
+    if (has_cut_cloth) {
+        state.vertex = interfaces::cut_cloth_vertex;
+        cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cut cloth", state);
+        shadow_state.vertex = interfaces::shadow_cut_cloth_vertex;
+        if (shadow)
+            shadow_cut_cloth_ =
+                std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cut cloth", shadow_state);
     }
     state.vertex = interfaces::collider_vertex;
     state.fragment = shadow ? interfaces::collider_shadowed_fragment : interfaces::collider_fragment;
@@ -143,6 +151,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.indices, Access::index_read);
+                if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
             }
             attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
             attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
@@ -150,12 +159,15 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
         [this, attachments, cloths, frame = targets.frame,
          colliders = targets.colliders](graph::PassContext& context) {
             begin_rendering(context, *attachments);
-            if (!cloths.empty()) bind_pipeline(context, *shadow_cloth_);
             for (const RasterCloth& cloth : cloths) {
-                push_bindings(
-                    context, *shadow_cloth_,
-                    {{interfaces::frame_binding, frame}, {interfaces::position_binding, cloth.position}});
-                draw_cloth(context, *shadow_cloth_, cloth_push(cloth), cloth.indices, cloth.index_count);
+                const bool cut = cloth.cut_vertices.valid();
+                const vulkan::GraphicsPipeline& pipeline = cut ? *shadow_cut_cloth_ : *shadow_cloth_;
+                std::vector<BoundHandle> bound{{interfaces::frame_binding, frame},
+                                               {interfaces::position_binding, cloth.position}};
+                if (cut) bound.push_back({interfaces::cut_vertices_binding, cloth.cut_vertices});
+                bind_pipeline(context, pipeline);
+                push_bindings(context, pipeline, bound);
+                draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
             }
             for (const Draw& draw : shadow_draws_) {
                 bind_pipeline(context, *draw.pipeline);
@@ -182,6 +194,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets,
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.normal, Access::vertex_read);
                 setup.read(cloth.indices, Access::index_read);
+                if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
             }
             Handle& drawn = samples_ > 1 ? targets.multisampled : targets.color;
             attachments->color = drawn = setup.write(drawn, Access::color_write);
@@ -205,12 +218,15 @@ void RasterPass::draw_picture(const graph::PassContext& context, const Targets& 
         all.insert(all.end(), own);
         return all;
     };
-    if (!cloths.empty()) bind_pipeline(context, *cloth_);
     for (const RasterCloth& cloth : cloths) {
-        push_bindings(context, *cloth_,
-                      bindings({{interfaces::position_binding, cloth.position},
-                                {interfaces::normal_binding, cloth.normal}}));
-        draw_cloth(context, *cloth_, cloth_push(cloth), cloth.indices, cloth.index_count);
+        const bool cut = cloth.cut_vertices.valid();
+        const vulkan::GraphicsPipeline& pipeline = cut ? *cut_cloth_ : *cloth_;
+        std::vector<BoundHandle> bound = bindings({{interfaces::position_binding, cloth.position},
+                                                   {interfaces::normal_binding, cloth.normal}});
+        if (cut) bound.push_back({interfaces::cut_vertices_binding, cloth.cut_vertices});
+        bind_pipeline(context, pipeline);
+        push_bindings(context, pipeline, bound);
+        draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
     }
     for (const Draw& draw : draws_) {
         bind_pipeline(context, *draw.pipeline);

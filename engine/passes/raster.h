@@ -26,10 +26,12 @@ struct RasterCloth {
     Appearance appearance;
     graph::Handle position, normal, indices;
     std::uint32_t index_count = 0;
+    graph::Handle cut_vertices = {};  ///< valid on a cut cloth: indices from columns * rows on are in this buffer
 };
 
 struct RasterOptions {
     bool shadow = true;
+    bool cut = false;  ///< some cloth has cut vertices: their pipelines are made
 };
 
 class RasterPass {
@@ -67,7 +69,7 @@ class RasterPass {
     };
     struct Targets;
 
-    void make_pipelines(const vulkan::Device& device, bool has_cloth);
+    void make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth);
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
@@ -81,6 +83,7 @@ class RasterPass {
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
     std::unique_ptr<vulkan::GraphicsPipeline> cloth_, shadow_cloth_;
+    std::unique_ptr<vulkan::GraphicsPipeline> cut_cloth_, shadow_cut_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
 };
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "passes/declare.h"
+#include "passes/struct_layouts.h"
 #include "shared/raster_types.h"
 
 namespace drape::raster_interfaces {
@@ -48,11 +49,16 @@ constexpr vulkan::DescriptorDeclaration frame_alone[] = {frame};
 constexpr vulkan::DescriptorDeclaration frame_and_map[] = {frame, shadow_map};
 constexpr vulkan::DescriptorDeclaration cloth_images[] = {frame, position, normal};
 constexpr vulkan::DescriptorDeclaration cloth_positions[] = {frame, position};
+const auto cut_vertices = struct_buffer_read(cut_vertices_binding, "CutVertices", &layouts::cut_vertex);
+const vulkan::DescriptorDeclaration cut_cloth_images[] = {frame, position, normal, cut_vertices};
+const vulkan::DescriptorDeclaration cut_cloth_positions[] = {frame, position, cut_vertices};
 constexpr vulkan::DescriptorDeclaration frame_and_colliders[] = {frame, colliders};
 
 }  // namespace
 
 const vulkan::ShaderInterface cloth_vertex{"cloth.vert", cloth_images, &push_layout};
+const vulkan::ShaderInterface cut_cloth_vertex{"cloth_cut.vert", cut_cloth_images, &push_layout};
+const vulkan::ShaderInterface shadow_cut_cloth_vertex{"shadow_cloth_cut.vert", cut_cloth_positions, &push_layout};
 const vulkan::ShaderInterface cloth_fragment{"cloth.frag", frame_alone, &push_layout};
 const vulkan::ShaderInterface cloth_shadowed_fragment{"cloth_shadowed.frag", frame_and_map, &push_layout};
 const vulkan::ShaderInterface collider_vertex{"collider.vert", frame_and_colliders};

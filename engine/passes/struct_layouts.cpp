@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "shared/cut_types.h"
 #include "shared/simulation_types.h"
 
 namespace drape::layouts {
@@ -82,6 +83,22 @@ constexpr vulkan::MemberLayout pin_motion_members[] = {
     {"row_z", offsetof(PinMotion, row_z)},
     {"held", offsetof(PinMotion, held)},
 };
+constexpr vulkan::MemberLayout cut_push_members[] = {
+    {"grid", offsetof(CutPush, grid)},
+    {"triangle_count", offsetof(CutPush, triangle_count)},
+    {"unused", offsetof(CutPush, unused)},
+};
+constexpr vulkan::MemberLayout cutter_triangle_members[] = {
+    {"a", offsetof(CutterTriangle, a)},
+    {"b", offsetof(CutterTriangle, b)},
+    {"c", offsetof(CutterTriangle, c)},
+};
+constexpr vulkan::MemberLayout cut_vertex_members[] = {
+    {"particles", offsetof(CutVertex, particles)},
+    {"weights", offsetof(CutVertex, weights)},
+    {"offset", offsetof(CutVertex, offset)},
+    {"material", offsetof(CutVertex, material)},
+};
 
 }  // namespace
 
@@ -98,5 +115,8 @@ const vulkan::StructLayout statistics_record{"StatisticsRecord", sizeof(Statisti
 const vulkan::StructLayout collider{"Collider", sizeof(Collider), collider_members};
 const vulkan::StructLayout pinned_particle{"PinnedParticle", sizeof(PinnedParticle), pinned_particle_members};
 const vulkan::StructLayout pin_motion{"PinMotion", sizeof(PinMotion), pin_motion_members};
+const vulkan::StructLayout cut_push{"CutPush", sizeof(CutPush), cut_push_members};
+const vulkan::StructLayout cutter_triangle{"CutterTriangle", sizeof(CutterTriangle), cutter_triangle_members};
+const vulkan::StructLayout cut_vertex{"CutVertex", sizeof(CutVertex), cut_vertex_members};
 
 }  // namespace drape::layouts

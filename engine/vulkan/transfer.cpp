@@ -116,6 +116,44 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
     device.run_once([&](VkCommandBuffer commands) { copy(commands, source, buffer); });
 }
 
+void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes) {
+    const ImageDescription& description = image.description();
+    const std::uint64_t row = std::uint64_t{description.width} * texel_size(description.format);
+    const std::uint64_t count = bytes.size() / row;
+    if (bytes.size() % row != 0 || first_row + count > description.height)
+        throw VulkanError(fmt::format("image {} has no {} bytes from row {} on", description.name, bytes.size(), first_row));
+    if (count == 0) return;
+    const Buffer source = staging(device, description.name, bytes.size(), BufferHome::upload);
+    std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
+    device.run_once([&](VkCommandBuffer commands) {
+        VkBufferImageCopy region = whole(image);
+        region.imageOffset.y = static_cast<std::int32_t>(first_row);
+        region.imageExtent.height = static_cast<std::uint32_t>(count);
+        full_barrier(commands);
+        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+        full_barrier(commands);
+    });
+}
+
+void upload_range(const Device& device, const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes) {
+    const BufferDescription& description = buffer.description();
+    if (offset + bytes.size() > description.byte_count)
+        throw VulkanError(fmt::format("buffer {} has no {} bytes at {}", description.name, bytes.size(), offset));
+    if (bytes.empty()) return;
+    if (!buffer.mapped().empty()) {
+        std::memcpy(buffer.mapped().data() + offset, bytes.data(), bytes.size());  // the next submit makes it visible
+        return;
+    }
+    const Buffer source = staging(device, description.name, bytes.size(), BufferHome::upload);
+    std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
+    device.run_once([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, offset, bytes.size()};
+        full_barrier(commands);
+        vkCmdCopyBuffer(commands, source.handle(), buffer.handle(), 1, &region);
+        full_barrier(commands);
+    });
+}
+
 void download(const Device& device, const Image& image, std::span<std::byte> bytes) {
     require_transferable(image, bytes.size(), VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     const Buffer target = staging(device, image.description().name, bytes.size(), BufferHome::readback);

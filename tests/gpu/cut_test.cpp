@@ -1,0 +1,275 @@
+// Cutting on the device: findings and state equal the twin bit for bit, through a thousand cuts; pieces fall free;
+// an idle cutter costs and changes nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "device_run.h"
+#include "frame_loop.h"
+#include "gpu_test.h"
+#include "reference/cut_twin.h"
+#include "reference/twin.h"
+#include "support/cut_checks.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+Cutter blade(const Vec3& a, const Vec3& b, const Vec3& c, double begin, double end) {
+    Cutter cutter;
+    cutter.triangle = {a, b, c};
+    cutter.begin = begin;
+    cutter.end = end;
+    return cutter;
+}
+
+FrameLoopOptions positions_only() {
+    FrameLoopOptions options;
+    options.draw = false;
+    options.positions = true;
+    return options;
+}
+
+std::vector<glsl::vec4> texels(std::span<const float> xyzw) {
+    std::vector<glsl::vec4> list(xyzw.size() / 4);
+    std::memcpy(list.data(), xyzw.data(), xyzw.size_bytes());
+    return list;
+}
+
+/// The whole chain again on the CPU: simulate, search, cut.
+class TwinWithCuts {
+  public:
+    explicit TwinWithCuts(const SceneDescription& scene) : model_(scene), twin_(model_) {
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            topologies.emplace_back(scene.cloths[cloth], model_.cloths[cloth]);
+    }
+    CutCounts run_frame(std::uint32_t frame) {
+        if (frame > 0) twin_.run_frame(frame);
+        const double fps = model_.scene.time.fps, start = frame == 0 ? 0 : (frame - 1) / fps, end = frame / fps;
+        CutCounts sum;
+        if (!cutters_active(model_.scene.cutters, start, end)) return sum;
+        const std::vector<glsl::CutterTriangle> cutters = cutter_triangles(model_.scene.cutters, start, end);
+        for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) {
+            ClothModel& model = model_.cloths[cloth];
+            const CutFindings found = find_cuts(model, twin_.cloth(cloth).position, cutters);
+            const bool hit = std::ranges::any_of(found.fractions, [](const glsl::vec4& f) {
+                return f.x >= 0 || f.y >= 0 || f.z >= 0 || f.w >= 0;
+            });
+            if (!hit) continue;
+            const CutCounts counts = topologies[cloth].apply(model, found);
+            sum.springs += counts.springs;
+            sum.triangles += counts.triangles;
+        }
+        return sum;
+    }
+    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth).position; }
+    const ClothModel& cloth(std::size_t index) const { return model_.cloths[index]; }
+    std::vector<CutTopology> topologies;
+
+  private:
+    SimulationModel model_;
+    Twin twin_;
+};
+
+/// Random blades, one after the other, anywhere about the sheet.
+std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-0.3, 1.3), depth(-0.5, 0.5);
+    std::vector<Cutter> cutters;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double begin = (static_cast<double>(k) + 0.5) / fps;
+        const double x = unit(random), y = -unit(random), reach = 0.15 * size;
+        Cutter cutter = blade({size * x, size * y, -0.6}, {size * x + reach, size * y - reach * depth(random), 0.6},
+                              {size * x, size * y + reach, depth(random)}, begin, begin);
+        if (k % 3 == 0) {
+            cutter.end = begin + 0.4 / fps;
+            cutter.path.keys = {{begin, {0, 0, 0}, {}}, {cutter.end, {0.05, 0.02, 0.1}, {0, 0, 30}}};
+        }
+        cutters.push_back(cutter);
+    }
+    return cutters;
+}
+
+TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
+    constexpr std::uint32_t cut_count = 1000;
+    SceneDescription scene = test::sheet(24, 21, 0.9, 0.8, 2);
+    scene.time.frame_count = cut_count + 2;
+    scene.gravity = {0, -0.5, 0};
+    scene.cloths[0].damping = 3;
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.cloths[0].holes = {{{3, 3}, {6, 7}}};
+    PlaneCollider floor;  // pieces stay within the blades' reach
+    floor.offset = -1;
+    scene.colliders.planes.push_back(floor);
+    scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
+
+    TwinWithCuts twin(scene);
+    const double area = twin.topologies[0].drawn_rest_area(twin.cloth(0));
+    std::uint32_t device_cuts = 0, twin_cuts = 0;
+    std::uint64_t springs = 0;
+    FrameLoopOptions options = positions_only();
+    options.on_cut = [&](const CutEvent& event, const ClothModel& model, const CutTopology& topology) {
+        ++device_cuts;
+        springs += event.counts.springs;
+        test::expect_consistent(model, topology);
+        EXPECT_NEAR(topology.drawn_rest_area(model), area, 1e-6 * area);
+    };
+    FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
+    loop.run(
+        cut_count + 1, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            if (testing::Test::HasFailure()) return;
+            twin_cuts += twin.run_frame(frame.frame).any();
+            std::string where;
+            ASSERT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where))
+                << "frame " << frame.frame << ": " << where;
+        },
+        [] { return testing::Test::HasFailure(); });
+    EXPECT_EQ(device_cuts, twin_cuts);
+    EXPECT_GT(device_cuts, cut_count / 10);
+    const std::size_t pieces = test::piece_count(twin.cloth(0));
+    std::printf("[ measured ] %u of %u blades cut, %lu springs, %zu pieces\n", device_cuts, cut_count,
+                static_cast<unsigned long>(springs), pieces);
+    EXPECT_GT(pieces, 10u);
+}
+
+/// Mass-weighted centre of the particles below the cut.
+Vec3 centre_below(const SimulationModel& model, std::span<const float> xyzw, std::uint32_t first_row) {
+    Vec3 sum{};
+    double mass = 0;
+    const Grid& grid = model.cloths[0].grid;
+    for (std::size_t i = std::size_t{first_row} * grid.columns(); i < grid.particle_count(); ++i) {
+        const double m = 1 / double(xyzw[4 * i + 3]);
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += m * double(xyzw[4 * i + k]);
+        mass += m;
+    }
+    for (double& s : sum) s /= mass;
+    return sum;
+}
+
+TEST(CutTest, ThePieceCutFromAHangingSheetFallsFreeAndTheOtherHangsOn) {
+    SceneDescription scene = test::sheet(33, 33, 1, 1, 16);
+    scene.time.frame_count = 62;
+    scene.cloths[0].stiffness = {false, 4000, 400, 0};
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    const double y = -0.5 - 0.4 / 32;  // between rows 16 and 17 of the hanging sheet
+    scene.cutters = {blade({-5, y, -3}, {5, y, -3}, {0, y, 6}, 20.5 / 60, 20.5 / 60)};
+    const SimulationModel model(scene);
+    std::vector<Vec3> centre;
+    double lowest_above = 0;
+    std::uint32_t cut_frame = 0;
+    FrameLoopOptions options = positions_only();
+    options.on_cut = [&](const CutEvent& event, const ClothModel& cut, const CutTopology&) {
+        cut_frame = event.frame;
+        EXPECT_EQ(test::piece_count(cut), 2u);
+    };
+    FrameLoop loop(test::gpu().device, model, options);
+    loop.run(
+        61, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            centre.push_back(centre_below(model, frame.positions[0], 17));
+            for (std::size_t i = 0; i < 17 * 33; ++i)
+                lowest_above = std::min(lowest_above, double(frame.positions[0][4 * i + 1]));
+        });
+    EXPECT_EQ(cut_frame, 21u);
+    EXPECT_GT(lowest_above, -0.62) << "the upper part hangs on";
+    // From the frame of the cut on, nothing outside touches the piece. Its velocity: from the first step.
+    const double g = 9.81, dt = 1.0 / 60;
+    const double velocity = (centre[22][1] - centre[21][1]) / dt + g * dt / 2;
+    double worst = 0;
+    for (std::uint32_t frame = 26; frame <= 61; ++frame) {
+        const double t = (frame - 21) * dt;
+        const double fallen = velocity * t - g * t * t / 2;
+        worst = std::max(worst, std::abs(centre[frame][1] - centre[21][1] - fallen) / std::abs(g * t * t / 2));
+    }
+    std::printf("[ measured ] centre of mass of the piece: worst relative error %.2e over %.2f s\n", worst, 40 * dt);
+    EXPECT_LE(worst, 1e-4);
+}
+
+TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
+    SceneDescription scene = test::sheet(20, 20, 1, 1, 8);
+    scene.time.frame_count = 20;
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.wind.velocity = {0, 0, 3};
+    SceneDescription idle = scene;
+    idle.cutters = {blade({-5, -0.5, -3}, {5, -0.5, -3}, {0, -0.5, 6}, 90, 100)};
+    std::vector<std::vector<glsl::vec4>> without, with;
+    FrameLoop plain_loop(test::gpu().device, SimulationModel(scene), positions_only());
+    plain_loop.run(19, [](std::uint32_t) { return true; },
+                   [&](const FinishedFrame& frame) { without.push_back(texels(frame.positions[0])); });
+    FrameLoopOptions options = positions_only();
+    options.timestamps = graph::TimestampMode::passes;
+    std::vector<std::string> timed;
+    FrameLoop idle_loop(test::gpu().device, SimulationModel(idle), options);
+    idle_loop.run(19, [](std::uint32_t) { return true; },
+                  [&](const FinishedFrame& frame) {
+                      with.push_back(texels(frame.positions[0]));
+                      for (const graph::Timing& timing : frame.timings) timed.push_back(timing.name);
+                  });
+    ASSERT_EQ(with.size(), without.size());
+    std::string where;
+    for (std::size_t frame = 0; frame < with.size(); ++frame)
+        EXPECT_TRUE(test::same_bits(with[frame], without[frame], where)) << frame << ": " << where;
+    EXPECT_FALSE(timed.empty());
+    for (const std::string& name : timed) EXPECT_EQ(name.find("cut"), std::string::npos) << name;
+    for (const graph::PlannedPass& pass : idle_loop.plan(FrameKind::simulate_and_output).passes)
+        EXPECT_NE(idle_loop.graph(FrameKind::simulate_and_output).passes()[pass.pass].stage, "cut");
+    EXPECT_FALSE(idle_loop.pool().has("sheet/stiffness")) << "stiffness images come with the first cut";
+    EXPECT_FALSE(plain_loop.pool().has("cutters"));
+}
+
+TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
+    SceneDescription scene = test::sheet(9, 9, 0.8, 0.8, 4);
+    scene.time.frame_count = 4;
+    scene.cutters = {blade({0.33, 5, -5}, {0.33, -10, -5}, {0.33, -2, 10}, 0, 0)};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 8)};
+    TwinWithCuts twin(scene);
+    std::vector<std::uint32_t> cut_frames;
+    FrameLoopOptions options = positions_only();
+    options.on_cut = [&](const CutEvent& event, const ClothModel&, const CutTopology&) {
+        cut_frames.push_back(event.frame);
+    };
+    FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
+    loop.run(3, [](std::uint32_t) { return true; },
+             [&](const FinishedFrame& frame) {
+                 twin.run_frame(frame.frame);
+                 std::string where;
+                 EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
+             });
+    EXPECT_EQ(cut_frames, std::vector<std::uint32_t>{0});
+}
+
+TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
+    SceneDescription scene = test::sheet(17, 17, 1, 1, 4);
+    scene.time.frame_count = 8;
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].appearance.pattern = Pattern::plain;
+    scene.cutters = {blade({0.31, 5, -5}, {0.37, -10, -5}, {0.33, -2, 10}, 0.02, 0.02),
+                     blade({-5, -0.41, -3}, {5, -0.45, -3}, {0, -0.43, 6}, 0.05, 0.05)};
+    scene.camera = {{0.5, -0.5, -2}, {0.5, -0.5, 0}, 40};
+    FrameLoopOptions options;
+    options.width = options.height = 256;
+    options.samples = 1;
+    std::vector<std::vector<std::uint8_t>> pictures;
+    int cuts = 0;
+    options.on_cut = [&](const CutEvent&, const ClothModel&, const CutTopology&) { ++cuts; };
+    FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
+    loop.run(7, [](std::uint32_t) { return true; },
+             [&](const FinishedFrame& frame) { pictures.emplace_back(frame.rgba.begin(), frame.rgba.end()); });
+    EXPECT_EQ(cuts, 2);
+    // Nothing moves: the cut sheet, drawn in parts, covers the pixels that the whole one did.
+    std::size_t different = 0, covered = 0;
+    for (std::size_t pixel = 0; pixel < pictures[0].size(); pixel += 4) {
+        covered += std::memcmp(&pictures[0][pixel], &pictures[0][0], 3) != 0;
+        different += std::abs(int(pictures[0][pixel]) - int(pictures[7][pixel])) > 8;
+    }
+    EXPECT_GT(covered, 256u * 256u / 4);
+    std::printf("[ measured ] %zu of %zu covered pixels differ after two cuts at rest\n", different, covered);
+    EXPECT_LE(different, covered / 500);
+}
+
+}  // namespace
+}  // namespace drape
