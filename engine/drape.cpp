@@ -25,7 +25,10 @@ namespace {
 
 std::string failure_text(const SceneResult& result) {
     std::string text;
-    for (const SceneError& error : result.errors) text += (text.empty() ? "" : "\n") + error.text();
+    for (const SceneError& error : result.errors) {
+        if (!text.empty()) text += '\n';
+        text += error.text();
+    }
     return text;
 }
 

@@ -34,6 +34,7 @@ class Running {
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
 
+    pid_t id() const { return child_; }
     void send(int signal) const;
     /// Waits until the condition holds; false when the program ended before.
     bool wait_until(const std::function<bool()>& condition);

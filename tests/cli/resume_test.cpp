@@ -1,5 +1,6 @@
 // --resume: an unfinished run becomes, byte for byte, the run that was never disturbed; or nothing is
 // changed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -49,7 +50,7 @@ TEST_P(Resume, GivesTheBytesOfAnUndisturbedRun) {
         fs::create_hard_link(folder / "out" / frame_name(frame), folder / "links" / frame_name(frame));
     const Outcome resumed = drape({"render", folder.scene(), "-o", folder.out(), "-e", end, "--resume"});
     ASSERT_EQ(resumed.code, 0) << resumed.err;
-    EXPECT_THAT(resumed.err, HasSubstr("(" + std::to_string(kept.size()) + " of them kept)"));
+    EXPECT_THAT(resumed.err, HasSubstr(fmt::format("({} of them kept)", kept.size())));
     for (const auto& [frame, number] : kept)
         EXPECT_EQ(file_number(folder / "out" / frame_name(frame)), number) << frame;
 
