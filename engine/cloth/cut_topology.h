@@ -73,8 +73,8 @@ class CutTopology {
     std::unordered_map<std::uint64_t, std::uint32_t> edge_vertices_;  ///< (anchor, other) -> vertex
 };
 
-/// Cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), cutter_triangle_count
-/// per cutter; triangles that do not cut have a.w = 0. At frame 0 both times are 0.
+/// Cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), room for
+/// cutter_triangle_count per cutter, those that cut first; the others have a.w = 0. At frame 0 both times are 0.
 std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cutters, double frame_start,
                                                    double frame_end);
 /// Whether any cutter is active between the two times.

@@ -47,24 +47,20 @@ std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cu
                                                    double frame_end) {
     std::vector<glsl::CutterTriangle> all;
     for (const Cutter& cutter : cutters) {
-        std::vector<glsl::CutterTriangle> own;
-        if (overlaps(cutter, frame_start, frame_end)) {
-            // Only the time within the active interval counts.
-            const Corners from = corners_at(cutter, std::max(frame_start, cutter.begin));
-            const Corners to = corners_at(cutter, std::min(frame_end, cutter.end));
-            own.push_back(active(to[0], to[1], to[2]));
-            if (from != to) {
-                own.push_back(active(from[0], from[1], from[2]));
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::size_t next = (k + 1) % 3;
-                    own.push_back(active(from[k], from[next], to[next]));
-                    own.push_back(active(from[k], to[next], to[k]));
-                }
-            }
+        if (!overlaps(cutter, frame_start, frame_end)) continue;
+        // Only the time within the active interval counts.
+        const Corners from = corners_at(cutter, std::max(frame_start, cutter.begin));
+        const Corners to = corners_at(cutter, std::min(frame_end, cutter.end));
+        all.push_back(active(to[0], to[1], to[2]));
+        if (from == to) continue;
+        all.push_back(active(from[0], from[1], from[2]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            all.push_back(active(from[k], from[next], to[next]));
+            all.push_back(active(from[k], to[next], to[k]));
         }
-        own.resize(glsl::cutter_triangle_count);
-        all.insert(all.end(), own.begin(), own.end());
     }
+    all.resize(cutters.size() * glsl::cutter_triangle_count);
     return all;
 }
 

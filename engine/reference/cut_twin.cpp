@@ -34,7 +34,7 @@ CutFindings find_cuts(const ClothModel& model, const std::vector<vec4>& position
             vec4& fraction = found.fractions[particle];
             bool upper = false, lower = false;
             for (const CutterTriangle& cutter : cutters) {
-                if (cutter.a.w == 0.0f) continue;
+                if (cutter.a.w == 0.0f) break;
                 if (has_right) fraction.x = first_crossing(fraction.x, here, xyz(position[particle + 1]), cutter);
                 if (!has_below) continue;
                 const vec3 below = xyz(position[particle + columns]);

@@ -34,7 +34,7 @@ void main() {
     bool lower = false;
     for (int k = 0; k < push.triangle_count; ++k) {
         CutterTriangle cutter = cutters[k];
-        if (cutter.a.w == 0.0f) continue;
+        if (cutter.a.w == 0.0f) break;  // active ones come first
         if (has_right) found.x = first_crossing(found.x, here, right, cutter);
         if (has_below) found.y = first_crossing(found.y, here, below, cutter);
         if (has_right && has_below) found.z = first_crossing(found.z, here, across, cutter);

@@ -10,7 +10,7 @@ namespace drape::glsl {
 
 /// A triangle of the surface that a cutter sweeps in one frame.
 struct CutterTriangle {
-    vec4 a, b, c;  // xyz: corners, metres; a.w: 1 when it cuts in this frame, 0 when not
+    vec4 a, b, c;  // xyz: corners, metres; a.w: 1 when it cuts in this frame; the first with 0 ends the list
 };
 
 /// A cutter at rest is its triangle; a moving one is the surface of the prism it sweeps: both caps and two

@@ -77,7 +77,7 @@ class TwinWithCuts {
 /// Random blades, one after the other, anywhere about the sheet.
 std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> unit(-0.3, 1.3), depth(-0.5, 0.5);
+    std::uniform_real_distribution<double> unit(0, 0.9), depth(-0.5, 0.5);
     std::vector<Cutter> cutters;
     for (std::size_t k = 0; k < count; ++k) {
         const double begin = (static_cast<double>(k) + 0.5) / fps;
@@ -95,9 +95,9 @@ std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
 
 TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     constexpr std::uint32_t cut_count = 1000;
-    SceneDescription scene = test::sheet(24, 21, 0.9, 0.8, 2);
+    SceneDescription scene = test::sheet(48, 43, 0.9, 0.8, 2);
     scene.time.frame_count = cut_count + 2;
-    scene.gravity = {0, -0.5, 0};
+    scene.gravity = {0, -0.02, 0};  // pieces stay about
     scene.cloths[0].damping = 3;
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cloths[0].holes = {{{3, 3}, {6, 7}}};
@@ -129,7 +129,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
         },
         [] { return testing::Test::HasFailure(); });
     EXPECT_EQ(device_cuts, twin_cuts);
-    EXPECT_GT(device_cuts, cut_count / 10);
+    EXPECT_GT(device_cuts, cut_count * 9 / 10);
     const std::size_t pieces = test::piece_count(twin.cloth(0));
     std::printf("[ measured ] %u of %u blades cut, %lu springs, %zu pieces\n", device_cuts, cut_count,
                 static_cast<unsigned long>(springs), pieces);
