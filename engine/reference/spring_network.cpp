@@ -1,0 +1,257 @@
+#include "reference/spring_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "cloth/grid.h"
+#include "reference/stable_hash.h"
+#include "scene/motion.h"
+
+namespace drape {
+
+namespace {
+
+Vec3 transformed(const RigidTransform& motion, const Vec3& pivot, const Vec3& rest) {
+    Vec3 result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        result[k] = pivot[k] + motion.translation[k];
+        for (std::size_t c = 0; c < 3; ++c) result[k] += motion.rotation[3 * k + c] * (rest[c] - pivot[c]);
+    }
+    return result;
+}
+
+/// How many of the two sides of a line of particles are cloth, halved: `left` and `right` are the cells on either
+/// side of the middle particle on one side of the line; a hole on either ends the cloth there.
+double bending_share(bool left_above, bool right_above, bool left_below, bool right_below) {
+    return 0.5 * (left_above && right_above) + 0.5 * (left_below && right_below);
+}
+
+void check_supported(const SceneDescription& scene, const Cloth& cloth, const NetworkOptions& options) {
+    if (cloth.stiffness.rigid)
+        throw std::invalid_argument("cloth \"" + cloth.name + "\": rigid springs have no energy to refer to");
+    if (!scene.colliders.empty() && !options.ignore_colliders)
+        throw std::invalid_argument("scene \"" + scene.name + "\": the double-precision reference knows no colliders");
+}
+
+}  // namespace
+
+SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options)
+    : start_velocity(scene.cloths.at(cloth_index).velocity),
+      gravity(scene.gravity),
+      damping(scene.cloths[cloth_index].damping),
+      wind(scene.wind) {
+    const Cloth& cloth = scene.cloths[cloth_index];
+    check_supported(scene, cloth, options);
+    const Grid grid(cloth.grid[0], cloth.grid[1], cloth.holes);
+    place(cloth, grid);
+    hold_pins(cloth, grid);
+    add_springs(cloth, grid);
+    add_bending(cloth, grid, options.bend_twist);
+    const std::vector<std::uint32_t> corners = grid.triangle_indices();
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
+        triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
+}
+
+void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
+    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const int i = static_cast<int>(column), j = static_cast<int>(row);
+            const int cells = (grid.cell(i - 1, j - 1) != 0) + (grid.cell(i, j - 1) != 0) +
+                              (grid.cell(i - 1, j) != 0) + (grid.cell(i, j) != 0);
+            mass.push_back(0.25 * cells * cloth.areal_density * dx * dy);
+            Vec3 at = cloth.placement.origin;
+            for (std::size_t k = 0; k < 3; ++k)
+                at[k] += column * dx * cloth.placement.u[k] + row * dy * cloth.placement.v[k];
+            rest_position.push_back(at);
+        }
+    pin_of.assign(mass.size(), -1);
+}
+
+void SpringNetwork::hold_pins(const Cloth& cloth, const Grid& grid) {
+    for (std::size_t index = 0; index < cloth.pins.size(); ++index) {
+        const IndexBox& box = cloth.pins[index].particles;
+        for (std::uint32_t row = box.first[1]; row <= box.last[1]; ++row)
+            for (std::uint32_t column = box.first[0]; column <= box.last[0]; ++column)
+                pin_of[grid.particle(column, row)] = static_cast<std::int32_t>(index);  // a later pin overrides
+    }
+    for (std::size_t index = 0; index < cloth.pins.size(); ++index) {
+        Vec3 centroid{};
+        double count = 0;
+        for (std::size_t p = 0; p < pin_of.size(); ++p) {
+            if (pin_of[p] != static_cast<std::int32_t>(index)) continue;
+            for (std::size_t k = 0; k < 3; ++k) centroid[k] += rest_position[p][k];
+            ++count;
+        }
+        for (double& c : centroid) c /= std::max(count, 1.0);
+        const Pin& pin = cloth.pins[index];
+        pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release});
+    }
+}
+
+void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
+    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    const double stiffness[4] = {cloth.stiffness.stretch * dy / dx, cloth.stiffness.stretch * dx / dy,
+                                 cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy),
+                                 cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)};
+    const double rest[4] = {dx, dy, std::hypot(dx, dy), std::hypot(dx, dy)};
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
+        const SpringDirection& table = spring_directions[direction];
+        for (std::uint32_t row = 0; row < grid.rows(); ++row)
+            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+                const glsl::vec4 shares = grid.spring_shares(column, row);
+                const double share = double((&shares.x)[direction]);
+                if (share == 0 || stiffness[direction] == 0) continue;
+                const std::uint32_t first = grid.particle(column, row);
+                const auto step = table.offset.y * static_cast<int>(grid.columns()) + table.offset.x;
+                springs.push_back({first, static_cast<std::uint32_t>(static_cast<int>(first) + step),
+                                   share * stiffness[direction], rest[direction], table.family});
+            }
+    }
+}
+
+void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid, bool twist) {
+    const double rigidity = cloth.stiffness.bend;
+    if (rigidity == 0) return;
+    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    const auto present = [&grid](int i, int j) { return grid.cell(i, j) != 0; };
+    const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, double share, double h, double across) {
+        if (share > 0) bending.push_back({{p, q, r, q}, {1, -2, 1, 0}, share * rigidity * across / (h * h * h)});
+    };
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const int i = static_cast<int>(column), j = static_cast<int>(row);
+            const std::uint32_t p = grid.particle(column, row), down = grid.columns();
+            const bool cells[4] = {present(i - 1, j - 1), present(i, j - 1), present(i - 1, j), present(i, j)};
+            if (column > 0 && column + 1 < grid.columns())
+                add(p - 1, p, p + 1, bending_share(cells[0], cells[1], cells[2], cells[3]), dx, dy);
+            if (row > 0 && row + 1 < grid.rows())
+                add(p - down, p, p + down, bending_share(cells[0], cells[2], cells[1], cells[3]), dy, dx);
+            if (twist && cells[3])
+                bending.push_back({{p, p + 1, p + down, p + down + 1}, {1, -1, -1, 1}, 2 * rigidity / (dx * dy)});
+        }
+}
+
+bool SpringNetwork::held(std::uint32_t particle, double time) const {
+    if (mass[particle] == 0) return true;
+    const std::int32_t pin = pin_of[particle];
+    if (pin < 0) return false;
+    const std::optional<double>& release = pins[static_cast<std::size_t>(pin)].release;
+    return !release || *release > time;
+}
+
+bool SpringNetwork::has_moving_pins() const {
+    return std::any_of(pins.begin(), pins.end(), [](const NetworkPin& pin) { return !pin.path.keys.empty(); });
+}
+
+Vec3 SpringNetwork::pinned_position(std::uint32_t particle, double time) const {
+    if (pin_of[particle] < 0 || mass[particle] == 0) return rest_position[particle];
+    const NetworkPin& pin = pins[static_cast<std::size_t>(pin_of[particle])];
+    if (pin.path.keys.empty()) return rest_position[particle];
+    return transformed(motion_at(pin.path, time), pin.pivot, rest_position[particle]);
+}
+
+Vec3 SpringNetwork::pinned_velocity(std::uint32_t particle, double time) const {
+    // Backward difference, exact for the cubics that paths are made of: a particle released at a key leaves with the
+    // velocity it had before, and the curvature jumps there.
+    const double step = 1e-5, weight[4] = {11, -18, 9, -2};
+    Vec3 velocity{};
+    for (int n = 0; n < 4; ++n) {
+        const Vec3 at = pinned_position(particle, time - n * step);
+        for (std::size_t k = 0; k < 3; ++k) velocity[k] += weight[n] * at[k] / (6 * step);
+    }
+    return velocity;
+}
+
+std::vector<double> SpringNetwork::release_times() const {
+    std::vector<double> times;
+    for (const NetworkPin& pin : pins)
+        if (pin.release && *pin.release > 0) times.push_back(*pin.release);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+NetworkState SpringNetwork::start() const {
+    NetworkState state{rest_position, std::vector<Vec3>(particle_count(), start_velocity)};
+    for (std::uint32_t p = 0; p < particle_count(); ++p) {
+        if (!held(p, 0)) continue;
+        state.position[p] = pinned_position(p, 0);
+        state.velocity[p] = pinned_velocity(p, 0);
+    }
+    return state;
+}
+
+double SpringNetwork::highest_frequency_bound() const {
+    std::vector<double> row_sum(particle_count(), 0.0);
+    for (const NetworkSpring& spring : springs)
+        for (const std::uint32_t p : {spring.first, spring.second}) row_sum[p] += 2 * spring.stiffness;
+    for (const BendingElement& element : bending) {
+        double sum = 0;
+        for (const double c : element.coefficient) sum += std::abs(c);
+        for (std::size_t k = 0; k < 4; ++k)
+            row_sum[element.particle[k]] += element.stiffness * std::abs(element.coefficient[k]) * sum;
+    }
+    double highest = 0;
+    for (std::size_t p = 0; p < mass.size(); ++p)
+        if (mass[p] > 0) highest = std::max(highest, row_sum[p] / mass[p]);
+    return std::sqrt(highest);
+}
+
+namespace {
+
+void add(StableHash& hash, const Vec3& v) {
+    for (const double c : v) hash.add(c);
+}
+
+void add(StableHash& hash, const NetworkPin& pin) {
+    hash.add(std::uint64_t{pin.path.keys.size()});
+    for (const MotionKey& key : pin.path.keys) {
+        hash.add(key.time);
+        add(hash, key.translate);
+        add(hash, key.rotate);
+    }
+    add(hash, pin.pivot);
+    hash.add(std::uint64_t{pin.release.has_value()});
+    hash.add(pin.release.value_or(0.0));
+}
+
+void add(StableHash& hash, const Wind& wind) {
+    add(hash, wind.velocity);
+    for (const double value : {wind.gust.amplitude, wind.gust.period, wind.air_density, wind.drag, wind.lift})
+        hash.add(value);
+    hash.add(std::uint64_t{wind.gust.seed});
+}
+
+}  // namespace
+
+std::uint64_t SpringNetwork::fingerprint() const {
+    StableHash hash;
+    for (const std::size_t count : {mass.size(), pins.size(), springs.size(), bending.size(), triangles.size()})
+        hash.add(std::uint64_t{count});
+    for (const double m : mass) hash.add(m);
+    for (const Vec3& x : rest_position) add(hash, x);
+    for (const std::int32_t pin : pin_of) hash.add(static_cast<std::uint64_t>(pin));
+    for (const NetworkPin& pin : pins) add(hash, pin);
+    for (const NetworkSpring& spring : springs) {
+        hash.add(std::uint64_t{spring.first} << 32 | spring.second);
+        hash.add(spring.stiffness);
+        hash.add(spring.rest_length);
+        hash.add(static_cast<std::uint64_t>(spring.family));
+    }
+    for (const BendingElement& element : bending) {
+        for (const std::uint32_t p : element.particle) hash.add(std::uint64_t{p});
+        for (const double c : element.coefficient) hash.add(c);
+        hash.add(element.stiffness);
+    }
+    for (const auto& triangle : triangles)
+        for (const std::uint32_t p : triangle) hash.add(std::uint64_t{p});
+    add(hash, start_velocity);
+    add(hash, gravity);
+    hash.add(damping);
+    add(hash, wind);
+    return hash.value();
+}
+
+}  // namespace drape

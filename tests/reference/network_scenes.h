@@ -1,0 +1,62 @@
+// Networks that the tests of the double-precision reference share, and small linear algebra on positions.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "reference/spring_network.h"
+#include "support/sheets.h"
+
+namespace drape::test {
+
+/// A sheet pinned along its top row and turned by `degrees` about it, links x links over 1 m, of the given wave speed
+/// (m/s) and shear a tenth of stretch.
+inline SceneDescription swing(std::uint32_t links, double wave_speed, double degrees) {
+    SceneDescription scene = sheet(links + 1, links + 1, 1.0, 1.0, 1);
+    Cloth& cloth = scene.cloths[0];
+    const double angle = degrees * std::numbers::pi / 180;
+    cloth.placement.v = {0, -std::cos(angle), std::sin(angle)};
+    cloth.areal_density = 0.2;
+    cloth.stiffness.stretch = cloth.areal_density * wave_speed * wave_speed;
+    cloth.stiffness.shear = 0.1 * cloth.stiffness.stretch;
+    cloth.pins = {pin_top(cloth)};
+    return scene;
+}
+
+/// A chain of `links` equal springs in a line along `direction` (unit) from the origin, its first particle pinned,
+/// inner particles of mass density/links and end particles of half that, as at the border of a cloth.
+inline SpringNetwork chain(std::uint32_t links, double length, double density, double axial_stiffness,
+                           const Vec3& direction) {
+    SpringNetwork network;
+    network.pins.emplace_back();
+    for (std::uint32_t p = 0; p <= links; ++p) {
+        const double at = length * p / links;
+        network.rest_position.push_back({at * direction[0], at * direction[1], at * direction[2]});
+        network.mass.push_back(density * length / links * (p == 0 || p == links ? 0.5 : 1.0));
+        network.pin_of.push_back(p == 0 ? 0 : -1);
+        if (p > 0)
+            network.springs.push_back({p - 1, p, axial_stiffness * links / length, length / links,
+                                       SpringFamily::stretch});
+    }
+    return network;
+}
+
+/// Positions with every coordinate moved by at most `size`, from a seed.
+inline std::vector<Vec3> shaken(std::vector<Vec3> positions, double size, unsigned seed) {
+    std::mt19937 random(seed);
+    for (Vec3& x : positions)
+        for (double& c : x) c += size * (2 * (static_cast<double>(random()) / 4294967295.0) - 1);
+    return positions;
+}
+
+/// Slope of log(error) over log(size) between neighbours; the least of them.
+inline double least_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
+    double least = INFINITY;
+    for (std::size_t k = 1; k < sizes.size(); ++k)
+        least = std::min(least, std::log(errors[k] / errors[k - 1]) / std::log(sizes[k] / sizes[k - 1]));
+    return least;
+}
+
+}  // namespace drape::test
