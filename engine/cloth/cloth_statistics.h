@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cloth/schedule.h"
+#include "shared/statistics_types.h"
 
 namespace drape {
 

@@ -49,9 +49,10 @@ Progress::Progress(std::uint64_t frame_count, Options options)
 
 Progress::~Progress() { finish(); }
 
-void Progress::frame_done(std::int64_t frame) {
+void Progress::frame_done(std::int64_t frame, std::string note) {
     ++done_count_;
     frame_ = frame;
+    note_ = std::move(note);
     const double now = options_.seconds();
     recent_.push_back(now);
     if (recent_.size() > recent_limit) recent_.pop_front();
@@ -80,8 +81,9 @@ std::string Progress::line(double now) const {
     const double rate = milliseconds_per_frame(now);
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
-    return fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}", frame_, done_count_, frame_count_,
-                       percent, rate, duration_text(static_cast<double>(left) * rate / 1000));
+    return fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_,
+                       percent, rate, duration_text(static_cast<double>(left) * rate / 1000),
+                       note_.empty() ? "" : "  ", note_);
 }
 
 void Progress::message(std::string_view text) {

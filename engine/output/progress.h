@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <string>
+#include <string>
 #include <string_view>
 
 namespace drape {
@@ -29,8 +30,8 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // One more frame is done; its number is what the line shows.
-    void frame_done(std::int64_t frame);
+    // One more frame is done; its number is what the line shows, and after the times a note on it, if any.
+    void frame_done(std::int64_t frame, std::string note = {});
 
     // Writes a line of text, also when quiet, without tearing the progress line.
     void message(std::string_view text);
@@ -47,6 +48,7 @@ class Progress {
     Options options_;
     std::uint64_t done_count_ = 0;
     std::int64_t frame_ = 0;
+    std::string note_;
     std::deque<double> recent_;  // when the latest frames were done, oldest first
     double last_report_;
     std::uint64_t last_tenth_ = 0;

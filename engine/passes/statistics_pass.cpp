@@ -42,10 +42,16 @@ constexpr vulkan::DescriptorDeclaration sum_descriptors[] = {
     struct_buffer_read(0, "Partials", &layouts::statistics_record), record_buffer_write(1, "Result")};
 const vulkan::ShaderInterface sum_interface{"statistics_sum.comp", sum_descriptors, &layouts::statistics_sum_push};
 
+/// Rows of invocations.
+std::uint32_t strip_count(const Grid& grid) {
+    constexpr auto rows = static_cast<std::uint32_t>(glsl::statistics_rows);
+    return (grid.rows() + rows - 1) / rows;
+}
+
 /// One record per workgroup.
 std::uint32_t partial_count(const Grid& grid) {
     constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
-    return (grid.columns() + width - 1) / width * grid.rows();
+    return (grid.columns() + width - 1) / width * strip_count(grid);
 }
 
 graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
@@ -78,9 +84,9 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
                 setup.read(buffer.valid() ? buffer : any, graph::Access::compute_read, 5 + kind);
             }
         },
-        [&pipeline, push = statistics_push(model, *state.model)](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+        [&pipeline, push = statistics_push(model, *state.model), height = strip_count(state.model->grid)](
+            graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height);
         });
     return records;
 }

@@ -4,6 +4,7 @@
 
 #include "shared/cut_types.h"
 #include "shared/simulation_types.h"
+#include "shared/statistics_types.h"
 
 namespace drape::layouts {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/simulation_types.h"
+#include "shared/statistics_types.h"
 
 namespace drape::glsl {
 

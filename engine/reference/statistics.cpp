@@ -30,16 +30,9 @@ class Reduction {
 
     StatisticsRecord run() const {
         std::vector<StatisticsRecord> partials;
-        for (int row = 0; row < push_.grid.y; ++row)
-            for (int first = 0; first < push_.grid.x; first += workgroup_width) {
-                Workgroup lanes;
-                for (int lane = 0; lane < workgroup_width; ++lane) {
-                    const ivec2 particle{first + lane, row};
-                    lanes[static_cast<std::size_t>(lane)] =
-                        inside(particle) ? statistics_of(particle) : empty_statistics();
-                }
-                partials.push_back(joined_over_workgroup(lanes));
-            }
+        for (int row = 0; row < push_.grid.y; row += statistics_rows)
+            for (int column = 0; column < push_.grid.x; column += workgroup_width)
+                partials.push_back(workgroup({column, row}));
         Workgroup lanes;
         lanes.fill(empty_statistics());
         for (std::size_t i = 0; i < partials.size(); ++i)
@@ -48,6 +41,18 @@ class Reduction {
     }
 
   private:
+    StatisticsRecord workgroup(ivec2 first) const {
+        Workgroup lanes;
+        lanes.fill(empty_statistics());
+        for (int lane = 0; lane < workgroup_width; ++lane)
+            for (int row = 0; row < statistics_rows; ++row) {
+                const ivec2 particle{first.x + lane, first.y + row};
+                StatisticsRecord& record = lanes[static_cast<std::size_t>(lane)];
+                if (inside(particle)) record = joined(record, statistics_of(particle));
+            }
+        return joined_over_workgroup(lanes);
+    }
+
     bool inside(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < push_.grid.x && p.y < push_.grid.y; }
     std::size_t at(ivec2 p) const { return static_cast<std::size_t>(p.y * push_.grid.x + p.x); }
     static vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }

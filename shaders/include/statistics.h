@@ -7,6 +7,7 @@
 #define DRAPE_STATISTICS_H
 
 #include "include/vector.h"
+#include "shared/statistics_types.h"
 
 const float lowest_float = -3.402823466e38f;
 const uint no_particle = 0xffffffffu;

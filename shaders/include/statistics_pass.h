@@ -1,4 +1,4 @@
-// Body of the statistics passes: one invocation per particle, one record per workgroup. A particle answers for
+// Body of the statistics passes: an invocation per statistics_rows particles of a column, a record per workgroup. A particle answers for
 // the springs whose first particle it is. MASKED: stiffness and masses come from images (holes, cuts).
 // COLLIDING: the scene has colliders.
 layout(local_size_x = workgroup_width) in;
@@ -97,9 +97,10 @@ StatisticsRecord statistics_of(ivec2 texel) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(statistics_rows));
     StatisticsRecord record = empty_statistics();
-    if (inside(texel)) record = statistics_of(texel);
+    for (int row = 0; row < statistics_rows; ++row, ++texel.y)
+        if (inside(texel)) record = joined(record, statistics_of(texel));
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u)
         partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;

@@ -57,30 +57,6 @@ struct GridPush {
     ivec2 grid;
 };
 
-/// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
-/// down-right, shear down-left.
-struct StatisticsPush {
-    vec4 rest_length;      // m; 0: the cloth has no springs of this direction
-    vec4 half_stiffness;   // N/m, k/2; 0: rigid, stores no energy
-    vec4 reference;        // xyz: positions are summed relative to this point, m; w: thickness, m
-    ivec4 collider_first;  // first collider at the frame's end: planes, spheres, boxes, ellipsoids
-    ivec4 collider_count;
-    ivec2 grid;            // columns, rows
-};
-
-struct StatisticsSumPush {
-    int partial_count;
-};
-
-/// Statistics of a particle and its springs, of a workgroup, of a cloth: joined by include/statistics.h.
-struct StatisticsRecord {
-    vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |displacement|^2, m^2
-    vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
-    vec4 strains;  // largest: strain of stretch, of shear; minus strain of stretch, of shear
-    vec4 extents;  // largest: |position|^2, m^2; |displacement|^2, m^2; penetration, m; w unused
-    uvec4 counts;  // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
-};
-
 /// A collider at the end of one substep, of any kind. The rotation's rows are world from local, their w is the
 /// centre; `change` is this pose minus the pose one substep earlier (computed in double on the host, so a
 /// collider at rest has exact zeros there and friction against it cannot creep).

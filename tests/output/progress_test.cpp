@@ -90,6 +90,18 @@ TEST(Progress, RateFollowsTheLatestFrames) {
         << screen.text;
 }
 
+TEST(Progress, ANoteOnTheFrameEndsTheLine) {
+    Screen screen;
+    Progress progress(2, screen.options(false));
+    screen.now += 1;
+    progress.frame_done(0, "stretch 0.52 % RMS, 3.1 % max");
+    screen.now += 1;
+    progress.frame_done(1);
+    EXPECT_EQ(screen.text,
+              "frame 0 (1/2, 50 %)  1000.0 ms/frame  ETA 0:01  stretch 0.52 % RMS, 3.1 % max\n"
+              "frame 1 (2/2, 100 %)  1000.0 ms/frame  ETA 0:00\n");
+}
+
 TEST(Progress, MessagesDoNotTearTheLine) {
     Screen screen;
     Progress progress(2, screen.options(true));

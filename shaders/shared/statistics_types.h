@@ -1,0 +1,43 @@
+// Structs of the statistics passes, shared by GLSL and C++. std430.
+#ifndef DRAPE_STATISTICS_TYPES_H
+#define DRAPE_STATISTICS_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// Rows of particles that one invocation of the statistics joins before its workgroup does: the tree costs more
+/// than the particles do (measured: 8 rows take a fifth of the time of 1).
+const int statistics_rows = 8;
+
+/// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
+/// down-right, shear down-left.
+struct StatisticsPush {
+    vec4 rest_length;      // m; 0: the cloth has no springs of this direction
+    vec4 half_stiffness;   // N/m, k/2; 0: rigid, stores no energy
+    vec4 reference;        // xyz: positions are summed relative to this point, m; w: thickness, m
+    ivec4 collider_first;  // first collider at the frame's end: planes, spheres, boxes, ellipsoids
+    ivec4 collider_count;
+    ivec2 grid;            // columns, rows
+};
+
+struct StatisticsSumPush {
+    int partial_count;
+};
+
+/// Statistics of a particle and its springs, of a workgroup, of a cloth: joined by include/statistics.h.
+struct StatisticsRecord {
+    vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |displacement|^2, m^2
+    vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
+    vec4 strains;  // largest: strain of stretch, of shear; minus strain of stretch, of shear
+    vec4 extents;  // largest: |position|^2, m^2; |displacement|^2, m^2; penetration, m; w unused
+    uvec4 counts;  // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif
