@@ -102,12 +102,14 @@ class Sink {
   public:
     Sink(OutputFolder& folder, const SimulationModel& model, const RunRequest& request, const FrameRange& range,
          const std::string& key)
-        : model_(model), scene_(model.scene) {
+        : folder_(folder), export_faces_(request.export_npy), model_(model), scene_(model.scene) {
         if (request.draw) {
             const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
             pictures_ = std::make_unique<PngSequence>(folder, frame_digits(range.end), std::min(cores, 4u), key);
         }
         if (!request.export_npy) return;
+        for (std::size_t cloth = 0; !model.scene.cutters.empty() && cloth < model.cloths.size(); ++cloth)
+            write_face_list(0, cloth, model.cloths[cloth].grid.triangle_indices());
         for (const ClothModel& cloth : model.cloths) {
             const std::string name =
                 model.cloths.size() == 1 ? "positions.npy" : fmt::format("positions_{}.npy", cloth.name);
@@ -132,9 +134,20 @@ class Sink {
         last_ = now;
     }
 
+    /// The face list after a cut is named for the first frame that it holds for.
+    void add_cut(const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
+        cuts_.push_back({event.frame, cloth.name, event.counts.springs, event.counts.triangles});
+        if (export_faces_) write_face_list(event.frame + 1, event.cloth, topology.whole_triangles(cloth));
+    }
+
+    const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
+
     std::vector<FileRecord> finish() {
-        std::vector<FileRecord> files;
-        if (pictures_) files = pictures_->finish();
+        std::vector<FileRecord> files = std::move(face_files_);
+        if (pictures_) {
+            const std::vector<FileRecord> pictures = pictures_->finish();
+            files.insert(files.end(), pictures.begin(), pictures.end());
+        }
         for (const auto& array : arrays_) files.push_back(array->finish());
         return files;
     }
@@ -163,6 +176,15 @@ class Sink {
         }
     }
 
+    void write_face_list(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
+        const std::string own = model_.cloths.size() == 1 ? "" : model_.cloths[cloth].name + "_";
+        face_files_.push_back(write_faces(folder_, fmt::format("faces_{}{:04}.npy", own, frame), faces));
+    }
+
+    OutputFolder& folder_;
+    bool export_faces_;
+    std::vector<FileRecord> face_files_;
+    std::vector<Manifest::Cut> cuts_;
     const SimulationModel& model_;
     const SceneDescription& scene_;
     std::unique_ptr<PngSequence> pictures_;
@@ -244,13 +266,12 @@ MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& reque
 }
 
 /// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
-bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, const RunRequest& request,
-                  RunSummary& summary) {
-    if (missing.frames.empty()) return true;
+bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std::uint32_t last,
+                  const RunRequest& request, RunSummary& summary) {
     Progress progress(missing.frames.size(), Progress::standard_options(request.quiet));
     try {
         return loop.run(
-            *missing.frames.rbegin(), [&](std::uint32_t frame) { return missing.frames.contains(frame); },
+            last, [&](std::uint32_t frame) { return missing.frames.contains(frame); },
             [&](const FinishedFrame& frame) {
                 sink.add(frame);
                 progress.frame_done(frame.frame);
@@ -296,12 +317,24 @@ RunSummary run_scene(const RunRequest& request) {
     const SimulationModel model(scene.description, {.skip = request.scene.skip});
     Manifest manifest;
     {
-        FrameLoop loop(device, model, loop_options(scene.description, request.draw, request.export_npy));
+        Sink* cut_sink = nullptr;
+        FrameLoopOptions options = loop_options(scene.description, request.draw, request.export_npy);
+        options.on_cut = [&](const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
+            if (cut_sink) cut_sink->add_cut(event, cloth, topology);
+        };
+        FrameLoop loop(device, model, options);
         if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);
         manifest = describe_run(request, scene, device, loop, range);
         manifest.run_key = key;
         Sink sink(folder, model, request, range, key);
-        summary.complete = write_frames(loop, sink, missing, request, summary);
+        cut_sink = &sink;
+        // Frames that a resumed run keeps still cut: the manifest lists every cut.
+        const bool to_the_end = !scene.description.cutters.empty();
+        const std::uint32_t last =
+            to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
+        summary.complete = (missing.frames.empty() && !to_the_end) ||
+                           write_frames(loop, sink, missing, last, request, summary);
+        manifest.cuts = sink.cuts();
         // Arrays of a stopped run would look complete; its pictures each are.
         if (summary.complete || request.draw) manifest.files = sink.finish();
         manifest.files.insert(manifest.files.end(), missing.kept.begin(), missing.kept.end());

@@ -80,6 +80,19 @@ Json::Value statistics_json(const std::vector<Manifest::FrameStatistics>& statis
     return array;
 }
 
+Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
+    Json::Value json(Json::arrayValue);
+    for (const Manifest::Cut& cut : cuts) {
+        Json::Value row(Json::objectValue);
+        row["frame"] = Json::Int64{cut.frame};
+        row["cloth"] = cut.cloth;
+        row["springs"] = cut.spring_count;
+        row["triangles"] = cut.triangle_count;
+        json.append(row);
+    }
+    return json;
+}
+
 Json::Value skipped_json(const std::vector<Manifest::Skipped>& skipped) {
     Json::Value array(Json::arrayValue);
     for (const auto& [what, reason] : skipped) {
@@ -141,6 +154,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["solver"]["iterations"] = manifest.solver.iterations;
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
+    if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["files"] = files_json(manifest.files);
     json["statistics"] = statistics_json(manifest.statistics);

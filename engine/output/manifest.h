@@ -56,6 +56,12 @@ struct Manifest {
         std::string what;  // a pass, a pipeline, an image, ...
         std::string reason;
     };
+    struct Cut {  // found at the end of the frame, acts from the next one on
+        std::int64_t frame = 0;
+        std::string cloth;
+        std::uint32_t spring_count = 0;    // cut
+        std::uint32_t triangle_count = 0;  // split
+    };
     struct FrameTime {  // wall-clock milliseconds per frame
         double median = 0;
         double minimum = 0;
@@ -76,6 +82,7 @@ struct Manifest {
     Solver solver;
     Validation validation;
     std::vector<Skipped> skipped;
+    std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     std::vector<FrameStatistics> statistics;
 

@@ -28,6 +28,17 @@ std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, s
     return row_count;
 }
 
+std::string npy_header(const char* type, const std::string& shape) {
+    std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
+    constexpr size_t preamble_bytes = 10;  // magic, version, length of the rest
+    dictionary.resize(header_bytes - preamble_bytes - 1, ' ');
+    dictionary += '\n';
+    std::string text("\x93NUMPY\x01\x00", 8);
+    text += static_cast<char>(dictionary.size() & 0xff);
+    text += static_cast<char>(dictionary.size() >> 8);
+    return text + dictionary;
+}
+
 }  // namespace
 
 NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count,
@@ -40,16 +51,16 @@ NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_
 }
 
 std::string NpyWriter::header(std::uint64_t frame_count) const {
-    std::string dictionary =
-        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}, 3), }}", frame_count,
-                    row_count_, column_count_);
-    constexpr size_t preamble_bytes = 10;  // magic, version, length of the rest
-    dictionary.resize(header_bytes - preamble_bytes - 1, ' ');
-    dictionary += '\n';
-    std::string text("\x93NUMPY\x01\x00", 8);
-    text += static_cast<char>(dictionary.size() & 0xff);
-    text += static_cast<char>(dictionary.size() >> 8);
-    return text + dictionary;
+    return npy_header("<f4", fmt::format("{}, {}, {}, 3", frame_count, row_count_, column_count_));
+}
+
+FileRecord write_faces(OutputFolder& folder, const std::string& name, std::span<const std::uint32_t> indices) {
+    const std::string header = npy_header("<i4", fmt::format("{}, 3", indices.size() / 3));
+    const std::span<const std::byte> body = std::as_bytes(indices);
+    std::vector<std::byte> file(header.size() + body.size());
+    std::memcpy(file.data(), header.data(), header.size());
+    if (!body.empty()) std::memcpy(file.data() + header.size(), body.data(), body.size());
+    return write_file(folder, name, file);
 }
 
 void NpyWriter::append_frame(std::span<const float> xyz) {

@@ -9,6 +9,9 @@
 
 namespace drape {
 
+// Writes a face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
+FileRecord write_faces(OutputFolder& folder, const std::string& name, std::span<const std::uint32_t> indices);
+
 // Streams positions into a NumPy file: little-endian float32, C order, shape [frame, row, column, 3].
 // Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html (version 1.0). The file
 // appears at finish(); a writer that ends without it leaves nothing.

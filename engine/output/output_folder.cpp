@@ -29,13 +29,15 @@ bool all_digits(std::string_view text) {
 }
 
 bool is_finished_file_name(std::string_view name) {
-    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy";
+    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy",
+                               faces = "faces_";
     if (name == manifest_file_name) return true;
     if (name.starts_with(frame) && name.ends_with(png)) {
         name.remove_prefix(frame.size());
         name.remove_suffix(std::min(png.size(), name.size()));
         return name.size() >= 4 && all_digits(name);
     }
+    if (name.starts_with(faces) && name.ends_with(npy)) return true;
     return name == "positions.npy" ||
            (name.starts_with(positions) && name.ends_with(npy) && name[positions.size()] == '_');
 }
