@@ -194,8 +194,8 @@ class Sink {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const vulkan::Device& device,
-                      const FrameLoop& loop, const FrameRange& range) {
+Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const SimulationModel& model,
+                      const vulkan::Device& device, const FrameLoop& loop, const FrameRange& range) {
     const SceneDescription& scene = loaded.description;
     const vulkan::DeviceInfo& info = device.info();
     Manifest manifest;
@@ -205,7 +205,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
     if (request.draw)
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
-    manifest.solver = {"relax", scene.solver.substeps, scene.solver.iterations};
+    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
     manifest.created = utc_timestamp();
@@ -324,7 +324,7 @@ RunSummary run_scene(const RunRequest& request) {
         };
         FrameLoop loop(device, model, options);
         if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);
-        manifest = describe_run(request, scene, device, loop, range);
+        manifest = describe_run(request, scene, model, device, loop, range);
         manifest.run_key = key;
         Sink sink(folder, model, request, range, key);
         cut_sink = &sink;

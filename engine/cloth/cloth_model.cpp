@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fmt/format.h"
 
@@ -28,13 +29,8 @@ double start_displacement(double velocity, double acceleration, double damping, 
 
 double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
 
-/// Spring constant (N/m) and rest length (m) of a direction on cells dx x dy (design.md 5).
-std::pair<double, double> spring_constants(const SpringDirection& direction, const Stiffness& stiffness, double dx,
-                                           double dy) {
-    if (direction.family == SpringFamily::shear)
-        return {stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy), std::hypot(dx, dy)};
-    return direction.offset.y == 0 ? std::pair{stiffness.stretch * dy / dx, dx}
-                                   : std::pair{stiffness.stretch * dx / dy, dy};
+glsl::vec4 texel(const std::array<double, 4>& v) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
 }
 
 }  // namespace
@@ -50,8 +46,13 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     masked = !grid.whole() || !options.skip;
     place(cloth, scene.gravity);
     hold_pins(cloth);
-    add_springs(cloth, scene.solver.iterations, options);
+    stiffness_constant = stiffness_constants(cloth.stiffness, spacing);
+    used_stiffness = stiffness_constant.spring;
+    if (cloth.stiffness.rigid) used_stiffness.fill(std::numeric_limits<double>::infinity());
+    const bool gathers = scene.solver.method == SolverMethod::explicit_steps;
+    if (!gathers) add_springs(cloth, scene.solver.iterations, options);
     set_constants(scene, cloth);
+    if (gathers) set_explicit(scene, cloth);
 }
 
 void ClothModel::place(const Cloth& cloth, const Vec3& gravity) {
@@ -125,9 +126,10 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
     const double h2 = substep_length * substep_length;
     for (const SpringPass& pass : spring_passes(grid.size())) {
         const SpringDirection& direction = spring_directions[static_cast<std::size_t>(pass.direction)];
-        const auto [stiffness_constant, rest] = spring_constants(direction, cloth.stiffness, spacing[0], spacing[1]);
+        const auto index = static_cast<std::size_t>(pass.direction);
+        const double constant = stiffness_constant.spring[index], rest = stiffness_constant.rest_length[index];
         const std::string what = fmt::format("{}/spring {} {}", name, direction.name, pass.parity == 0 ? "even" : "odd");
-        if (!cloth.stiffness.rigid && stiffness_constant == 0) {
+        if (constant == 0) {
             skipped.push_back({what, "zero stiffness"});
             continue;
         }
@@ -137,13 +139,37 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
         }
         const bool compliant = !cloth.stiffness.rigid;
         multiplied[pass.direction] = compliant && (iterations > 1 || !options.skip);
-        const float compliance = compliant ? static_cast<float>(inner_mass / (stiffness_constant * h2)) : 0.0f;
+        const float compliance = compliant ? static_cast<float>(inner_mass / (constant * h2)) : 0.0f;
         springs.push_back({pass, {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
                                   static_cast<float>(rest), compliance, pass.direction, 1}});
     }
     if (!multiplied[0] && !multiplied[1] && !multiplied[2] && !multiplied[3])
         skipped.push_back({name + "/multipliers", cloth.stiffness.rigid ? "rigid springs need none"
                                                                         : "one iteration per substep needs none"});
+}
+
+void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth) {
+    explicit_stiffness = drape::explicit_stiffness(stiffness_constant, spacing, inner_mass, substep_length,
+                                                   scene.solver.strain_damping);
+    const ExplicitStiffness& used = explicit_stiffness;
+    used_stiffness = {used.columns_share * stiffness_constant.spring[0], used.rows_share * stiffness_constant.spring[1],
+                      used.shear_share * stiffness_constant.spring[2], used.shear_share * stiffness_constant.spring[3]};
+    std::array<double, 4> scaled = used.spring;
+    for (double& value : scaled) value *= damping_mean(cloth.damping, substep_length);
+    explicit_step = {grid.size(), force.damping_loss, force.force_step, force.gravity_step,
+                     texel(stiffness_constant.rest_length), texel(scaled),
+                     static_cast<float>(scene.solver.strain_damping)};
+    if (stiffness_constant.spring[2] == 0) skipped.push_back({name + "/shear springs", "zero stiffness"});
+    if (!used.softened()) return;
+    const std::uint32_t substeps = scene.solver.substeps;
+    const std::string remedy =
+        cloth.stiffness.rigid
+            ? std::string("rigid springs are as stiff as the substeps allow")
+            : fmt::format("{:.0f} substeps would follow all of it", std::ceil(used.full_substeps_factor * substeps));
+    skipped.push_back({name + "/full stiffness",
+                       fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on "
+                                   "diagonals at {} substeps; {}",
+                                   used_stiffness[0], used_stiffness[1], used_stiffness[2], substeps, remedy)});
 }
 
 void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth) {

@@ -2,12 +2,14 @@
 // twin start from exactly these floats. Pure.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cloth/directions.h"
 #include "cloth/grid.h"
+#include "cloth/stiffness_constants.h"
 #include "scene/scene_description.h"
 #include "shared/simulation_types.h"
 
@@ -48,6 +50,9 @@ struct ClothModel {
     double spacing[2];      ///< m along columns, rows
     double inner_mass;      ///< kg of a particle with four cells
     double substep_length;  ///< s
+    StiffnessConstants stiffness_constant;  ///< what the scene asks for
+    std::array<double, 4> used_stiffness;   ///< N/m that the solver applies per direction, away from borders; relax: infinite
+                                          ///< when rigid
 
     // Initial images, one texel per particle, row by row.
     std::vector<glsl::vec4> position;      ///< xyz m; w: relative inverse mass, 0 = pinned or without a cell
@@ -58,12 +63,14 @@ struct ClothModel {
     std::vector<glsl::vec4> stiffness;  ///< when masked: share per direction, by first particle
     bool multiplied[4] = {}; ///< direction needs a multiplier image: compliant and iterated
 
-    std::vector<SpringWork> springs;  ///< in order of relaxation, needless ones left out
+    std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
 
-    glsl::ForcePush force;
+    glsl::ForcePush force;              ///< relax
+    glsl::ExplicitPush explicit_step{};   ///< explicit
+    ExplicitStiffness explicit_stiffness{};  ///< explicit: what the step uses of the stiffness
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
     std::vector<SkippedWork> skipped;
@@ -72,6 +79,7 @@ struct ClothModel {
     void place(const Cloth& cloth, const Vec3& gravity);
     void hold_pins(const Cloth& cloth);
     void add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options);
+    void set_explicit(const SceneDescription& scene, const Cloth& cloth);
     void set_constants(const SceneDescription& scene, const Cloth& cloth);
 };
 

@@ -30,13 +30,12 @@ bool ClothStatistics::is_finite() const {
 
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth) {
     glsl::StatisticsPush push{};
-    const double h2 = cloth.substep_length * cloth.substep_length;
-    for (const SpringWork& work : cloth.springs) {
-        const auto direction = static_cast<std::size_t>(work.pass.direction);
-        component(push.rest_length, direction) = work.push.rest_length;
-        const double compliance = static_cast<double>(work.push.compliance);
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
+        const double stiffness = cloth.used_stiffness[direction];
+        if (stiffness == 0) continue;
+        component(push.rest_length, direction) = static_cast<float>(cloth.stiffness_constant.rest_length[direction]);
         component(push.half_stiffness, direction) =
-            compliance > 0 ? static_cast<float>(0.5 * cloth.inner_mass / (compliance * h2)) : 0.0f;
+            std::isfinite(stiffness) ? static_cast<float>(0.5 * stiffness) : 0.0f;
     }
     // Sums relative to the cloth's middle keep their digits far from the origin.
     const glsl::vec4 first = cloth.position.front(), last = cloth.position.back();

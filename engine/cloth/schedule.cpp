@@ -9,22 +9,44 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
     collider_count = static_cast<int>(c.planes.size() + c.spheres.size() + c.boxes.size() + c.ellipsoids.size());
 }
 
+std::string SimulationModel::method_name() const {
+    return scene.solver.method == SolverMethod::explicit_steps ? "explicit" : "relax";
+}
+
+void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
+    const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
+    const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t spring = 0) {
+        steps.push_back({kind, substep, iteration, spring});
+    };
+    if (cloth.has_release) add(StepKind::release);
+    if (windy) add(StepKind::wind);
+    add(StepKind::force);
+    if (cloth.has_motion) add(StepKind::pin);
+    for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
+        for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
+            add(StepKind::spring, iteration, spring);
+        const bool last = iteration + 1 == scene.solver.iterations;
+        if (collider_count > 0 && (per_iteration || last)) add(StepKind::collide, iteration);
+    }
+}
+
+void SimulationModel::add_explicit_steps(const ClothModel& cloth, std::uint32_t substep,
+                                         std::vector<Step>& steps) const {
+    const auto add = [&](StepKind kind) { steps.push_back({kind, substep, 0, 0}); };
+    if (cloth.has_release) add(StepKind::release);
+    if (windy) add(StepKind::wind);
+    add(StepKind::explicit_step);
+    if (cloth.has_motion) add(StepKind::pin);
+    if (collider_count > 0) add(StepKind::collide);
+}
+
 std::vector<Step> SimulationModel::frame_steps(const ClothModel& cloth) const {
     std::vector<Step> steps;
-    const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
-        const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t spring = 0) {
-            steps.push_back({kind, substep, iteration, spring});
-        };
-        if (cloth.has_release) add(StepKind::release);
-        if (windy) add(StepKind::wind);
-        add(StepKind::force);
-        if (cloth.has_motion) add(StepKind::pin);
-        for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
-            for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
-                add(StepKind::spring, iteration, spring);
-            const bool last = iteration + 1 == scene.solver.iterations;
-            if (collider_count > 0 && (per_iteration || last)) add(StepKind::collide, iteration);
+        if (scene.solver.method == SolverMethod::explicit_steps) {
+            add_explicit_steps(cloth, substep, steps);
+        } else {
+            add_relax_steps(cloth, substep, steps);
         }
     }
     steps.push_back({StepKind::advance, scene.solver.substeps, 0, 0});

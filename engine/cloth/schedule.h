@@ -1,4 +1,5 @@
-// Which passes make a frame, in which order: the method `relax` (the slides' algorithm outline) as a plain list.
+// Which passes make a frame, in which order: each method (`relax`, the slides' algorithm outline; `explicit`) as a
+// plain list.
 // The device's solver adds one graph pass per step, the C++ twin runs one function per step. Pure.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 namespace drape {
 
-enum class StepKind { release, wind, force, pin, spring, collide, advance };
+enum class StepKind { release, wind, force, explicit_step, pin, spring, collide, advance };
 
 struct Step {
     StepKind kind;
@@ -30,11 +31,19 @@ struct SimulationModel {
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return collider_count > 1 ? 32 : 1; }
 
-    /// Steps of one frame of one cloth: per substep release, wind, force, pin motion, then per iteration the
-    /// springs direction by direction and parity by parity, and collisions; at the end X += d.
+    /// The method in use as a scene spells it; `auto` is resolved.
+    std::string method_name() const;
+    /// Steps of one frame of one cloth; at the end X += d.
+    /// relax: per substep release, wind, force, pin motion, then per iteration the springs direction by direction and
+    /// parity by parity, and collisions.
+    /// explicit: per substep release, wind, micro-step, pin motion, collisions.
     std::vector<Step> frame_steps(const ClothModel& cloth) const;
     /// What no cloth of this scene needs, and what each cloth does not need.
     std::vector<SkippedWork> skipped() const;
+
+  private:
+    void add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
+    void add_explicit_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
 };
 
 }  // namespace drape

@@ -4,6 +4,7 @@
 
 #include "passes/collision_pass.h"
 #include "passes/cut_pass.h"
+#include "passes/explicit_pass.h"
 #include "passes/force_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
@@ -68,6 +69,10 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
     state.displacement = image("displacement", Lifetime::persistent, vec4);
     state.position_rest = image("position rest", Lifetime::persistent, vec4);
     state.displacement_rest = image("displacement rest", Lifetime::persistent, vec4);
+    if (model_.method_name() == "explicit") {
+        state.position_spare = image("position spare", Lifetime::transient, vec4);
+        state.displacement_spare = image("displacement spare", Lifetime::transient, vec4);
+    }
     if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
     if (drawn) state.normal = image("normal", Lifetime::transient, vec4);
     if (model.masked) {
@@ -121,6 +126,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::release: return add_pin_release(graph, pipelines_, state, step);
         case StepKind::wind: return add_wind(graph, pipelines_, state, inputs_, step);
         case StepKind::force: return add_force(graph, pipelines_, state, step);
+        case StepKind::explicit_step: return add_explicit_step(graph, pipelines_, state, step);
         case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
         case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);

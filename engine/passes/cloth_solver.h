@@ -1,4 +1,4 @@
-// The method `relax`, the slides' own: strings the simulation passes of every cloth together by the schedule.
+// Strings the simulation passes of every cloth together by the schedule of the scene's method.
 #pragma once
 
 #include <cstddef>

@@ -21,8 +21,11 @@ constexpr vulkan::DescriptorDeclaration advance_descriptors[] = {
     image_read(0, "position_in"),  image_write(1, "position_out"),
     image_read(2, "displacement"), image_read(3, "position_rest_in"),
     image_write(4, "position_rest_out"),
+    image_write(5, "displacement_out"),  // the variant that returns from the spare images only
 };
-const vulkan::ShaderInterface advance_shader{"advance.comp", advance_descriptors, &layouts::grid_push};
+const vulkan::ShaderInterface advance_shader{"advance.comp", std::span(advance_descriptors).first(5),
+                                             &layouts::grid_push};
+const vulkan::ShaderInterface advance_home{"advance_home.comp", advance_descriptors, &layouts::grid_push};
 
 }  // namespace
 
@@ -46,18 +49,23 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
 }
 
 void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get(advance_shader);
+    const vulkan::ComputePipeline& pipeline = pipelines.get(state.away ? advance_home : advance_shader);
     graph.add_pass(
         state.pass_name("advance", "simulate"),
         [&](graph::PassSetup& setup) {
-            update(setup, state.position, 0, 1);
+            graph::Handle& home = state.away ? state.position_spare : state.position;
+            setup.read(state.position, graph::Access::compute_read, 0);
+            home = setup.write(home, graph::Access::compute_write, 1);
             setup.read(state.displacement, graph::Access::compute_read, 2);
             update(setup, state.position_rest, 3, 4);
+            if (state.away)
+                state.displacement_spare = setup.write(state.displacement_spare, graph::Access::compute_write, 5);
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y));
         });
+    if (state.away) state.turn();
 }
 
 }  // namespace drape

@@ -1,5 +1,7 @@
 #include "passes/pass_kit.h"
 
+#include <utility>
+
 #include "fmt/format.h"
 
 namespace drape {
@@ -11,6 +13,12 @@ const vulkan::ComputePipeline& PipelineCache::get(const vulkan::ShaderInterface&
     std::unique_ptr<vulkan::ComputePipeline>& pipeline = pipelines_[key];
     if (!pipeline) pipeline = std::make_unique<vulkan::ComputePipeline>(device_, key, shader, constants);
     return *pipeline;
+}
+
+void ClothState::turn() {
+    std::swap(position, position_spare);
+    std::swap(displacement, displacement_spare);
+    away = !away;
 }
 
 graph::PassName ClothState::pass_name(const std::string& pass, const std::string& stage) const {

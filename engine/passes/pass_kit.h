@@ -31,6 +31,7 @@ class PipelineCache {
 ///                           w: relative inverse mass; written by the set-up and by `pin release` alone
 ///   displacement   rgba32f  xyz: motion within the substep, m (X + d is where the particle is now); w 0
 ///   *_rest         rgba32f  what rounding lost of the two (compensated sums)
+///   *_spare        rgba32f  explicit: the other image of each pair; a micro-step reads one and writes the other
 ///   wind_force     rgba32f  N; scenes with wind
 ///   normal         rgba32f  unit normal of the front; only when something is drawn
 ///   multiplier     r32f     XPBD multiplier per direction, by first particle; compliant and iterated springs
@@ -41,12 +42,16 @@ struct ClothState {
     const ClothModel* model = nullptr;
     std::size_t index = 0;
     graph::Handle position, displacement, position_rest, displacement_rest;
+    graph::Handle position_spare, displacement_spare;
+    bool away = false;  ///< explicit: position and displacement are the spare images, not where the frame starts
     graph::Handle wind_force, normal, stiffness, mass, cells;
     std::array<graph::Handle, 4> multiplier;
     graph::Handle triangles;              ///< index buffer
     graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;
     graph::Handle pinned, pin_motions;    ///< dynamic pins
+    /// What a micro-step wrote becomes the state.
+    void turn();
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;
     graph::PassName step_name(const std::string& pass, const Step& step) const;
 };

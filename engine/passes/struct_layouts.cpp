@@ -29,6 +29,15 @@ constexpr vulkan::MemberLayout force_push_members[] = {
     {"force_step", offsetof(ForcePush, force_step)},
     {"gravity_step", offsetof(ForcePush, gravity_step)},
 };
+constexpr vulkan::MemberLayout explicit_push_members[] = {
+    {"grid", offsetof(ExplicitPush, grid)},
+    {"damping_loss", offsetof(ExplicitPush, damping_loss)},
+    {"force_step", offsetof(ExplicitPush, force_step)},
+    {"gravity_step", offsetof(ExplicitPush, gravity_step)},
+    {"rest_length", offsetof(ExplicitPush, rest_length)},
+    {"stiffness", offsetof(ExplicitPush, stiffness)},
+    {"strain_damping", offsetof(ExplicitPush, strain_damping)},
+};
 constexpr vulkan::MemberLayout wind_push_members[] = {
     {"grid", offsetof(WindPush, grid)},
     {"substep", offsetof(WindPush, substep)},
@@ -105,6 +114,7 @@ constexpr vulkan::MemberLayout cut_vertex_members[] = {
 
 const vulkan::StructLayout spring_push{"SpringPush", sizeof(SpringPush), spring_push_members};
 const vulkan::StructLayout force_push{"ForcePush", sizeof(ForcePush), force_push_members};
+const vulkan::StructLayout explicit_push{"ExplicitPush", sizeof(ExplicitPush), explicit_push_members};
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};

@@ -10,6 +10,7 @@ namespace drape::glsl {
 
 #include "include/colliders.h"
 #include "include/cut.h"
+#include "include/explicit.h"
 #include "include/pin.h"
 #include "include/spring.h"
 #include "include/statistics.h"

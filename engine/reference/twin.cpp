@@ -1,21 +1,13 @@
 #include "reference/twin.h"
 
 #include "reference/kernels.h"
+#include "reference/texels.h"
 
 namespace drape {
 
 using namespace glsl;
 
 namespace {
-
-vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }
-vec4 texel(const vec3& v, float w = 0.0f) { return {v.x, v.y, v.z, w}; }
-
-std::size_t at(const Grid& grid, ivec2 p) {
-    return static_cast<std::size_t>(p.y) * grid.columns() + static_cast<std::size_t>(p.x);
-}
-
-float component(const vec4& v, int channel) { return channel == 0 ? v.x : channel == 1 ? v.y : channel == 2 ? v.z : v.w; }
 
 /// Calls visit(cell, which) for the existing triangles around a particle, in the shaders' order.
 template <class Visit>
@@ -39,6 +31,10 @@ Twin::Twin(const SimulationModel& model) : model_(model) {
         state.displacement_rest.resize(count);
         state.normal.resize(count);
         if (model.windy) state.wind_force.resize(count);
+        if (model.method_name() == "explicit") {
+            state.position_spare.resize(count);
+            state.displacement_spare.resize(count);
+        }
         for (std::size_t direction = 0; direction < 4; ++direction)
             if (cloth.multiplied[direction]) state.multiplier[direction].resize(count);
         cloths_.push_back(std::move(state));
@@ -58,6 +54,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::release: return release(model, state, inputs.pins[cloth], step.substep);
         case StepKind::wind: return wind(model, state, inputs, step.substep);
         case StepKind::force: return force(model, state, step.substep > 0);
+        case StepKind::explicit_step: return explicit_step(model, state, step.substep > 0);
         case StepKind::pin: return pin(model, state, inputs.pins[cloth], step.substep);
         case StepKind::spring: return spring(model, state, step);
         case StepKind::collide: return collide(model, state, inputs, step.substep);

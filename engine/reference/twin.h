@@ -14,6 +14,7 @@ namespace drape {
 /// The images of one cloth, one texel per particle, row by row (units: metres, newtons).
 struct TwinCloth {
     std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
+    std::vector<glsl::vec4> position_spare, displacement_spare;  ///< explicit: where the next micro-step writes
     std::array<std::vector<float>, 4> multiplier;  ///< per spring direction, where the model needs one
 };
 
@@ -35,6 +36,7 @@ class Twin {
                  std::uint32_t substep);
     void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void force(const ClothModel& model, TwinCloth& state, bool advance);
+    void explicit_step(const ClothModel& model, TwinCloth& state, bool advance);
     void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
              std::uint32_t substep);
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);

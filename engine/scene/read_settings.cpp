@@ -28,25 +28,30 @@ void read_wind(SceneNode node, Wind& wind) {
 void read_solver(SceneNode node, SolverSettings& solver) {
     if (!node.open_object(ObjectKind::solver)) return;
     const SceneNode method = node.member("method");
-    const bool is_planned =
-        method && method.value()->isString() && (*method.value() == "explicit" || *method.value() == "line");
+    const bool is_planned = method && method.value()->isString() && *method.value() == "line";
     if (is_planned) {
-        method.fail(fmt::format("method \"{}\" is not supported yet: expected \"relax\" or \"auto\"",
-                                method.value()->asString()));
+        method.fail("method \"line\" is not supported yet: expected \"relax\" or \"explicit\" or \"auto\"");
     } else {
         constexpr std::pair<std::string_view, SolverMethod> methods[] = {{"relax", SolverMethod::relax},
+                                                                         {"explicit", SolverMethod::explicit_steps},
                                                                          {"auto", SolverMethod::automatic}};
         method.read_choice<SolverMethod>(solver.method, methods);
     }
-    node.member("substeps").read(solver.substeps, 1, 1024);
-    node.member("iterations").read(solver.iterations, 1, 1024);
+    node.member("substeps").read(solver.substeps, 1, 4096);
+    const SceneNode iterations = node.member("iterations");
+    const bool is_explicit = solver.method == SolverMethod::explicit_steps;
+    if (iterations.read(solver.iterations, 1, 1024) && is_explicit && solver.iterations > 1)
+        iterations.warn("iterations is ignored by method explicit: a micro-step solves nothing");
     constexpr std::pair<std::string_view, CollideWhen> moments[] = {{"iteration", CollideWhen::iteration},
                                                                     {"substep", CollideWhen::substep}};
     node.member("collide").read_choice<CollideWhen>(solver.collide, moments);
     const SceneNode tolerance = node.member("tolerance");
     double ignored = 0.0;
     if (tolerance.read(ignored, positive) && tolerance)
-        tolerance.warn("tolerance is ignored by method relax");
+        tolerance.warn(fmt::format("tolerance is ignored by method {}", is_explicit ? "explicit" : "relax"));
+    const SceneNode strain_damping = node.member("strain_damping");
+    if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit)
+        strain_damping.warn("strain_damping is ignored by method relax");
 }
 
 void read_camera(SceneNode node, Camera& camera) {

@@ -161,7 +161,7 @@ struct Cutter {
     bool operator==(const Cutter&) const = default;
 };
 
-enum class SolverMethod { automatic, relax };
+enum class SolverMethod { automatic, relax, explicit_steps };
 enum class CollideWhen { iteration, substep };
 
 struct SolverSettings {
@@ -169,6 +169,7 @@ struct SolverSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     CollideWhen collide = CollideWhen::iteration;
+    double strain_damping = 0.2;  ///< explicit: damping of each spring's strain rate, in units of its stiffness times h
     bool operator==(const SolverSettings&) const = default;
 };
 

@@ -29,7 +29,8 @@ constexpr Key sphere_keys[] = {"center", "radius", "friction", "rotate", "path",
 constexpr Key box_keys[] = {"center", "half_extents", "friction", "rotate", "path", "color"};
 constexpr Key ellipsoid_keys[] = {"center", "radii", "friction", "rotate", "path", "color"};
 constexpr Key cutter_keys[] = {"triangle", "active", "path"};
-constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance"};
+constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance",
+                               "strain_damping"};
 constexpr Key camera_keys[] = {"position", "target", "fov"};
 constexpr Key light_keys[] = {"direction", "color", "intensity"};
 constexpr Key image_keys[] = {"size", "samples", "background"};

@@ -32,6 +32,17 @@ struct ForcePush {
     vec4 gravity_step;   // xyz: phi h^2 g, metres; w unused
 };
 
+/// Vectors over the spring directions: row, column, shear down-right, shear down-left.
+struct ExplicitPush {
+    ivec2 grid;
+    float damping_loss;    // q = 1 - exp(-c h)
+    float force_step;      // phi h^2 / m_inner: displacement per newton on an inner particle
+    vec4 gravity_step;     // xyz: phi h^2 g, metres; w unused
+    vec4 rest_length;      // m
+    vec4 stiffness;        // phi k h^2 / m_inner, dimensionless, softened where the step would not be stable
+    float strain_damping;  // kappa: strain-rate damping is kappa k h
+};
+
 struct WindPush {
     ivec2 grid;
     int substep;               // index into the wind buffer

@@ -73,6 +73,24 @@ TEST(ClothModelTest, ALaterPinOverridesAnEarlierOne) {
     EXPECT_FALSE(model.has_motion);
 }
 
+TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
+    scene.solver.method = SolverMethod::explicit_steps;
+    scene.wind.velocity = {1, 0, 0};
+    scene.colliders.spheres.emplace_back();
+    const SimulationModel model(scene);
+    EXPECT_EQ(model.method_name(), "explicit");
+    std::vector<StepKind> kinds;
+    for (const Step& step : model.frame_steps(model.cloths[0])) kinds.push_back(step.kind);
+    std::vector<StepKind> expected;
+    for (int substep = 0; substep < 3; ++substep)
+        expected.insert(expected.end(), {StepKind::wind, StepKind::explicit_step, StepKind::collide});
+    expected.push_back(StepKind::advance);
+    EXPECT_EQ(kinds, expected);
+    scene.solver.method = SolverMethod::automatic;
+    EXPECT_EQ(SimulationModel(scene).method_name(), "relax");
+}
+
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};

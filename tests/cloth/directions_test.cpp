@@ -65,6 +65,24 @@ INSTANTIATE_TEST_SUITE_P(Grids, DirectionTable,
                                          glsl::ivec2{9, 5}, glsl::ivec2{8, 8}, glsl::ivec2{16, 9},
                                          glsl::ivec2{33, 64}, glsl::ivec2{65, 3}));
 
+TEST(DirectionTableTest, NeighboursAreTheSpringsOfTheTableFromBothEnds) {
+    std::set<std::tuple<int, int, int, int>> expected;  // offset, direction, whether this particle is the first
+    for (int direction = 0; direction < 4; ++direction) {
+        const glsl::ivec2 offset = spring_directions[static_cast<std::size_t>(direction)].offset;
+        expected.insert({offset.x, offset.y, direction, 1});
+        expected.insert({-offset.x, -offset.y, direction, 0});
+    }
+    std::set<std::tuple<int, int, int, int>> found;
+    int place = -9;
+    for (int k = 0; k < glsl::neighbour_count; ++k) {
+        const glsl::ivec4 around = glsl::neighbour(k);
+        found.insert({around.x, around.y, around.z, around.w});
+        EXPECT_GT(3 * around.y + around.x, place) << "row by row, left to right";
+        place = 3 * around.y + around.x;
+    }
+    EXPECT_EQ(found, expected);
+}
+
 TEST(DirectionTableTest, OddPassesOfTwoColumnGridsAreEmpty) {
     EXPECT_TRUE(spring_pass(0, 1, {2, 5}).empty());
     EXPECT_FALSE(spring_pass(0, 0, {2, 5}).empty());

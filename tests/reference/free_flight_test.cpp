@@ -17,11 +17,12 @@ double flight(double v0, double g, double c, double time) {
     return v_inf * time - (v0 - v_inf) * std::expm1(-c * time) / c;
 }
 
-class FreeFlight : public testing::TestWithParam<std::tuple<std::uint32_t, double>> {};
+class FreeFlight : public testing::TestWithParam<std::tuple<SolverMethod, std::uint32_t, double>> {};
 
 TEST_P(FreeFlight, FollowsTheClosedForm) {
-    const auto [substeps, damping] = GetParam();
+    const auto [method, substeps, damping] = GetParam();
     SceneDescription scene = test::sheet(4, 3, 0.3, 0.2, substeps);
+    scene.solver.method = method;
     scene.cloths[0].damping = damping;
     scene.cloths[0].velocity = {3, 0, -7};
     const SimulationModel model(scene);
@@ -39,13 +40,14 @@ TEST_P(FreeFlight, FollowsTheClosedForm) {
             worst = std::max(worst, std::abs(moved[k] - expected) / std::abs(expected));
         }
     }
-    std::printf("[ measured ] %u substeps, damping %.1f: worst relative error %.2e (limit %.0e)\n", substeps, damping,
-                worst, limit);
+    std::printf("[ measured ] %s, %u substeps, damping %.1f: worst relative error %.2e (limit %.0e)\n",
+                model.method_name().c_str(), substeps, damping, worst, limit);
     EXPECT_LE(worst, limit);
 }
 
-INSTANTIATE_TEST_SUITE_P(SubstepsAndDamping, FreeFlight,
-                         testing::Combine(testing::Values(1u, 16u, 256u), testing::Values(0.0, 0.5)));
+INSTANTIATE_TEST_SUITE_P(MethodsSubstepsAndDamping, FreeFlight,
+                         testing::Combine(testing::Values(SolverMethod::relax, SolverMethod::explicit_steps),
+                                          testing::Values(1u, 16u, 256u), testing::Values(0.0, 0.5)));
 
 }  // namespace
 }  // namespace drape

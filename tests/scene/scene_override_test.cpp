@@ -81,7 +81,7 @@ TEST(SceneOverride, AllErrorsOfFileAndOverridesAtOnce) {
         errors_with({"/solver/substeps=0", "/wind/drag=-1"},
                     "{\"cloths\": [{}],\n \"wind\": {\"lift\": -2}}"),
         (Texts{"scene.json:2:19: /wind/lift: expected a number >= 0 (single precision), got -2",
-               "--set '/solver/substeps=0': /solver/substeps: expected an integer from 1 to 1024, got 0",
+               "--set '/solver/substeps=0': /solver/substeps: expected an integer from 1 to 4096, got 0",
                "--set '/wind/drag=-1': /wind/drag: expected a number >= 0 (single precision), got -1"}));
     EXPECT_EQ(errors_with({"time=1", "/cloths/9=1"}).size(), 2u);
 }

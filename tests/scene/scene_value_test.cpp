@@ -23,7 +23,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.time, (TimeSettings{30, 12}));
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
-    EXPECT_EQ(scene.solver, (SolverSettings{SolverMethod::relax, 11, 3, CollideWhen::substep}));
+    EXPECT_EQ(scene.solver, (SolverSettings{SolverMethod::relax, 11, 3, CollideWhen::substep, 0.05}));
     EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
@@ -125,7 +125,7 @@ TEST(SceneValues, AcceptsThePublishedExtremes) {
     scene_of(
         R"({"cloths": [{"grid": [2, 16384]}, {"grid": [4000, 3990], "placement": {"origin": [0, 0, 5]}}]})");
     scene_of(R"({"cloths": [{"stiffness": {"stretch": 0, "shear": 0}, "friction": 0, "thickness": 0}],
-                 "time": {"fps": 10000, "frames": 1000000}, "solver": {"substeps": 1024, "iterations": 1024}})");
+                 "time": {"fps": 10000, "frames": 1000000}, "solver": {"substeps": 4096, "iterations": 1024}})");
 }
 
 std::vector<std::string> warnings_of(std::string_view text) {
@@ -148,7 +148,23 @@ TEST(SceneWarnings, ClothsSetToTouch) {
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [1.1, 0, 0]}}]})").empty());
 }
 
+TEST(SceneValues, EachMethodByItsName) {
+    const auto method = [](const std::string& name) {
+        return scene_of(R"({"cloths": [{}], "solver": {"method": ")" + name + "\"}}").solver.method;
+    };
+    EXPECT_EQ(method("auto"), SolverMethod::automatic);
+    EXPECT_EQ(method("relax"), SolverMethod::relax);
+    EXPECT_EQ(method("explicit"), SolverMethod::explicit_steps);
+}
+
 TEST(SceneWarnings, SettingsThatDoNothing) {
+    const std::vector<std::string> explicit_ignores{
+        "s:1:65: /solver/iterations: iterations is ignored by method explicit: a micro-step solves nothing",
+        "s:1:81: /solver/tolerance: tolerance is ignored by method explicit"};
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "explicit", "iterations": 3, "tolerance": 0.01}})"),
+              explicit_ignores);
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"strain_damping": 0.1}})"),
+              std::vector<std::string>{"s:1:47: /solver/strain_damping: strain_damping is ignored by method relax"});
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"tolerance": 0.01}})"),
               std::vector<std::string>{"s:1:42: /solver/tolerance: tolerance is ignored by method relax"});
     EXPECT_EQ(

@@ -1,0 +1,10 @@
+// Explicit micro-step under gravity, damping, springs and wind.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/explicit.h"
+#include "include/spring.h"
+#include "include/verlet.h"
+#include "include/wind.h"
+#define WINDY
+#include "include/explicit_pass.h"

@@ -1,0 +1,48 @@
+// The explicit micro-step: every particle gathers the forces of the springs around it. Sources: symplectic Euler with
+// clamped stiffness and strain-rate damping (solvers.md, "Explicit micro-step").
+#ifndef DRAPE_EXPLICIT_H
+#define DRAPE_EXPLICIT_H
+
+#include "include/vector.h"
+
+const int neighbour_count = 8;
+
+/// Neighbour k in the order that every sum over springs takes: up-left, up, up-right, left, right, down-left, down,
+/// down-right (rows grow downwards). xy: offset in columns, rows; z: direction of the spring (channel); w: 1 when
+/// this particle is the spring's first one, 0 when the neighbour is.
+SHARED ivec4 neighbour(int k) {
+    if (k == 0) return ivec4(-1, -1, 2, 0);
+    if (k == 1) return ivec4(0, -1, 1, 0);
+    if (k == 2) return ivec4(1, -1, 3, 0);
+    if (k == 3) return ivec4(-1, 0, 0, 0);
+    if (k == 4) return ivec4(1, 0, 0, 1);
+    if (k == 5) return ivec4(-1, 1, 3, 1);
+    if (k == 6) return ivec4(0, 1, 1, 1);
+    return ivec4(1, 1, 2, 1);
+}
+
+/// `sum` plus the pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa
+/// (du . r)/|r|^2] r, r = `edge` and du = `closing`, the change of r in the last substep (m). With the stiffness times
+/// phi h^2/m_inner the sum is a displacement (m) of an inner particle. From the other end every operation sees the
+/// negated numbers, so the two pulls are opposite to the bit and momentum is kept but for the rounding of the sums.
+/// A spring of zero length has no direction and does not pull.
+SHARED vec3 add_pull(vec3 sum, vec3 edge, vec3 closing, float rest_length, float stiffness, float strain_damping) {
+    precise float length_squared = ordered_dot(edge, edge);
+    if (!(length_squared > 0.0f)) return sum;
+    precise float current = sqrt(length_squared);
+    precise float strain = (current - rest_length) / current;
+    precise float rate = strain_damping * (ordered_dot(closing, edge) / length_squared);
+    precise vec3 total = sum + edge * (stiffness * (strain + rate));
+    return total;
+}
+
+/// Increment to the displacement in one micro-step: phi h^2 (g + w (F_wind + F_springs)/m) - q d. `pull` is already a
+/// displacement of an inner particle.
+SHARED vec3 explicit_increment(vec3 displacement, vec3 gravity_step, vec3 force, vec3 pull, float inverse_mass,
+                               float force_step, float damping_loss) {
+    precise vec3 forced = gravity_step + (force * force_step + pull) * inverse_mass;
+    precise vec3 increment = forced - displacement * damping_loss;
+    return increment;
+}
+
+#endif

@@ -1,0 +1,84 @@
+// Spring constants by design.md 5, and the softening that keeps explicit steps stable.
+#include "cloth/stiffness_constants.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloth/cloth_model.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+constexpr double square[2] = {0.01, 0.01}, oblong[2] = {0.02, 0.01};
+
+TEST(StiffnessConstantsTest, FollowTheCells) {
+    const StiffnessConstants constants = stiffness_constants({false, 1000, 100, 1e-4}, oblong);
+    EXPECT_DOUBLE_EQ(constants.spring[0], 500);
+    EXPECT_DOUBLE_EQ(constants.spring[1], 2000);
+    EXPECT_DOUBLE_EQ(constants.spring[2], 125);
+    EXPECT_DOUBLE_EQ(constants.spring[3], 125);
+    EXPECT_DOUBLE_EQ(constants.rest_length[0], 0.02);
+    EXPECT_DOUBLE_EQ(constants.rest_length[1], 0.01);
+    EXPECT_DOUBLE_EQ(constants.rest_length[3], std::sqrt(5e-4));
+    EXPECT_DOUBLE_EQ(constants.bend[0], 1e-4 * 0.01 / 8e-6);
+    EXPECT_DOUBLE_EQ(constants.bend[1], 1e-4 * 0.02 / 1e-6);
+}
+
+TEST(ExplicitStiffnessTest, SmallStepsUseAllOfIt) {
+    const double mass = 2e-5, h = 1e-5;
+    const ExplicitStiffness used = explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, 0.2);
+    EXPECT_FALSE(used.softened());
+    EXPECT_DOUBLE_EQ(used.spring[0], 1000 * h * h / mass);
+    EXPECT_DOUBLE_EQ(used.spring[3], 100 * h * h / mass);
+}
+
+TEST(ExplicitStiffnessTest, LargeStepsAreSoftenedToTheStatedLimit) {
+    const double mass = 2e-5, h = 1e-3;
+    for (const double kappa : {0.0, 0.2, 1.0}) {
+        const ExplicitStiffness used =
+            explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, kappa);
+        // solvers.md: K_s = 0.45 / ((1 + r_s)(1 + 2 kappa)), K_d = r_s K_s
+        EXPECT_NEAR(used.spring[0], 0.45 / (1.1 * (1 + 2 * kappa)), 1e-12);
+        EXPECT_NEAR(used.spring[1], used.spring[0], 1e-12);
+        EXPECT_NEAR(used.spring[2], 0.1 * used.spring[0], 1e-12);
+        // The steps that it asks for soften nothing.
+        const double enough = h / used.full_substeps_factor * (1 - 1e-9);
+        EXPECT_FALSE(explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, enough, kappa)
+                         .softened());
+    }
+}
+
+TEST(ExplicitStiffnessTest, EachAxisIsSoftenedAsFarAsItMustBe) {
+    const StiffnessConstants wanted = stiffness_constants({false, 1000, 100, 0}, oblong);
+    const double mass = 4e-5;
+    const double h = std::sqrt(0.45 * mass / 1000);  // the long cells' springs (500 N/m) still fit, the short ones' do not
+    const ExplicitStiffness used = explicit_stiffness(wanted, oblong, mass, h, 0);
+    EXPECT_EQ(used.columns_share, 1);
+    EXPECT_LT(used.rows_share, 0.5);
+    EXPECT_EQ(used.shear_share, used.rows_share);
+}
+
+TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
+    SceneDescription scene = test::sheet(101, 101, 1, 1, 20);
+    scene.solver.method = SolverMethod::explicit_steps;
+    const auto note = [](const SceneDescription& described) {
+        for (const SkippedWork& work : ClothModel(described, 0).skipped)
+            if (work.what == "sheet/full stiffness") return work.reason;
+        return std::string("none");
+    };
+    // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4): 20 sqrt(118.8) = 218.01 substeps.
+    EXPECT_EQ(note(scene),
+              "explicit steps follow 8.42 N/m along columns, 8.42 along rows and 0.842 on diagonals at 20 substeps; "
+              "219 substeps would follow all of it");
+    scene.solver.substeps = 219;
+    EXPECT_EQ(note(scene), "none");
+    scene.solver.substeps = 218;
+    EXPECT_NE(note(scene), "none");
+    scene.cloths[0].stiffness.rigid = true;
+    EXPECT_NE(note(scene).find("rigid springs are as stiff as the substeps allow"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drape

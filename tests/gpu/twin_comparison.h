@@ -1,0 +1,104 @@
+// Compares every state image of the device with the C++ twin, frame by frame, on scenes that use everything at once.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "device_run.h"
+#include "gpu_test.h"
+#include "reference/twin.h"
+#include "support/sheets.h"
+
+namespace drape::test {
+
+inline constexpr std::uint32_t frame_count = 18, substep_count = 12;  // 216 substeps
+
+inline Colliders four_moving_colliders() {
+    const MotionPath path{{{0, {0, 0, 0}, {0, 0, 0}}, {0.3, {0.05, 0.1, 0}, {20, 90, 10}}}};
+    Colliders colliders;
+    colliders.planes.emplace_back();
+    colliders.planes[0].offset = -0.4;
+    colliders.planes[0].normal = {0, 1, 0};
+    colliders.planes[0].path = path;
+    colliders.spheres.emplace_back();
+    colliders.spheres[0].center = {-0.2, -0.25, 0.1};
+    colliders.spheres[0].radius = 0.2;
+    colliders.spheres[0].path = path;
+    colliders.spheres.push_back(colliders.spheres[0]);
+    colliders.spheres[1].center = {0.1, -0.3, 0.3};
+    colliders.spheres[1].path = {};
+    colliders.boxes.emplace_back();
+    colliders.boxes[0].center = {0.3, -0.2, -0.1};
+    colliders.boxes[0].half_extents = {0.1, 0.15, 0.2};
+    colliders.boxes[0].rotate = {10, 20, 30};
+    colliders.boxes[0].path = path;
+    colliders.ellipsoids.emplace_back();
+    colliders.ellipsoids[0].center = {0, -0.2, -0.3};
+    colliders.ellipsoids[0].radii = {0.3, 0.15, 0.1};
+    colliders.ellipsoids[0].rotate = {0, 40, 0};
+    colliders.ellipsoids[0].path = path;
+    return colliders;
+}
+
+/// Everything at once: pins of all sorts, wind with gusts, all colliders moving, friction, damping.
+inline SceneDescription everything() {
+    SceneDescription scene = sheet(37, 30, 1.1, 0.9, substep_count, 1);
+    scene.time.frame_count = frame_count + 1;
+    scene.wind.velocity = {2, 0.5, -1};
+    scene.wind.gust = {1.5, 0.2, 7};
+    scene.colliders = four_moving_colliders();
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0, 1}};
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.damping = 0.7;
+    cloth.velocity = {0.3, -1.5, 0.2};
+    Pin moving = pin_box(0, 0, 4, 0);
+    moving.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {0.1, 0.05, 0}, {0, 30, 10}}};
+    Pin released = pin_box(36, 0, 36, 3);
+    released.release = 0.11;
+    cloth.pins = {moving, released, pin_box(18, 0, 18, 0)};
+    return scene;
+}
+
+inline void expect_same(const char* what, const std::vector<glsl::vec4>& device, const std::vector<glsl::vec4>& twin,
+                 std::uint32_t frame) {
+    std::string where;
+    EXPECT_TRUE(same_bits(device, twin, where)) << what << " after frame " << frame << ": " << where;
+}
+
+inline void compare(const SceneDescription& scene, const ModelOptions& options = {}) {
+    const SimulationModel model(scene, options);
+    Twin twin(model);
+    DeviceRun device(gpu().device, model);
+    for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
+        twin.run_frame(frame);
+        device.run_frame(frame);
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+            twin.normals(cloth);
+            const TwinCloth& expected = twin.cloth(cloth);
+            expect_same("position", device.image(cloth, "position"), expected.position, frame);
+            expect_same("displacement", device.image(cloth, "displacement"), expected.displacement, frame);
+            expect_same("position rest", device.image(cloth, "position rest"), expected.position_rest, frame);
+            expect_same("displacement rest", device.image(cloth, "displacement rest"), expected.displacement_rest,
+                        frame);
+            expect_same("normal", device.normals(cloth), expected.normal, frame);
+            for (std::size_t direction = 0; direction < 4; ++direction) {
+                if (model.cloths[cloth].multiplied[direction]) {
+                    EXPECT_EQ(device.multiplier(cloth, direction), expected.multiplier[direction]);
+                }
+            }
+        }
+        if (::testing::Test::HasFailure()) return;
+    }
+    // The comparison means something only if the cloth moved and stayed finite.
+    double moved = 0;
+    for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i) {
+        const glsl::vec4 a = model.cloths[0].position[i], b = twin.cloth(0).position[i];
+        ASSERT_TRUE(std::isfinite(b.x) && std::isfinite(b.y) && std::isfinite(b.z));
+        moved = std::max(moved, std::abs(double(b.y) - double(a.y)));
+    }
+    EXPECT_GT(moved, 0.01);
+}
+
+}  // namespace drape::test

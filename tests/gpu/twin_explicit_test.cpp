@@ -1,0 +1,92 @@
+// The explicit micro-step on the device equals its C++ twin bit for bit (lavapipe), over more than 200 substeps.
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::compare;
+using test::DeviceRun;
+using test::everything;
+using test::frame_count;
+
+SceneDescription everything_explicit() {
+    SceneDescription scene = everything();
+    scene.solver.method = SolverMethod::explicit_steps;
+    return scene;
+}
+
+TEST(TwinExplicitTest, EverythingAtOnce) { compare(everything_explicit()); }
+
+TEST(TwinExplicitTest, AnOddNumberOfStepsEndsInTheImagesItStartedFrom) {
+    SceneDescription scene = everything_explicit();
+    scene.solver.substeps = 13;
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, OneStepPerFrame) {
+    SceneDescription scene = everything_explicit();
+    scene.solver.substeps = 1;
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, HolesAndTwoClothsWithoutWind) {
+    SceneDescription scene = everything_explicit();
+    scene.wind = {};
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 20}, {36, 29}}};
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.grid = {24, 41};
+    second.holes.clear();
+    second.pins = {test::pin_top(second)};
+    second.placement.origin = {-0.4, 0.3, -0.2};
+    scene.cloths.push_back(second);
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, HolesInWind) {
+    SceneDescription scene = everything_explicit();
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, SoftenedSpringsWithoutShear) {
+    SceneDescription scene = everything_explicit();
+    scene.cloths[0].stiffness = {false, 1e5, 0, 0};
+    scene.solver.strain_damping = 0;
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, PlainHangingSheet) {
+    SceneDescription scene = test::sheet(65, 33, 1, 0.5, test::substep_count);
+    scene.solver.method = SolverMethod::explicit_steps;
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.cloths[0].stiffness = {false, 2, 0.2, 0};
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, ExactSkipsChangeNoBit) {
+    const SceneDescription scene = everything_explicit();
+    const SimulationModel lean(scene), full(scene, {.skip = false});
+    DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
+    EXPECT_FALSE(skipping.pool().has("sheet/stiffness"));
+    EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
+    for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
+        skipping.run_frame(frame);
+        keeping.run_frame(frame);
+    }
+    test::expect_same("position", skipping.image(0, "position"), keeping.image(0, "position"), frame_count);
+}
+
+TEST(CanaryTest, AMissingBarrierBetweenExplicitStepsIsReported) {
+    const SceneDescription scene = everything_explicit();
+    const SimulationModel model(scene);
+    test::ExpectValidationMessages expected;
+    DeviceRun run(test::gpu().device, model, [](const graph::PlannedPass&, const graph::Barrier& barrier) {
+        return barrier.reason.find("explicit step") == std::string::npos;
+    });
+    run.run_frame(1);
+    EXPECT_FALSE(expected.messages().empty());
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,71 @@
+// Double-precision measures of a twin's cloth: positions with what rounding kept, energies, momentum.
+#pragma once
+
+#include <cmath>
+
+#include "reference/twin.h"
+
+namespace drape::test {
+
+inline Vec3 position_of(const TwinCloth& state, std::size_t i) {
+    const glsl::vec4 x = state.position[i], rest = state.position_rest[i];
+    return {double(x.x) + double(rest.x), double(x.y) + double(rest.y), double(x.z) + double(rest.z)};
+}
+
+inline Vec3 displacement_of(const TwinCloth& state, std::size_t i) {
+    const glsl::vec4 d = state.displacement[i];
+    return {double(d.x), double(d.y), double(d.z)};
+}
+
+inline double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// Calls visit(first, second, direction, share) for every spring of a cloth.
+template <class Visit>
+void for_springs(const ClothModel& model, const Visit& visit) {
+    const glsl::ivec2 size = model.grid.size();
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const glsl::ivec2 offset = spring_directions[direction].offset, to{x + offset.x, y + offset.y};
+                if (to.x < 0 || to.x >= size.x || to.y >= size.y) continue;
+                const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+                const glsl::vec4 shares = model.grid.spring_shares(column, row);
+                const float share[4] = {shares.x, shares.y, shares.z, shares.w};
+                visit(model.grid.particle(column, row),
+                      model.grid.particle(static_cast<std::uint32_t>(to.x), static_cast<std::uint32_t>(to.y)), direction,
+                      static_cast<double>(share[direction]));
+            }
+}
+
+/// kg; 0 for a particle without a cell.
+inline double mass_of(const ClothModel& model, std::size_t i) {
+    const float w = model.free_weight[i];
+    return w > 0 ? model.inner_mass / static_cast<double>(w) : 0.0;
+}
+
+struct Energy {
+    double kinetic = 0, gravity = 0, elastic = 0;
+    double total() const { return kinetic + gravity + elastic; }
+};
+
+/// J, with the stiffness that the solver uses. The velocity is the last substep's mean, half a substep early.
+inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const TwinCloth& state) {
+    const ClothModel& model = scene.cloths[cloth];
+    Energy energy;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const Vec3 x = position_of(state, i), d = displacement_of(state, i);
+        const double m = mass_of(model, i), h = model.substep_length;
+        for (std::size_t k = 0; k < 3; ++k) {
+            energy.kinetic += 0.5 * m * d[k] * d[k] / (h * h);
+            energy.gravity -= m * scene.scene.gravity[k] * x[k];
+        }
+    }
+    for_springs(model, [&](std::size_t first, std::size_t second, std::size_t direction, double share) {
+        const double stretch = distance(position_of(state, first), position_of(state, second)) -
+                               model.stiffness_constant.rest_length[direction];
+        energy.elastic += 0.5 * share * model.used_stiffness[direction] * stretch * stretch;
+    });
+    return energy;
+}
+
+}  // namespace drape::test
