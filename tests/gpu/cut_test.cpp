@@ -94,7 +94,7 @@ std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
 }
 
 TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
-    constexpr std::uint32_t cut_count = 1000;
+    constexpr std::uint32_t cut_count = 1600;  // blades; at least a thousand of them cut
     SceneDescription scene = test::sheet(48, 43, 0.9, 0.8, 2);
     scene.time.frame_count = cut_count + 2;
     scene.gravity = {0, -0.02, 0};  // pieces stay about
@@ -129,7 +129,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
         },
         [] { return testing::Test::HasFailure(); });
     EXPECT_EQ(device_cuts, twin_cuts);
-    EXPECT_GT(device_cuts, cut_count * 9 / 10);
+    EXPECT_GE(device_cuts, 1000u);
     const std::size_t pieces = test::piece_count(twin.cloth(0));
     std::printf("[ measured ] %u of %u blades cut, %lu springs, %zu pieces\n", device_cuts, cut_count,
                 static_cast<unsigned long>(springs), pieces);

@@ -56,6 +56,7 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"sphere", ".colliders.spheres[0]"},
                                                      {"box", ".colliders.boxes[0]"},
                                                      {"ellipsoid", ".colliders.ellipsoids[0]"},
+                                                     {"cutter", ".cutters[0]"},
                                                      {"solver", ".solver"},
                                                      {"camera", ".camera"},
                                                      {"light", ".lights[0]"},
@@ -202,6 +203,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"sphere", {"path"}},
         {"box", {"path"}},
         {"ellipsoid", {"path"}},
+        {"cutter", {"triangle", "active", "path"}},
         {"solver", {"tolerance"}},
         {"oracle", {"check"}}};
     for (const ObjectKeys& object : scene_object_keys()) {
