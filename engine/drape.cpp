@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -17,6 +16,7 @@
 #include "output/npy.h"
 #include "output/png_sequence.h"
 #include "output/progress.h"
+#include "run_statistics.h"
 #include "spirv_modules.h"
 
 namespace drape {
@@ -120,11 +120,14 @@ class Sink {
 
     /// Throws Diverged before anything of the frame is kept.
     void add(const FinishedFrame& frame) {
-        check_finite(frame);
+        if (const auto why = divergence(model_, frame.frame, frame.statistics)) throw Diverged(*why);
+        FrameValues values = frame_values(model_, frame.statistics);
+        statistics_.add(frame.frame, values);
         if (pictures_) {
             std::vector<std::uint8_t> rgba = pictures_->take_buffer(frame.rgba.size());
             std::ranges::copy(frame.rgba, rgba.begin());
-            pictures_->submit(frame.frame, scene_.image.size[0], scene_.image.size[1], std::move(rgba));
+            pictures_->submit(frame.frame, scene_.image.size[0], scene_.image.size[1], std::move(rgba),
+                              std::move(values));
         }
         for (std::size_t cloth = 0; cloth < arrays_.size(); ++cloth)
             arrays_[cloth]->append_frame_xyzw(frame.positions[cloth]);
@@ -141,6 +144,9 @@ class Sink {
     }
 
     const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
+
+    /// Of the frames added, and of those that a resumed run keeps.
+    RunStatistics& statistics() { return statistics_; }
 
     std::vector<FileRecord> finish() {
         std::vector<FileRecord> files = std::move(face_files_);
@@ -159,23 +165,6 @@ class Sink {
     }
 
   private:
-    void check_finite(const FinishedFrame& frame) const {
-        for (std::size_t cloth = 0; cloth < frame.positions.size(); ++cloth) {
-            const std::span<const float> xyzw = frame.positions[cloth];
-            for (std::size_t i = 0; i < xyzw.size(); i += 4) {
-                if (std::isfinite(xyzw[i]) && std::isfinite(xyzw[i + 1]) && std::isfinite(xyzw[i + 2])) continue;
-                const Grid& grid = model_.cloths[cloth].grid;
-                // The sign of a NaN says nothing, and differs between devices.
-                const auto text = [](float x) { return std::isnan(x) ? "nan" : fmt::format("{}", x); };
-                throw Diverged(fmt::format(
-                    "the simulation diverged: in frame {}, cloth '{}', the particle in column {}, row {} is at "
-                    "({}, {}, {}); more substeps, weaker forces or stiffness may help",
-                    frame.frame, model_.cloths[cloth].name, i / 4 % grid.columns(), i / 4 / grid.columns(),
-                    text(xyzw[i]), text(xyzw[i + 1]), text(xyzw[i + 2])));
-            }
-        }
-    }
-
     void write_face_list(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
         const std::string own = model_.cloths.size() == 1 ? "" : model_.cloths[cloth].name + "_";
         face_files_.push_back(write_faces(folder_, fmt::format("faces_{}{:04}.npy", own, frame), faces));
@@ -185,6 +174,7 @@ class Sink {
     bool export_faces_;
     std::vector<FileRecord> face_files_;
     std::vector<Manifest::Cut> cuts_;
+    RunStatistics statistics_;
     const SimulationModel& model_;
     const SceneDescription& scene_;
     std::unique_ptr<PngSequence> pictures_;
@@ -217,6 +207,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, bool draw, bool pos
     FrameLoopOptions options;
     options.draw = draw;
     options.positions = positions;
+    options.statistics = true;
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
@@ -244,21 +235,21 @@ std::vector<std::string> notes(const vulkan::Device& device, const SimulationMod
                         graph::size_text(budget.limit()))};
 }
 
-/// The frames of the range whose pictures are not there yet, and the records of those that are.
+/// The frames of the range whose pictures are not there yet, and those that are.
 struct MissingFrames {
     std::set<std::uint32_t> frames;
-    std::vector<FileRecord> kept;
+    std::map<std::uint32_t, KeptFrame> kept;
 };
 
 MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& request, const FrameRange& range,
                              const std::string& key) {
-    std::map<std::string, FileRecord> there;
+    std::map<std::string, KeptFrame> there;
     if (request.existing == ExistingFiles::resume) there = kept_frames(folder, key);
     MissingFrames missing;
     for (std::uint64_t frame = range.start; frame <= range.end; frame += range.step) {
         const auto kept = there.find(frame_file_name(frame, frame_digits(range.end)));
         if (request.draw && kept != there.end())
-            missing.kept.push_back(kept->second);
+            missing.kept.emplace(static_cast<std::uint32_t>(frame), kept->second);
         else
             missing.frames.insert(static_cast<std::uint32_t>(frame));
     }
@@ -274,7 +265,7 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
             last, [&](std::uint32_t frame) { return missing.frames.contains(frame); },
             [&](const FinishedFrame& frame) {
                 sink.add(frame);
-                progress.frame_done(frame.frame);
+                progress.frame_done(frame.frame, sink.statistics().note(frame.frame));
                 ++summary.frame_count;
             },
             request.stop);
@@ -328,6 +319,7 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.run_key = key;
         Sink sink(folder, model, request, range, key);
         cut_sink = &sink;
+        for (const auto& [frame, kept] : missing.kept) sink.statistics().add(frame, kept.values);
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
         const std::uint32_t last =
@@ -335,9 +327,10 @@ RunSummary run_scene(const RunRequest& request) {
         summary.complete = (missing.frames.empty() && !to_the_end) ||
                            write_frames(loop, sink, missing, last, request, summary);
         manifest.cuts = sink.cuts();
+        manifest.statistics = sink.statistics().frames();
         // Arrays of a stopped run would look complete; its pictures each are.
         if (summary.complete || request.draw) manifest.files = sink.finish();
-        manifest.files.insert(manifest.files.end(), missing.kept.begin(), missing.kept.end());
+        for (const auto& [frame, kept] : missing.kept) manifest.files.push_back(kept.file);
         std::ranges::sort(manifest.files, {}, &FileRecord::name);
         sink.add_timings(manifest);
     }

@@ -76,8 +76,8 @@ struct RunSummary {
 /// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
 /// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
 /// bytes of an undisturbed run, but for the manifest's "run". Pictures of any other run are an OutputError.
-/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged; whether it did
-/// is seen only where positions are exported.
+/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged. Whether it did is
+/// seen at the frames that are written.
 RunSummary run_scene(const RunRequest& request);
 
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.

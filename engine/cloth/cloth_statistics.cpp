@@ -19,15 +19,6 @@ float& component(glsl::vec4& v, std::size_t index) {
 
 }  // namespace
 
-bool ClothStatistics::is_finite() const {
-    // A sum is finite only when all are.
-    double sum = kinetic_energy + potential_energy + elastic_energy + mass + penetration.value_or(0) +
-                 largest_distance + largest_speed;
-    for (const double coordinate : center_of_mass) sum += coordinate;
-    for (const StrainStatistics& strain : {stretch, shear}) sum += strain.rms + strain.largest + strain.smallest;
-    return non_finite_count == 0 && std::isfinite(sum);
-}
-
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth) {
     glsl::StatisticsPush push{};
     for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {

@@ -19,7 +19,8 @@ struct StrainStatistics {
     double smallest = 0;  ///< most compressed (negative)
 };
 
-/// SI units. Without particles that are not finite, the numbers are of all particles, held ones included.
+/// SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a number may
+/// overflow to infinity before the positions do.
 struct ClothStatistics {
     /// Strain of the state. The *stretch error* of a solver, RMS of strain - tension/(k l), needs the tension that
     /// the solver applied: the multiplier, which `relax` stores only when it iterates. Whoever stores it adds a
@@ -37,9 +38,6 @@ struct ClothStatistics {
     double largest_speed = 0;     ///< m/s
     std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
     std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
-
-    /// Whether every particle and every number above is finite (numbers may overflow before positions do).
-    bool is_finite() const;
 };
 
 /// What a state of this cloth is reduced with; colliders are those of the frame's last substep.

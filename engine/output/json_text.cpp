@@ -91,4 +91,6 @@ std::string json_text(const Json::Value& value) {
     return text + "\n";
 }
 
+std::string json_line(const Json::Value& value) { return one_line(value, ""); }
+
 }  // namespace drape

@@ -11,4 +11,7 @@ namespace drape {
 // for all numbers). Ends with a newline. Throws OutputError naming the key when a double is not finite.
 std::string json_text(const Json::Value& value);
 
+// The same on one line, without the newline.
+std::string json_line(const Json::Value& value);
+
 }  // namespace drape

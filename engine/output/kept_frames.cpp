@@ -6,6 +6,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "output/json_text.h"
 #include "output/png.h"
 
 namespace drape {
@@ -33,10 +34,10 @@ std::string_view number_in(std::string_view file_name) {
 void check_text(const std::string& path, std::string_view name, const std::string& text,
                 const std::string& key) {
     const std::string expected = fmt::format("{} frame {}", key, number_in(name));
-    if (text == expected) return;
+    if (text == expected || text.starts_with(expected + " ")) return;
     if (text.starts_with(key + " ")) {
         throw OutputError(fmt::format("cannot resume: '{}' holds {}: give it its own name back, or remove it",
-                                      path, text.substr(key.size() + 1)));
+                                      path, text.substr(key.size() + 1, text.find(" {") - key.size() - 1)));
     }
     throw OutputError(fmt::format(
         "cannot resume: '{}' {}: {}", path,
@@ -46,17 +47,36 @@ void check_text(const std::string& path, std::string_view name, const std::strin
         remedy));
 }
 
-FileRecord check_frame(const OutputFolder& folder, const std::string& name, const std::string& key) {
+// The values behind the frame's number.
+FrameValues values_in(const std::string& text) {
+    FrameValues values;
+    const size_t begin = text.find('{');
+    if (begin == std::string::npos) return values;
+    std::istringstream stream(text.substr(begin));
+    Json::Value root;
+    std::string errors;
+    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &root, &errors) || !root.isObject())
+        throw OutputError("its values are no JSON object");
+    for (auto value = root.begin(); value != root.end(); ++value) {
+        if (!value->isNumeric()) throw OutputError("a value is no number");
+        values[value.name()] = value->asDouble();
+    }
+    return values;
+}
+
+KeptFrame check_frame(const OutputFolder& folder, const std::string& name, const std::string& key) {
     const std::vector<std::uint8_t> bytes = folder.read_file(name);
     std::string text;
+    FrameValues values;
     try {
         text = decode_png(bytes).text;
+        values = values_in(text);
     } catch (const OutputError& error) {
         throw OutputError(fmt::format("cannot resume: '{}' is damaged ({}): remove it to have it drawn again",
                                       folder.path_of(name), error.what()));
     }
     check_text(folder.path_of(name), name, text, key);
-    return {name, bytes.size(), xxh3_128_hex(std::as_bytes(std::span(bytes)))};
+    return {{name, bytes.size(), xxh3_128_hex(std::as_bytes(std::span(bytes)))}, std::move(values)};
 }
 
 void check_manifest(const OutputFolder& folder, const std::string& key) {
@@ -85,13 +105,17 @@ std::string run_key(const std::vector<std::string>& parts) {
     return xxh3_128_hex(text);
 }
 
-std::string frame_text(std::string_view run_key, std::uint64_t frame) {
-    return fmt::format("{} frame {}", run_key, frame);
+std::string frame_text(std::string_view run_key, std::uint64_t frame, const FrameValues& values) {
+    const std::string text = fmt::format("{} frame {}", run_key, frame);
+    if (values.empty()) return text;
+    Json::Value json(Json::objectValue);
+    for (const auto& [name, value] : values) json[name] = value;
+    return fmt::format("{} {}", text, json_line(json));
 }
 
-std::map<std::string, FileRecord> kept_frames(const OutputFolder& folder, const std::string& run_key) {
+std::map<std::string, KeptFrame> kept_frames(const OutputFolder& folder, const std::string& run_key) {
     check_manifest(folder, run_key);
-    std::map<std::string, FileRecord> kept;
+    std::map<std::string, KeptFrame> kept;
     for (const std::string& name : folder.file_names())
         if (is_frame_file_name(name)) kept.emplace(name, check_frame(folder, name, run_key));
     return kept;

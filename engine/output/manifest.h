@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "output/atomic_file.h"
+#include "output/kept_frames.h"
 #include "output/output_folder.h"
 
 namespace drape {
@@ -69,7 +70,7 @@ struct Manifest {
     };
     struct FrameStatistics {
         std::int64_t frame = 0;
-        std::map<std::string, double> values;  // names carry the unit where there is one: "kinetic_energy_j"
+        FrameValues values;  // names carry the unit where there is one: "kinetic_energy_j"
     };
 
     std::string program_version;

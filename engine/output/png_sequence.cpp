@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "output/kept_frames.h"
 #include "output/png.h"
 
 namespace drape {
@@ -43,7 +42,7 @@ std::vector<std::uint8_t> PngSequence::take_buffer(size_t bytes) {
 }
 
 void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
-                         std::vector<std::uint8_t> rgba) {
+                         std::vector<std::uint8_t> rgba, FrameValues values) {
     if (rgba.size() != size_t{width} * height * 4 || rgba.empty()) {
         throw std::invalid_argument(
             fmt::format("frame {}: {} bytes are not {}x{} RGBA pixels", frame, rgba.size(), width, height));
@@ -52,7 +51,7 @@ void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t
     if (finished_) throw std::logic_error(fmt::format("frame {} submitted after finish()", frame));
     frame_done_.wait(lock, [this] { return pending_count_ < pending_limit_ || error_; });
     if (error_) std::rethrow_exception(error_);
-    queue_.push_back({frame, width, height, std::move(rgba)});
+    queue_.push_back({frame, width, height, std::move(rgba), std::move(values)});
     ++pending_count_;
     frame_waits_.notify_one();
 }
@@ -102,7 +101,7 @@ void PngSequence::keep_result(FileRecord record, std::vector<std::uint8_t> buffe
 }
 
 FileRecord PngSequence::write(const Frame& frame, std::vector<std::uint8_t>& png) {
-    const std::string text = run_key_.empty() ? std::string() : frame_text(run_key_, frame.number);
+    const std::string text = run_key_.empty() ? std::string() : frame_text(run_key_, frame.number, frame.values);
     encode_png(frame.width, frame.height, frame.rgba, png, text);
     return write_file(folder_, frame_file_name(frame.number, digits_), std::as_bytes(std::span(png)));
 }

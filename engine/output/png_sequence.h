@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "output/atomic_file.h"
+#include "output/kept_frames.h"
 
 namespace drape {
 
@@ -35,10 +36,10 @@ class PngSequence {
     std::vector<std::uint8_t> take_buffer(size_t bytes);
 
     // Queues a frame: RGBA8, rows tightly packed from the top. Waits while two frames per worker are queued
-    // or being written, so memory is bounded. Throws a worker's error, or std::invalid_argument when the
-    // sizes do not fit.
+    // or being written, so memory is bounded. `values` go into the file beside the run key. Throws a worker's
+    // error, or std::invalid_argument when the sizes do not fit.
     void submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
-                std::vector<std::uint8_t> rgba);
+                std::vector<std::uint8_t> rgba, FrameValues values = {});
 
     // Waits for all frames; the files written, by name. Throws a worker's error. Nothing may be submitted
     // after.
@@ -50,6 +51,7 @@ class PngSequence {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
         std::vector<std::uint8_t> rgba;
+        FrameValues values;
     };
 
     void work(std::stop_token stop);

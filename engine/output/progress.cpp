@@ -1,6 +1,7 @@
 #include "output/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -35,6 +36,8 @@ Progress::Options Progress::standard_options(bool is_quiet) {
     options.seconds = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
+    if (winsize size{}; options.is_terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0)
+        options.columns = size.ws_col;
     options.write = [](std::string_view text) {
         std::fwrite(text.data(), 1, text.size(), stderr);
         std::fflush(stderr);
@@ -81,9 +84,12 @@ std::string Progress::line(double now) const {
     const double rate = milliseconds_per_frame(now);
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
-    return fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_,
+    std::string text = fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_,
                        percent, rate, duration_text(static_cast<double>(left) * rate / 1000),
                        note_.empty() ? "" : "  ", note_);
+    if (options_.is_terminal && options_.columns > 1 && text.size() >= options_.columns)
+        text.resize(options_.columns - 1);
+    return text;
 }
 
 void Progress::message(std::string_view text) {

@@ -18,8 +18,9 @@ const std::vector<std::string> overflowing = {
     "--set", "/cloths/0/pins=[]",          "--set", "/colliders={}", "--set", "/cloths/0/stiffness/stretch=0",
     "--set", "/cloths/0/stiffness/shear=0"};
 
-Outcome run_overflowing(const SceneFolder& folder, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "-q"};
+Outcome run_overflowing(const SceneFolder& folder, const std::vector<std::string>& more,
+                        const std::string& command = "simulate") {
+    std::vector<std::string> arguments{command, folder.scene(), "-o", folder.out(), "-q"};
     arguments.insert(arguments.end(), overflowing.begin(), overflowing.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     return drape(arguments);
@@ -31,12 +32,22 @@ TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
     EXPECT_EQ(outcome.code, 5) << outcome.err;
     // Semi-implicit: frame 1 has fallen g, frame 2 would have fallen 3 g = 9e38 > 3.4e38.
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
-                                   HasSubstr("the particle in column 0, row 0 is at ("),
+                                   HasSubstr("the particle in column 0, row 0 is not finite"),
+                                   HasSubstr("(48 of the cloth's 48 particles are not)"),
                                    HasSubstr("(2 of 9 frames)"), HasSubstr("no manifest was written")));
     ASSERT_THAT(names_in(folder.out()), ElementsAre("positions.npy"));
     const std::string array = read_text(folder / "out/positions.npy");
     EXPECT_THAT(array, HasSubstr("'shape': (2, 6, 8, 3)"));
     EXPECT_EQ(array.size(), 128u + 2 * 6 * 8 * 3 * sizeof(float));
+}
+
+TEST(Divergence, StopsARenderToo) {
+    const SceneFolder folder(small_scene(9));
+    const Outcome outcome = run_overflowing(folder, {}, "render");
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
+                                   HasSubstr("(2 of 9 frames)"), HasSubstr("no manifest was written")));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("frame_0000.png", "frame_0001.png"));
 }
 
 TEST(Divergence, WithNoFrameBeforeLeavesNothing) {

@@ -62,6 +62,31 @@ TEST(Results, FramesAreThoseAskedForAndTheirBytesDoNotDependOnIt) {
     EXPECT_EQ(frames["count"].asInt(), 3);
 }
 
+TEST(Results, EveryFrameStatesItsStatistics) {
+    const SceneFolder folder(small_scene(12));
+    run({"render", folder.scene(), "-o", folder.out("pictures"), "-j", "5"});
+    run({"simulate", folder.scene(), "-o", folder.out("arrays"), "-j", "5", "-q"});
+    const Json::Value statistics = lasting_manifest(folder / "pictures")["statistics"];
+    EXPECT_EQ(statistics, lasting_manifest(folder / "arrays")["statistics"]);
+    ASSERT_EQ(statistics.size(), 3u);
+    for (Json::ArrayIndex k = 0; k < 3; ++k) {
+        EXPECT_EQ(statistics[k]["frame"].asInt(), 5 * static_cast<int>(k));
+        for (const char* name : {"sheet/stretch_rms", "sheet/stretch_max", "sheet/shear_rms", "sheet/kinetic_energy_j",
+                                 "kinetic_energy_j", "potential_energy_j", "elastic_energy_j", "energy_drift_j"})
+            EXPECT_TRUE(statistics[k][name].isNumeric()) << name;
+    }
+    EXPECT_EQ(statistics[0]["energy_drift_j"].asDouble(), 0);
+    EXPECT_GT(statistics[2]["sheet/stretch_rms"].asDouble(), statistics[0]["sheet/stretch_rms"].asDouble());
+    EXPECT_GT(statistics[2]["sheet/stretch_max"].asDouble(), statistics[2]["sheet/stretch_rms"].asDouble());
+    EXPECT_LT(statistics[2]["potential_energy_j"].asDouble(), statistics[0]["potential_energy_j"].asDouble());
+}
+
+TEST(Results, TheProgressLineStatesTheStretch) {
+    const SceneFolder folder(small_scene(2));
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out()});
+    EXPECT_THAT(outcome.err, testing::ContainsRegex("ETA 0:00  stretch .* % RMS, .* % max, energy .* J, 0 mm deep\n"));
+}
+
 TEST(Results, ATooLargeEndIsClampedWithAWarning) {
     const SceneFolder folder(small_scene(3));
     const Outcome outcome =

@@ -12,6 +12,7 @@
 #include "gpu_test.h"
 #include "passes/statistics_pass.h"
 #include "reference/statistics.h"
+#include "run_statistics.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -169,7 +170,6 @@ void expect_plain(const ClothStatistics& statistics, const ClothStatistics& plai
     expect_relative(statistics.largest_distance, plain.largest_distance, "largest distance");
     expect_relative(statistics.largest_speed, plain.largest_speed, "largest speed");
     EXPECT_EQ(statistics.non_finite_count, 0u);
-    EXPECT_TRUE(statistics.is_finite());
 }
 
 glsl::StatisticsRecord expect_same_record(const SimulationModel& model, const TwinCloth& state,
@@ -283,7 +283,6 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
         EXPECT_EQ(before.non_finite_count, 0u);
         EXPECT_EQ(statistics.non_finite_count, 3u);
         EXPECT_EQ(statistics.first_non_finite, grid.particle(7, 12));
-        EXPECT_FALSE(statistics.is_finite());
         // Two of them are inner particles, one is a corner.
         EXPECT_NEAR(statistics.mass, before.mass - 2.25 * model.cloths[0].inner_mass, 1e-6 * before.mass);
         EXPECT_LT(statistics.stretch.spring_count, before.stretch.spring_count);
@@ -291,14 +290,18 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
     }
 }
 
-TEST(StatisticsTest, FiniteNumbersThatOverflowAreNotCalledFinite) {
+TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValues) {
     const SimulationModel model(soft_sheet(10, 10));
     TwinCloth state = crumpled_state(model, 1, 0, 1);
     state.position[model.cloths[0].grid.particle(4, 4)].x = 1e30f;
     StatisticsRun run(model);
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], run.record(state, 1));
     EXPECT_EQ(statistics.non_finite_count, 0u);
-    EXPECT_FALSE(statistics.is_finite());
+    EXPECT_FALSE(divergence(model, 1, {statistics}).has_value());
+    const FrameValues values = frame_values(model, {statistics});
+    EXPECT_FALSE(values.contains("sheet/distance_max_m"));
+    EXPECT_TRUE(values.contains("sheet/kinetic_energy_j"));
+    for (const auto& [name, value] : values) EXPECT_TRUE(std::isfinite(value)) << name;
 }
 
 /// Four kinds, one of them key-framed.

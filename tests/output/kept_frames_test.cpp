@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "output/manifest.h"
 #include "output/png.h"
 #include "output/png_sequence.h"
@@ -43,11 +45,43 @@ TEST(KeptFrames, AreListedAsTheyWereWritten) {
     write_text(temporary / "out/frame_0007.png.tmp-12", "x");
     const OutputFolder folder(temporary / "out", ExistingFiles::resume);
     std::vector<FileRecord> kept;
-    for (const auto& [name, record] : kept_frames(folder, key)) {
-        EXPECT_EQ(name, record.name);
-        kept.push_back(record);
+    for (const auto& [name, frame] : kept_frames(folder, key)) {
+        EXPECT_EQ(name, frame.file.name);
+        EXPECT_TRUE(frame.values.empty());
+        kept.push_back(frame.file);
     }
     EXPECT_EQ(kept, written);
+}
+
+TEST(KeptFrames, GiveTheirValuesBackToTheLastBit) {
+    const TemporaryFolder temporary;
+    const FrameValues values{{"sheet/stretch_rms", 1.0 / 3}, {"energy_j", -2e-300}, {"penetration_m", 0}, {"count", 7}};
+    OutputFolder folder(temporary / "out");
+    {
+        PngSequence sequence(folder, 4, 1, key);
+        sequence.submit(12, 5, 3, std::vector<std::uint8_t>(5 * 3 * 4, 9), values);
+        sequence.finish();
+    }
+    EXPECT_EQ(kept_frames(folder, key).at("frame_0012.png").values, values);
+    fs::rename(temporary / "out/frame_0012.png", temporary / "out/frame_0013.png");
+    EXPECT_THAT(error_text<OutputError>([&] { kept_frames(folder, key); }), HasSubstr("frame_0013.png' holds frame 12: "));
+}
+
+TEST(KeptFrames, ValuesThatAreNoNumbersAreDamage) {
+    for (const char* tail : {" {\"a\": \"b\"}", " {\"a\": 1", " {\"a\": [1]}"}) {
+        const TemporaryFolder temporary;
+        std::vector<std::uint8_t> png;
+        encode_png(5, 3, std::vector<std::uint8_t>(5 * 3 * 4, 1), png, frame_text(key, 0) + tail);
+        fs::create_directory(temporary / "out");
+        write_text(temporary / "out/frame_0000.png", std::string(png.begin(), png.end()));
+        EXPECT_THAT(refusal(temporary / "out"), HasSubstr("frame_0000.png' is damaged")) << tail;
+    }
+}
+
+TEST(FrameText, HoldsNoNumberThatIsNotFinite) {
+    EXPECT_EQ(frame_text("key", 3), "key frame 3");
+    EXPECT_EQ(frame_text("key", 3, {{"b", 0.5}, {"a", 1e-7}}), "key frame 3 {\"a\": 1e-07, \"b\": 0.5}");
+    EXPECT_THROW(frame_text("key", 3, {{"a", std::numeric_limits<double>::infinity()}}), OutputError);
 }
 
 TEST(KeptFrames, NothingIsKeptOfAnEmptyFolder) {

@@ -102,6 +102,20 @@ TEST(Progress, ANoteOnTheFrameEndsTheLine) {
               "frame 1 (2/2, 100 %)  1000.0 ms/frame  ETA 0:00\n");
 }
 
+TEST(Progress, ALineIsNoLongerThanTheTerminalIsWide) {
+    for (const bool is_terminal : {true, false}) {
+        Screen screen;
+        Progress::Options options = screen.options(is_terminal);
+        options.columns = 60;
+        Progress progress(1, options);
+        screen.now += 1;
+        progress.frame_done(0, "stretch 0.52 % RMS, 3.1 % max");
+        EXPECT_EQ(screen.text, is_terminal
+                                   ? "\rframe 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.\x1b[K"
+                                   : "frame 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.52 % RMS, 3.1 % max\n");
+    }
+}
+
 TEST(Progress, MessagesDoNotTearTheLine) {
     Screen screen;
     Progress progress(2, screen.options(true));

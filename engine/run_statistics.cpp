@@ -1,0 +1,105 @@
+#include "run_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+
+namespace {
+
+void add_strain(FrameValues& values, const std::string& name, const StrainStatistics& strain) {
+    if (strain.spring_count == 0) return;
+    values[name + "_rms"] = strain.rms;
+    values[name + "_max"] = strain.largest;
+    values[name + "_min"] = strain.smallest;
+}
+
+void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatistics& statistics) {
+    add_strain(values, cloth + "/stretch", statistics.stretch);
+    add_strain(values, cloth + "/shear", statistics.shear);
+    values[cloth + "/kinetic_energy_j"] = statistics.kinetic_energy;
+    values[cloth + "/potential_energy_j"] = statistics.potential_energy;
+    values[cloth + "/elastic_energy_j"] = statistics.elastic_energy;
+    values[cloth + "/center_of_mass_x_m"] = statistics.center_of_mass[0];
+    values[cloth + "/center_of_mass_y_m"] = statistics.center_of_mass[1];
+    values[cloth + "/center_of_mass_z_m"] = statistics.center_of_mass[2];
+    values[cloth + "/distance_max_m"] = statistics.largest_distance;
+    values[cloth + "/speed_max_m_s"] = statistics.largest_speed;
+    if (statistics.penetration) values[cloth + "/penetration_m"] = *statistics.penetration;
+}
+
+/// The largest value of that name over the cloths.
+std::optional<double> worst(const FrameValues& values, std::string_view name) {
+    std::optional<double> largest;
+    for (const auto& [key, value] : values)
+        if (key.ends_with(name)) largest = std::max(largest.value_or(value), value);
+    return largest;
+}
+
+std::optional<double> energy(const FrameValues& values) {
+    const auto found = values.find("energy_j");
+    return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace
+
+FrameValues frame_values(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {
+    FrameValues values;
+    double kinetic = 0, potential = 0, elastic = 0;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        add_cloth(values, model.cloths[cloth].name, cloths[cloth]);
+        kinetic += cloths[cloth].kinetic_energy;
+        potential += cloths[cloth].potential_energy;
+        elastic += cloths[cloth].elastic_energy;
+    }
+    if (const auto penetration = worst(values, "/penetration_m")) values["penetration_m"] = *penetration;
+    values["kinetic_energy_j"] = kinetic;
+    values["potential_energy_j"] = potential;
+    values["elastic_energy_j"] = elastic;
+    values["energy_j"] = kinetic + potential + elastic;
+    std::erase_if(values, [](const auto& entry) { return !std::isfinite(entry.second); });
+    return values;
+}
+
+std::optional<std::string> divergence(const SimulationModel& model, std::uint32_t frame,
+                                      const std::vector<ClothStatistics>& cloths) {
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const ClothStatistics& statistics = cloths[cloth];
+        if (statistics.non_finite_count == 0) continue;
+        const Grid& grid = model.cloths[cloth].grid;
+        return fmt::format(
+            "the simulation diverged: in frame {}, cloth '{}', the particle in column {}, row {} is not finite "
+            "({} of the cloth's {} particles are not); more substeps, weaker forces or stiffness may help",
+            frame, model.cloths[cloth].name, statistics.first_non_finite % grid.columns(),
+            statistics.first_non_finite / grid.columns(), statistics.non_finite_count, grid.particle_count());
+    }
+    return std::nullopt;
+}
+
+std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
+    const auto now = energy(values), first = energy(frames_.begin()->second);
+    return now && first ? std::optional(*now - *first) : std::nullopt;
+}
+
+std::string RunStatistics::note(std::uint32_t frame) const {
+    const FrameValues& values = frames_.at(frame);
+    std::vector<std::string> parts;
+    if (const auto rms = worst(values, "/stretch_rms"), max = worst(values, "/stretch_max"); rms && max)
+        parts.push_back(fmt::format("stretch {:.3g} % RMS, {:.3g} % max", 100 * *rms, 100 * *max));
+    if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
+    if (const auto depth = worst(values, "/penetration_m")) parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<Manifest::FrameStatistics> RunStatistics::frames() const {
+    std::vector<Manifest::FrameStatistics> list;
+    for (const auto& [frame, values] : frames_) {
+        list.push_back({frame, values});
+        if (const auto drift = energy_drift(values)) list.back().values["energy_drift_j"] = *drift;
+    }
+    return list;
+}
+
+}  // namespace drape
