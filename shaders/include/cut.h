@@ -13,15 +13,22 @@ const float not_crossed = -1.0f;
 /// Fraction along p -> q where it crosses triangle a b c, in [0, 1]; not_crossed when it does not. A degenerate
 /// triangle crosses nothing.
 SHARED float crossing_fraction(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
-    vec3 normal = ordered_cross(b - a, c - a);
-    float height_p = ordered_dot(normal, p - a);
-    float height_q = ordered_dot(normal, q - a);
+    precise vec3 edge_ab = b - a;
+    precise vec3 edge_ac = c - a;
+    vec3 normal = ordered_cross(edge_ab, edge_ac);
+    precise vec3 from_a_to_p = p - a;
+    precise vec3 from_a_to_q = q - a;
+    float height_p = ordered_dot(normal, from_a_to_p);
+    float height_q = ordered_dot(normal, from_a_to_q);
     if ((height_p < 0.0f) == (height_q < 0.0f)) return not_crossed;
     // The line p q passes the three edges on the same side.
-    vec3 along = q - p;
-    float ab = ordered_dot(along, ordered_cross(a - p, b - p));
-    float bc = ordered_dot(along, ordered_cross(b - p, c - p));
-    float ca = ordered_dot(along, ordered_cross(c - p, a - p));
+    precise vec3 along = q - p;
+    precise vec3 to_a = a - p;
+    precise vec3 to_b = b - p;
+    precise vec3 to_c = c - p;
+    float ab = ordered_dot(along, ordered_cross(to_a, to_b));
+    float bc = ordered_dot(along, ordered_cross(to_b, to_c));
+    float ca = ordered_dot(along, ordered_cross(to_c, to_a));
     bool inside = (ab >= 0.0f && bc >= 0.0f && ca >= 0.0f) || (ab <= 0.0f && bc <= 0.0f && ca <= 0.0f);
     if (!inside) return not_crossed;
     precise float drop = height_p - height_q;
