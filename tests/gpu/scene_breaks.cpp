@@ -1,0 +1,130 @@
+#include "scene_breaks.h"
+
+#include <cmath>
+
+namespace drape::test {
+
+namespace {
+
+void for_each_cloth(SimulationModel& model, void (*change)(ClothModel&)) {
+    for (ClothModel& cloth : model.cloths) change(cloth);
+}
+
+void no_collision(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.collision.count = {0, 0, 0, 0}; });
+}
+void ellipsoids_forgotten(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.collision.count.w = 0; });
+}
+void boxes_forgotten(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.collision.count.z = 0; });
+}
+void no_thickness(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.collision.contact.x = 0; });
+}
+void no_friction(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.collision.contact.y = 0; });
+}
+void colliders_still(SimulationModel& model) {
+    for (EllipsoidCollider& ellipsoid : model.scene.colliders.ellipsoids) ellipsoid.path = {};
+}
+void gravity_one_percent_off(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.force.gravity_step.y *= 1.01f; });
+}
+void no_damping(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.force.damping_loss = 0; });
+}
+void no_lift(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.wind.lift_coefficient = 0; });
+}
+void no_wind(SimulationModel& model) {
+    for_each_cloth(model,
+                   [](ClothModel& cloth) { cloth.wind.drag_coefficient = cloth.wind.lift_coefficient = 0; });
+}
+/// k h^2 becomes k h: the springs are 1 / h times too soft.
+void compliance_lacks_a_step(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (SpringWork& spring : cloth.springs)
+            spring.push.compliance /= static_cast<float>(cloth.substep_length);
+    });
+}
+void no_shear_springs(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        std::erase_if(cloth.springs, [](const SpringWork& spring) { return spring.push.channel >= 2; });
+    });
+}
+void one_diagonal_only(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        std::erase_if(cloth.springs, [](const SpringWork& spring) { return spring.push.channel == 3; });
+    });
+}
+/// The factor sqrt(2) of a diagonal's rest length.
+void diagonals_too_short(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (SpringWork& spring : cloth.springs)
+            if (spring.push.channel >= 2) spring.push.rest_length = static_cast<float>(cloth.spacing[0]);
+    });
+}
+void pins_let_go(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (std::size_t particle = 0; particle < cloth.position.size(); ++particle)
+            cloth.position[particle].w = cloth.free_weight[particle];
+    });
+}
+void pins_stay(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (DynamicPin& pin : cloth.dynamic_pins) pin.path = {};
+    });
+}
+void never_released(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (DynamicPin& pin : cloth.dynamic_pins) pin.release.reset();
+    });
+}
+
+void never_cut(SimulationModel& model) { model.scene.cutters.clear(); }
+void border_weighs_as_inside(SimulationModel& model) {
+    for_each_cloth(model, [](ClothModel& cloth) {
+        for (glsl::vec4& x : cloth.position) x.w = x.w > 0 ? 1.0f : 0.0f;
+    });
+}
+
+}  // namespace
+
+const std::vector<SceneBreak>& scene_breaks() {
+    static const std::vector<SceneBreak> breaks{
+        {"", "pins_hold", "pins let go", 2, pins_let_go},
+        {"", "mass_kept", "border weighs as inside", 2, border_weighs_as_inside},
+        {"", "cut_pieces", "never cut", to_the_end, never_cut},
+        {"cloth_on_sphere", "falls", "gravity 1 % too strong", 10, gravity_one_percent_off},
+        {"cloth_on_sphere", "penetration", "no collision", 30, no_collision},
+        {"cloth_on_sphere", "supported", "no thickness", 30, no_thickness},
+        {"cloth_on_sphere", "stretch", "compliance lacks a factor h", 60, compliance_lacks_a_step},
+        {"curtain", "pins_follow", "key-framed pins stay", 60, pins_stay},
+        {"curtain", "drawn", "key-framed pins stay", 60, pins_stay},
+        {"curtain", "stretch", "diagonals without sqrt(2)", 30, diagonals_too_short},
+        {"flag", "torque", "no lift", 60, no_lift},
+        {"flag", "blown", "no wind", 180, no_wind},
+        {"flag", "stretch", "diagonals without sqrt(2)", 30, diagonals_too_short},
+        {"four_colliders", "falls", "gravity 1 % too strong", 8, gravity_one_percent_off},
+        {"four_colliders", "penetration", "ellipsoids forgotten", 30, ellipsoids_forgotten},
+        {"four_colliders", "supported", "moving colliders stay", 120, colliders_still},
+        {"four_colliders", "stretch", "compliance lacks a factor h", 60, compliance_lacks_a_step},
+        {"hanging_sheet", "stretch_law", "no shear springs", 180, no_shear_springs},
+        {"rotating_sphere", "penetration", "no collision", 30, no_collision},
+        {"rotating_sphere", "carried", "no friction", 110, no_friction},
+        {"two_cloths", "falls", "gravity 1 % too strong", 10, gravity_one_percent_off},
+        {"two_cloths", "penetration", "boxes forgotten", 30, boxes_forgotten},
+        {"two_cloths", "supported", "no thickness", 40, no_thickness},
+        {"two_cloths", "released", "never released", 75, never_released},
+        {"two_cloths", "swing", "no damping", 120, no_damping},
+        {"two_cloths", "stretch", "compliance lacks a factor h", 30, compliance_lacks_a_step},
+        {"two_corner_drape", "falls", "gravity 1 % too strong", 4, gravity_one_percent_off},
+        {"two_corner_drape", "swing", "no damping", 60, no_damping},
+        {"two_corner_drape", "mirror", "one diagonal only", 40, one_diagonal_only},
+        {"two_corner_drape", "stretch", "compliance lacks a factor h", 60, compliance_lacks_a_step},
+    };
+    return breaks;
+}
+
+}  // namespace drape::test

@@ -1,0 +1,244 @@
+// The checks about how the cloth moves: free fall, energy, torque of the wind, mirror symmetry, friction's
+// carry.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/gust.h"
+#include "scene/motion.h"
+#include "scene_oracles.h"
+#include "support/surface_distance.h"
+
+namespace drape::test {
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+Vec3 plus(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec3 times(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Damped ballistic flight: x0 + v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
+Vec3 flown(const SceneDescription& scene, const Cloth& cloth, double t) {
+    const double c = cloth.damping;
+    const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // by a unit start velocity
+    const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // by unit gravity
+    return plus(times(gone, cloth.velocity), times(fallen, scene.gravity));
+}
+
+/// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error`
+/// metres.
+Verdict falls(const SceneRun& run, const Limits& limits) {
+    const std::size_t index = limits.index("cloth"),
+                      last = std::min(limits.index("until_frame"), run.last_frame());
+    const Cloth& cloth = run.scene.cloths.at(index);
+    double worst = 0;
+    for (std::size_t frame = 1; frame <= last; ++frame)
+        for (std::size_t particle = limits.index("from_row") * cloth.grid[0];
+             particle < run.frames[frame][index].size(); ++particle) {
+            const Vec3 moved = minus(run.at(frame, index, particle), run.at(0, index, particle));
+            worst = std::max(worst, norm(minus(moved, flown(run.scene, cloth, run.time(frame)))));
+        }
+    return {worst <= limits["error"],
+            fmt::format("{} off by {:.2e} m after falling {:.3f} m, allowed {:.2e} m", cloth.name, worst,
+                        norm(flown(run.scene, cloth, run.time(last))), limits["error"])};
+}
+
+struct Energy {
+    double kinetic, potential;  ///< J, means over the frame that follows
+};
+
+/// The kinetic energy of the mean velocities is at most the mean kinetic energy.
+Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, std::size_t cloth) {
+    Energy energy{0, 0};
+    for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
+        const Vec3 v = run.velocity_after(frame, cloth, particle);
+        const Vec3 x = times(0.5, plus(run.at(frame, cloth, particle), run.at(frame + 1, cloth, particle)));
+        energy.kinetic += 0.5 * measure.mass[particle] * dot(v, v);
+        energy.potential -= measure.mass[particle] * dot(run.scene.gravity, x);
+    }
+    return energy;
+}
+
+/// What gravity gives from `from_frame` on, less what damping takes (2 c times kinetic energy per second), is
+/// there as motion: at the fastest moment until `until_frame` the kinetic energy is `least` to `most` of it.
+/// No wind, nothing touched. The rest is strain and what the relaxation loses.
+Verdict swing(const SceneRun& run, const Limits& limits) {
+    const std::size_t cloth = limits.index("cloth"), first = limits.index("from_frame");
+    const std::size_t last = std::min(limits.index("until_frame"), run.last_frame());
+    const ClothMeasure measure(run.scene, cloth);
+    double start = 0, lost = 0, fastest = 0, share = 0, when = 0;
+    for (std::size_t frame = first; frame < last; ++frame) {
+        const Energy energy = energy_after(run, measure, frame, cloth);
+        const double step = energy.kinetic * 2 * run.scene.cloths[cloth].damping / run.scene.time.fps;
+        if (frame == first) start = energy.kinetic + energy.potential;
+        if (energy.kinetic > fastest) {
+            fastest = energy.kinetic;
+            share = energy.kinetic / (start - energy.potential - lost - 0.5 * step);
+            when = run.time(frame) + 0.5 / run.scene.time.fps;
+        }
+        lost += step;
+    }
+    return {share >= limits["least"] && share <= limits["most"],
+            fmt::format("{:.4f} of the work is motion at {:.3f} s ({:.3f} J), allowed {} to {}", share, when,
+                        fastest, limits["least"], limits["most"])};
+}
+
+/// Torque of the wind about the vertical through `pole`, N m: the scene format's force law on every triangle.
+double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corners, std::size_t frame,
+                   const Vec3& pole) {
+    const Wind& wind = run.scene.wind;
+    const Vec3 air = wind_velocity(wind, run.time(frame));
+    double torque = 0;
+    for (std::size_t first = 0; first < corners.size(); first += 3) {
+        Vec3 x[3], center{}, velocity{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            x[k] = run.at(frame, 0, corners[first + k]);
+            center = plus(center, times(1.0 / 3, x[k]));
+            velocity = plus(velocity,
+                            times(run.scene.time.fps / 6, minus(run.at(frame + 1, 0, corners[first + k]),
+                                                                run.at(frame - 1, 0, corners[first + k]))));
+        }
+        const Vec3 relative = minus(air, velocity), doubled = cross(minus(x[1], x[0]), minus(x[2], x[0]));
+        const double area = 0.5 * norm(doubled);
+        if (area == 0) continue;
+        Vec3 normal = times(0.5 / area, doubled);
+        if (dot(normal, relative) < 0) normal = times(-1, normal);
+        const Vec3 force = times(0.5 * wind.air_density * area,
+                                 plus(times((wind.drag - wind.lift) * dot(relative, normal), relative),
+                                      times(wind.lift * dot(relative, relative), normal)));
+        torque += cross(minus(center, pole), force)[1];
+    }
+    return torque;
+}
+
+/// Angular momentum about the vertical through `pole`, kg m^2/s, between a frame and the next.
+double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::size_t frame,
+                        const Vec3& pole) {
+    double sum = 0;
+    for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
+        const Vec3 x = times(0.5, plus(run.at(frame, 0, particle), run.at(frame + 1, 0, particle)));
+        sum += measure.mass[particle] * cross(minus(x, pole), run.velocity_after(frame, 0, particle))[1];
+    }
+    return sum;
+}
+
+/// A flag that is pinned along a vertical pole turns about it as the wind alone makes it: pins, springs and
+/// gravity have no torque about the pole, so dL/dt = torque - c L. From `from_frame` to `until_frame` the
+/// integral of that stays within `relative_error` of the impulse at stake, which is the integral of |torque|.
+Verdict torque(const SceneRun& run, const Limits& limits) {
+    const ClothMeasure measure(run.scene, 0);
+    const std::vector<std::uint32_t> corners = measure.grid.triangle_indices();
+    const Vec3 pole = run.at(0, 0, 0);
+    const double dt = 1 / run.scene.time.fps, c = run.scene.cloths[0].damping;
+    const std::size_t first = limits.index("from_frame"),
+                      last = std::min(limits.index("until_frame"), run.last_frame());
+    double before = angular_momentum(run, measure, first - 1, pole), expected = before, impulse = 0,
+           worst = 0;
+    for (std::size_t frame = first; frame < last; ++frame) {
+        const double now = angular_momentum(run, measure, frame, pole),
+                     wind = wind_torque(run, corners, frame, pole);
+        expected += dt * (wind - 0.5 * c * (before + now));
+        impulse += dt * std::abs(wind);
+        worst = std::max(worst, std::abs(now - expected));
+        before = now;
+    }
+    return {worst <= limits["relative_error"] * impulse && impulse > 0,
+            fmt::format("off by {:.2f} % of an impulse of {:.4f} kg m^2/s, allowed {:.2f} %",
+                        100 * worst / impulse, impulse, 100 * limits["relative_error"])};
+}
+
+/// From `from_frame` on the flag streams along the wind: its centre lies, in the mean over time, within
+/// `degrees` of the wind's direction seen from the pole. And it flutters: the free edge's middle swings
+/// sideways by `flutter` metres (standard deviation) at least.
+Verdict blown(const SceneRun& run, const Limits& limits) {
+    const ClothMeasure measure(run.scene, 0);
+    const Vec3 pole = run.at(0, 0, 0), wind = run.scene.wind.velocity;
+    const double speed = std::hypot(wind[0], wind[2]);
+    const std::size_t edge = measure.grid.particle(measure.grid.columns() - 1, measure.grid.rows() / 2);
+    double along = 0, across = 0;
+    std::vector<double> sideways;
+    for (std::size_t frame = limits.index("from_frame"); frame < run.frames.size(); ++frame) {
+        for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
+            const Vec3 r = minus(run.at(frame, 0, particle), pole);
+            along += measure.mass[particle] * (r[0] * wind[0] + r[2] * wind[2]);
+            across += measure.mass[particle] * (r[2] * wind[0] - r[0] * wind[2]);
+        }
+        const Vec3 r = minus(run.at(frame, 0, edge), pole);
+        sideways.push_back((r[2] * wind[0] - r[0] * wind[2]) / speed);
+    }
+    if (sideways.empty()) return {false, "no frames"};
+    const double angle = std::atan2(across, along) * degrees, center = mean(sideways);
+    for (double& value : sideways) value -= center;
+    const double flutter = root_mean_square(sideways);
+    return {std::abs(angle) <= limits["degrees"] && flutter >= limits["flutter"],
+            fmt::format("{:+.2f} degrees beside the wind, allowed {}; edge swings {:.4f} m, at least {}",
+                        angle, limits["degrees"], flutter, limits["flutter"])};
+}
+
+/// What is mirrored in the plane x = 0 stays so until `until_frame`: RMS distance of a particle from its
+/// partner's mirror image, metres. (The order in which springs are relaxed is not symmetric; what differs is
+/// its error.)
+Verdict mirror(const SceneRun& run, const Limits& limits) {
+    const ClothMeasure measure(run.scene, 0);
+    const Grid& grid = measure.grid;
+    double worst = 0;
+    for (std::size_t frame = 1; frame <= std::min(limits.index("until_frame"), run.last_frame()); ++frame) {
+        std::vector<double> gaps;
+        for (std::uint32_t row = 0; row < grid.rows(); ++row)
+            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+                Vec3 image = run.at(frame, 0, grid.particle(grid.columns() - 1 - column, row));
+                image[0] = -image[0];
+                gaps.push_back(norm(minus(run.at(frame, 0, grid.particle(column, row)), image)));
+            }
+        worst = std::max(worst, root_mean_square(gaps));
+    }
+    return {worst <= limits["error"],
+            fmt::format("RMS asymmetry {:.2e} m, allowed {:.2e} m", worst, limits["error"])};
+}
+
+/// The cap of cloth on top of the first sphere (rest distance from its middle under `radius` metres) turns
+/// with the sphere: never more than `lag` degrees behind or ahead.
+Verdict carried(const SceneRun& run, const Limits& limits) {
+    const SphereCollider& sphere = run.scene.colliders.spheres.at(0);
+    const auto heading = [&](std::size_t frame) {
+        const auto turn = collider_pose(sphere, run.time(frame)).rotation;
+        return std::atan2(turn[2], turn[0]);
+    };
+    double cloth_turn = 0, sphere_turn = 0, worst = 0;
+    for (std::size_t frame = 0; frame + 1 < run.frames.size(); ++frame) {
+        double swept = 0, weight = 0;
+        for (std::size_t particle = 0; particle < run.frames[frame][0].size(); ++particle) {
+            const Vec3 rest = minus(run.at(0, 0, particle), sphere.center);
+            if (std::hypot(rest[0], rest[2]) > limits["radius"]) continue;
+            const Vec3 a = minus(run.at(frame, 0, particle), sphere.center);
+            const Vec3 b = minus(run.at(frame + 1, 0, particle), sphere.center);
+            swept += a[2] * b[0] - a[0] * b[2];
+            weight += a[0] * b[0] + a[2] * b[2];
+        }
+        cloth_turn += std::atan2(swept, weight) * degrees;
+        sphere_turn += std::remainder(heading(frame + 1) - heading(frame), 2 * std::numbers::pi) * degrees;
+        worst = std::max(worst, std::abs(cloth_turn - sphere_turn));
+    }
+    return {worst <= limits["lag"] && sphere_turn > 10,
+            fmt::format("cloth turned {:.2f}, sphere {:.2f} degrees, apart by {:.2f} at most, allowed {}",
+                        cloth_turn, sphere_turn, worst, limits["lag"])};
+}
+
+}  // namespace
+
+std::vector<SceneCheck> motion_checks() {
+    return {{"falls", {"cloth", "from_row", "until_frame", "error"}, falls},
+            {"swing", {"cloth", "from_frame", "until_frame", "least", "most"}, swing},
+            {"torque", {"from_frame", "until_frame", "relative_error"}, torque},
+            {"blown", {"from_frame", "degrees", "flutter"}, blown},
+            {"mirror", {"until_frame", "error"}, mirror},
+            {"carried", {"radius", "lag"}, carried}};
+}
+
+}  // namespace drape::test

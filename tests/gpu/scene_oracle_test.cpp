@@ -1,0 +1,82 @@
+// Every shipped scene meets the oracles that its file names, and every one of them notices when the program
+// is broken.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "gpu_test.h"
+#include "scene/scene_reader.h"
+#include "scene_breaks.h"
+#include "scene_files.h"
+#include "scene_oracles.h"
+
+namespace drape {
+namespace {
+
+class SceneOracleTest : public testing::TestWithParam<std::string> {};
+
+/// The unbroken run, as far as the broken one goes, meets the oracle; the broken one does not.
+void expect_noticed(const test::SceneRun& unbroken, const test::SceneRun& broken, const Oracle& oracle,
+                    const test::SceneBreak& damage) {
+    const test::Verdict whole = test::judge(unbroken.until(broken.last_frame()), oracle);
+    EXPECT_TRUE(whole.met) << "unbroken until frame " << broken.last_frame() << ": " << whole.text;
+    const test::Verdict verdict = test::judge(broken, oracle);
+    std::printf("[ broken   ] %s: %s\n", damage.what.c_str(), verdict.text.c_str());
+    EXPECT_FALSE(verdict.met) << "does not notice: " << damage.what << ": " << verdict.text;
+}
+
+TEST_P(SceneOracleTest, IsMetAndNoticesABreak) {
+    const SceneDescription scene = test::shipped_scene(GetParam());
+    const std::uint32_t last = scene.time.frame_count - 1;
+    ASSERT_FALSE(scene.oracles.empty());
+    const test::SceneRun run = test::run_frames(scene, SimulationModel(scene), last);
+    ASSERT_EQ(run.frames.size(), scene.time.frame_count);
+    std::map<std::string, test::SceneRun> broken_runs;  // two oracles may share a broken run
+    for (const Oracle& oracle : scene.oracles) {
+        const test::Verdict verdict = test::judge(run, oracle);
+        std::printf("[ measured ] %s\n", verdict.text.c_str());
+        EXPECT_TRUE(verdict.met) << verdict.text;
+        for (const test::SceneBreak& damage : test::scene_breaks()) {
+            if (!damage.concerns(GetParam(), oracle.check)) continue;
+            const std::string key = damage.what + std::to_string(damage.last);
+            if (!broken_runs.contains(key)) {
+                SimulationModel model(scene);
+                damage.apply(model);
+                broken_runs.emplace(key, test::run_frames(scene, model, std::min(damage.last, last)));
+            }
+            expect_noticed(run, broken_runs.at(key), oracle, damage);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryScene, SceneOracleTest, testing::ValuesIn(test::shipped_scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(SceneBreakTest, EveryOracleOfEverySceneHasABreakAndEveryBreakAnOracle) {
+    std::vector<bool> used(test::scene_breaks().size());
+    for (const std::string& name : test::shipped_scene_names())
+        for (const Oracle& oracle : test::shipped_scene(name).oracles) {
+            bool breakable = false;
+            for (std::size_t i = 0; i < used.size(); ++i) {
+                if (!test::scene_breaks()[i].concerns(name, oracle.check)) continue;
+                breakable = used[i] = true;
+            }
+            EXPECT_TRUE(breakable) << name << ": " << oracle.check;
+        }
+    for (std::size_t i = 0; i < used.size(); ++i)
+        EXPECT_TRUE(used[i] || test::scene_breaks()[i].scene.empty())
+            << test::scene_breaks()[i].scene << ": " << test::scene_breaks()[i].check;
+}
+
+TEST(SceneOracleNameTest, UnknownChecksAndLimitsAreRefused) {
+    const SceneDescription scene = test::shipped_scene("hanging_sheet");
+    const test::SceneRun run{scene, {}, {}};
+    EXPECT_THROW(test::judge(run, {"looks_nice", {}}), std::invalid_argument);
+    EXPECT_THROW(test::judge(run, {"stretch_law", {}}), std::invalid_argument);
+    EXPECT_THROW(test::judge(run, {"pins_hold", {{"error", 1}}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,287 @@
+// The table of checks, and those about where the cloth is: strain, pins, contact.
+#include "scene_oracles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "scene/motion.h"
+#include "support/surface_distance.h"
+
+namespace drape::test {
+
+double Limits::operator[](const std::string& name) const {
+    for (const auto& [key, value] : oracle_.limits)
+        if (key == name) return value;
+    throw std::invalid_argument(fmt::format("oracle {}: no limit {}", oracle_.check, name));
+}
+
+Verdict judge(const SceneRun& run, const Oracle& oracle) {
+    std::vector<SceneCheck> checks = shape_checks();
+    std::ranges::move(motion_checks(), std::back_inserter(checks));
+    const auto check = std::ranges::find(checks, oracle.check, &SceneCheck::name);
+    if (check == checks.end()) throw std::invalid_argument("unknown check " + oracle.check);
+    const Limits limits(oracle);
+    for (const std::string& name : check->limits) limits[name];
+    for (const auto& [name, value] : oracle.limits)
+        if (std::ranges::find(check->limits, name) == check->limits.end())
+            throw std::invalid_argument(fmt::format("oracle {}: unknown limit {}", oracle.check, name));
+    Verdict verdict = check->judge(run, limits);
+    verdict.text = oracle.check + ": " + verdict.text;
+    return verdict;
+}
+
+namespace {
+
+/// Calls visit(cloth, pin, particle) for all pinned particles; a later pin takes what it shares with an
+/// earlier one.
+template <class Visit>
+void for_each_pinned(const SceneDescription& scene, const Visit& visit) {
+    for (std::size_t index = 0; index < scene.cloths.size(); ++index) {
+        const Cloth& cloth = scene.cloths[index];
+        std::vector<const Pin*> owner(std::size_t{cloth.grid[0]} * cloth.grid[1], nullptr);
+        for (const Pin& pin : cloth.pins)
+            for (std::uint32_t row = pin.particles.first[1]; row <= pin.particles.last[1]; ++row)
+                for (std::uint32_t column = pin.particles.first[0]; column <= pin.particles.last[0]; ++column)
+                    owner[row * cloth.grid[0] + column] = &pin;
+        for (std::size_t particle = 0; particle < owner.size(); ++particle)
+            if (owner[particle]) visit(index, *owner[particle], particle);
+    }
+}
+
+bool same_place(const SceneRun& run, std::size_t frame, std::size_t cloth, std::size_t particle) {
+    return std::memcmp(&run.frames[frame][cloth][particle], &run.frames[0][cloth][particle],
+                       3 * sizeof(float)) == 0;
+}
+
+/// Mean strain 0.65 and RMS strain 0.83 of the stretch law once the sheet hangs still (all eight passes).
+Verdict stretch_law_holds(const SceneRun& run, const Limits& limits) {
+    const std::vector<double> strains = spring_strains(run, run.last_frame(), 0, true);
+    const double law = stretch_law(run.scene, 0);
+    const double average = mean(strains) / (0.65 * law) - 1,
+                 spread = root_mean_square(strains) / (0.83 * law) - 1;
+    const double allowed = limits["relative_error"];
+    return {std::abs(average) <= allowed && std::abs(spread) <= allowed,
+            fmt::format("law {:.4e}, mean off by {:.2f} %, RMS by {:.2f} %, allowed {:.2f} %", law,
+                        100 * average, 100 * spread, 100 * allowed)};
+}
+
+/// RMS strain of all row and column springs in the last frame, every cloth, in units of the stretch law.
+Verdict stretch_within_law(const SceneRun& run, const Limits& limits) {
+    Verdict verdict{true, fmt::format("allowed {} of the law", limits["of_law"])};
+    for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+        std::vector<double> strains = spring_strains(run, run.last_frame(), cloth, true);
+        std::ranges::copy(spring_strains(run, run.last_frame(), cloth, false), std::back_inserter(strains));
+        const double measured = root_mean_square(strains), of_law = measured / stretch_law(run.scene, cloth);
+        verdict.met = verdict.met && of_law <= limits["of_law"];
+        verdict.text +=
+            fmt::format("; {}: {:.3f} (strain {:.4f})", run.scene.cloths[cloth].name, of_law, measured);
+    }
+    return verdict;
+}
+
+/// Pins without motion and release never move by a bit.
+Verdict pins_hold(const SceneRun& run, const Limits&) {
+    std::size_t pinned = 0, moved = 0;
+    for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
+        if (pin.release || !pin.path.keys.empty()) return;
+        ++pinned;
+        for (std::size_t frame = 1; frame < run.frames.size(); ++frame)
+            if (!same_place(run, frame, cloth, particle)) {
+                ++moved;
+                break;
+            }
+    });
+    return {pinned > 0 && moved == 0, fmt::format("{} of {} pins moved", moved, pinned)};
+}
+
+/// Key-framed pins are where their path takes their rest position, in every frame. One particle per pin here,
+/// so that it is its own pivot.
+Verdict pins_follow(const SceneRun& run, const Limits& limits) {
+    double worst = 0, farthest = 0;
+    for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
+        if (pin.particles.first != pin.particles.last)
+            throw std::invalid_argument("pins_follow: a pin of several particles");
+        for (std::size_t frame = 1; frame < run.frames.size(); ++frame) {
+            const Vec3 wanted = motion_at(pin.path, run.time(frame)).translation;
+            const Vec3 moved = minus(run.at(frame, cloth, particle), run.at(0, cloth, particle));
+            worst = std::max(worst, norm(minus(moved, wanted)));
+            farthest = std::max(farthest, norm(wanted));
+        }
+    });
+    return {worst <= limits["error"] && farthest > 0,
+            fmt::format("off by {:.2e} m at most over paths of {:.2f} m, allowed {:.2e} m", worst, farthest,
+                        limits["error"])};
+}
+
+/// A cloth on hooks hangs below them: horizontally its centre is theirs to within `offset` metres in the last
+/// frame, and its hem is no wider than `width` times the row of hooks.
+Verdict drawn(const SceneRun& run, const Limits& limits) {
+    const ClothMeasure measure(run.scene, 0);
+    const std::size_t last = run.last_frame();
+    double hooks = 0, hook_count = 0, left = 1e300, right = -1e300;
+    for_each_pinned(run.scene, [&](std::size_t, const Pin& pin, std::size_t particle) {
+        const double x = run.at(0, 0, particle)[0] + motion_at(pin.path, run.time(last)).translation[0];
+        hooks += x;
+        hook_count += 1;
+        left = std::min(left, x);
+        right = std::max(right, x);
+    });
+    double mass = 0, moment = 0, hem_left = 1e300, hem_right = -1e300;
+    for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
+        const double x = run.at(last, 0, particle)[0];
+        mass += measure.mass[particle];
+        moment += measure.mass[particle] * x;
+        if (particle / measure.grid.columns() + 1 < measure.grid.rows()) continue;
+        hem_left = std::min(hem_left, x);
+        hem_right = std::max(hem_right, x);
+    }
+    const double offset = moment / mass - hooks / hook_count, width = (hem_right - hem_left) / (right - left);
+    return {std::abs(offset) <= limits["offset"] && width <= limits["width"],
+            fmt::format(
+                "centre {:+.4f} m beside the hooks', allowed {}; hem {:.3f} of the hooks' width, allowed {}",
+                offset, limits["offset"], width, limits["width"])};
+}
+
+/// A pin holds to the bit until its release, and then its particle falls: `least` to `most` times what it
+/// would fall freely in `seconds`.
+Verdict released(const SceneRun& run, const Limits& limits) {
+    std::size_t count = 0, early = 0;
+    double slowest = 1e300, fastest = -1e300;
+    for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
+        if (!pin.release) return;
+        ++count;
+        for (std::size_t frame = 1; frame < run.frames.size() && run.time(frame) <= *pin.release + 1e-9;
+             ++frame)
+            early += same_place(run, frame, cloth, particle) ? 0 : 1;
+        const auto then =
+            static_cast<std::size_t>(std::lround((*pin.release + limits["seconds"]) * run.scene.time.fps));
+        const double dropped =
+            run.at(0, cloth, particle)[1] - run.at(std::min(then, run.last_frame()), cloth, particle)[1];
+        const double ratio =
+            dropped / (0.5 * norm(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
+        slowest = std::min(slowest, ratio);
+        fastest = std::max(fastest, ratio);
+    });
+    return {count > 0 && early == 0 && slowest >= limits["least"] && fastest <= limits["most"],
+            fmt::format("{} pins, {} times early, {:.3f} to {:.3f} of free fall after {} s, allowed {} to {}",
+                        count, early, slowest, fastest, limits["seconds"], limits["least"], limits["most"])};
+}
+
+/// Something was cut, and so many pieces are left in the end.
+Verdict cut_pieces(const SceneRun& run, const Limits& limits) {
+    if (run.cuts.empty()) return {false, "the scene has no cutters"};
+    std::size_t springs = 0;
+    for (const CutRecord& cut : run.cuts) springs += cut.springs;
+    return {springs > 0 && run.cuts.back().pieces == limits.index("pieces"),
+            fmt::format("{} springs cut, {} pieces, promised {}; {} crumbs", springs, run.cuts.back().pieces,
+                        limits["pieces"], run.cuts.back().crumbs)};
+}
+
+/// The particles that are not pinned weigh in the last frame what the uncut sheet gives them, by their
+/// inverse masses on the device, and as much cloth is drawn after every cut as before.
+Verdict mass_kept(const SceneRun& run, const Limits& limits) {
+    double worst = 0;
+    for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+        const ClothMeasure measure(run.scene, cloth);
+        const double inner = run.scene.cloths[cloth].areal_density * measure.spacing[0] * measure.spacing[1];
+        double expected = 0, found = 0;
+        for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
+            const float weight = run.frames.back()[cloth][particle].w;
+            if (weight == 0) continue;
+            expected += measure.mass[particle];
+            found += inner / static_cast<double>(weight);
+        }
+        worst = std::max(worst, std::abs(found / expected - 1));
+        double area = 0;
+        for (const CutRecord& cut : run.cuts) {
+            if (cut.cloth != cloth) continue;
+            if (cut.frame == 0 && area == 0) area = cut.drawn_area;
+            worst = std::max(worst, std::abs(cut.drawn_area / area - 1));
+        }
+    }
+    return {
+        worst <= limits["relative_error"] && !run.cuts.empty(),
+        fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
+}
+
+double size_of(const PlaneCollider&) { return 1; }
+double size_of(const SphereCollider& sphere) { return sphere.radius; }
+double size_of(const BoxCollider& box) { return *std::ranges::min_element(box.half_extents); }
+double size_of(const EllipsoidCollider& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
+
+/// Whether a point is too far away to touch, told without the costly distance.
+template <class Shape>
+bool out_of_reach(const Shape&, double, const Vec3&, double) {
+    return false;
+}
+bool out_of_reach(const EllipsoidCollider& ellipsoid, double time, const Vec3& x, double thickness) {
+    return norm(minus(x, collider_pose(ellipsoid, time).center)) >
+           *std::ranges::max_element(ellipsoid.radii) + thickness;
+}
+
+/// Deepest particle below a collider's surface and the cloth's thickness on top of it, in units of the
+/// collider's size (radius, least half extent; a plane's is 1 m).
+template <class List>
+double deepest(const SceneRun& run, const List& colliders) {
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const auto& collider : colliders)
+        for (std::size_t frame = 1; frame < run.frames.size(); ++frame)
+            for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+                const double thickness = run.scene.cloths[cloth].thickness, time = run.time(frame);
+                for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
+                    if (run.frames[frame][cloth][particle].w == 0) continue;
+                    const Vec3 x = run.at(frame, cloth, particle);
+                    if (out_of_reach(collider, time, x, thickness)) continue;
+                    depth = std::max(depth,
+                                     (thickness - surface_distance(collider, time, x)) / size_of(collider));
+                }
+            }
+    return depth;
+}
+
+Verdict penetration(const SceneRun& run, const Limits& limits) {
+    const Colliders& colliders = run.scene.colliders;
+    const double depths[] = {deepest(run, colliders.planes), deepest(run, colliders.spheres),
+                             deepest(run, colliders.boxes), deepest(run, colliders.ellipsoids)};
+    // Something must touch, else the statement is empty.
+    const double worst = *std::ranges::max_element(depths);
+    return {worst <= limits["depth"] && worst > -1e-3,
+            fmt::format(
+                "deepest {:.2e} (plane), {:.2e} (sphere), {:.2e} (box), {:.2e} (ellipsoid), allowed {:.2e}",
+                depths[0], depths[1], depths[2], depths[3], limits["depth"])};
+}
+
+/// The top of the cloth lies where the collider below puts it: `height` is the collider's top and the cloth's
+/// thickness; no higher than that by more than rounding, no lower than `below` (the particles miss the very
+/// top).
+Verdict supported(const SceneRun& run, const Limits& limits) {
+    double top = -1e300;
+    for (const glsl::vec4& x : run.frames.back().at(limits.index("cloth")))
+        if (x.w != 0) top = std::max(top, static_cast<double>(x.y));
+    const double above = top - limits["height"];
+    return {above <= limits["above"] && above >= -limits["below"],
+            fmt::format("top at {:.6f} m, {:+.2e} m from {}, allowed -{:.1e} to +{:.1e}", top, above,
+                        limits["height"], limits["below"], limits["above"])};
+}
+
+}  // namespace
+
+std::vector<SceneCheck> shape_checks() {
+    return {{"stretch_law", {"relative_error"}, stretch_law_holds},
+            {"stretch", {"of_law"}, stretch_within_law},
+            {"pins_hold", {}, pins_hold},
+            {"pins_follow", {"error"}, pins_follow},
+            {"drawn", {"offset", "width"}, drawn},
+            {"released", {"seconds", "least", "most"}, released},
+            {"cut_pieces", {"pieces"}, cut_pieces},
+            {"mass_kept", {"relative_error"}, mass_kept},
+            {"penetration", {"depth"}, penetration},
+            {"supported", {"cloth", "height", "above", "below"}, supported}};
+}
+
+}  // namespace drape::test

@@ -1,0 +1,133 @@
+// Every shipped scene through the whole chain, simulation and picture, under core and synchronization
+// validation (gpu_test.h fails a test during which the layer spoke).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "frame_loop.h"
+#include "gpu_test.h"
+#include "scene_files.h"
+
+namespace drape {
+namespace {
+
+constexpr std::uint32_t width = 320, height = 180;
+
+FrameLoopOptions picture_options(std::uint32_t samples) {
+    FrameLoopOptions options;
+    options.positions = true;
+    options.width = width;
+    options.height = height;
+    options.samples = samples;
+    return options;
+}
+
+struct Frames {
+    std::vector<std::uint32_t> numbers;
+    std::vector<std::vector<std::uint8_t>> pictures;
+    std::vector<std::vector<float>> positions;  ///< all cloths one after another
+};
+
+/// Frames 0 .. last, of which every `step`-th is handed out.
+Frames run(const SceneDescription& scene, std::uint32_t last, std::uint32_t step, std::uint32_t samples) {
+    const SimulationModel model(scene);
+    FrameLoop loop(test::gpu().device, model, picture_options(samples));
+    Frames frames;
+    const bool complete = loop.run(
+        last, [&](std::uint32_t frame) { return frame % step == 0; },
+        [&](const FinishedFrame& frame) {
+            frames.numbers.push_back(frame.frame);
+            frames.pictures.emplace_back(frame.rgba.begin(), frame.rgba.end());
+            auto& all = frames.positions.emplace_back();
+            for (const auto& cloth : frame.positions) all.insert(all.end(), cloth.begin(), cloth.end());
+        });
+    EXPECT_TRUE(complete);
+    return frames;
+}
+
+std::array<double, 3> without_grey(const std::array<double, 3>& color) {
+    const double grey = (color[0] + color[1] + color[2]) / 3;
+    return {color[0] - grey, color[1] - grey, color[2] - grey};
+}
+
+/// Share of the picture whose hue is that of `color`: light and shade change brightness and the checker
+/// whitens, but the direction away from grey stays. Pixels near grey have no hue.
+double share_of_hue(const std::vector<std::uint8_t>& rgba, const Vec3& color) {
+    const std::array<double, 3> wanted = without_grey(color);
+    const double wanted_size = std::hypot(wanted[0], wanted[1], wanted[2]);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const auto hue = without_grey({rgba[i] / 255.0, rgba[i + 1] / 255.0, rgba[i + 2] / 255.0});
+        const double size = std::hypot(hue[0], hue[1], hue[2]);
+        const double aligned = hue[0] * wanted[0] + hue[1] * wanted[1] + hue[2] * wanted[2];
+        if (size > 0.08 && aligned > 0.97 * size * wanted_size) ++found;
+    }
+    return static_cast<double>(found) / (static_cast<double>(rgba.size()) / 4);
+}
+
+class SceneRenderTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneRenderTest, DrawsEveryClothAtBothSampleCounts) {
+    const SceneDescription scene = test::shipped_scene(GetParam());
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const std::uint32_t last = samples == 1 ? 5 : 40, step = samples == 1 ? 5 : 20;
+        const Frames frames = run(scene, last, step, samples);
+        ASSERT_EQ(frames.numbers.size(), last / step + 1);
+        for (std::size_t i = 0; i < frames.numbers.size(); ++i) {
+            EXPECT_EQ(frames.numbers[i], i * step);
+            ASSERT_EQ(frames.pictures[i].size(), std::size_t{width} * height * 4);
+            for (const Cloth& cloth : scene.cloths) {
+                const double share = share_of_hue(frames.pictures[i], cloth.appearance.front) +
+                                     share_of_hue(frames.pictures[i], cloth.appearance.back);
+                EXPECT_GT(share, 0.01)
+                    << cloth.name << " in frame " << frames.numbers[i] << ", " << samples << " samples";
+            }
+        }
+        EXPECT_NE(frames.pictures.front(), frames.pictures.back());
+    }
+}
+
+/// The hue test above is no tautology: without its cloths the same scene has none of their colours.
+TEST_P(SceneRenderTest, ColoursAreTheCloths) {
+    SceneDescription scene = test::shipped_scene(GetParam());
+    std::vector<Vec3> colors;
+    for (Cloth& cloth : scene.cloths) {
+        colors.push_back(cloth.appearance.front);
+        colors.push_back(cloth.appearance.back);
+        cloth.appearance = {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, Pattern::plain};
+    }
+    const Frames frames = run(scene, 0, 1, 1);
+    for (const Vec3& color : colors) EXPECT_LT(share_of_hue(frames.pictures.at(0), color), 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryScene, SceneRenderTest, testing::ValuesIn(test::shipped_scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+class SameSceneTwiceTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(SameSceneTwiceTest, GivesTheSameBytes) {
+    const SceneDescription scene = test::shipped_scene(GetParam());
+    const Frames first = run(scene, 30, 10, 4), second = run(scene, 30, 10, 4);
+    ASSERT_EQ(first.numbers.size(), 4u);
+    EXPECT_EQ(first.numbers, second.numbers);
+    EXPECT_TRUE(first.pictures == second.pictures) << "pictures differ";
+    ASSERT_EQ(first.positions.size(), second.positions.size());
+    for (std::size_t i = 0; i < first.positions.size(); ++i) {
+        ASSERT_EQ(first.positions[i].size(), second.positions[i].size());
+        EXPECT_EQ(std::memcmp(first.positions[i].data(), second.positions[i].data(),
+                              first.positions[i].size() * sizeof(float)),
+                  0)
+            << "positions of frame " << first.numbers[i];
+    }
+    EXPECT_FALSE(first.positions.front() == first.positions.back()) << "nothing moved";
+    EXPECT_FALSE(first.pictures.front() == first.pictures.back()) << "nothing moved in the picture";
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryScene, SameSceneTwiceTest, testing::ValuesIn(test::shipped_scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,58 @@
+// A scene simulated on the device, and what its promises are measured with: masses, velocities, strains in
+// double precision, from the position arrays alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/schedule.h"
+
+namespace drape::test {
+
+/// A cloth after a cut (or, at frame 0, before any).
+struct CutRecord {
+    std::size_t frame, cloth;
+    std::size_t springs;  ///< cut in this frame
+    std::size_t pieces;   ///< held together by springs, of at least 1 % of the particles
+    std::size_t crumbs;   ///< smaller ones: single particles that a blade passed on all sides
+    double drawn_area;    ///< m^2 at rest
+};
+
+/// Positions of every frame from 0 on. `scene` is the scene as it was read: whatever was done to the model
+/// that ran, it is judged by what the file says.
+struct SceneRun {
+    SceneDescription scene;
+    std::vector<std::vector<std::vector<glsl::vec4>>> frames;  ///< [frame][cloth][particle]
+
+    std::vector<CutRecord> cuts;  ///< in order; one for each cloth at frame 0 when the scene has cutters
+
+    std::size_t last_frame() const { return frames.size() - 1; }
+    double time(std::size_t frame) const { return static_cast<double>(frame) / scene.time.fps; }  ///< s
+    Vec3 at(std::size_t frame, std::size_t cloth, std::size_t particle) const;                    ///< m
+    /// Mean velocity between a frame and the next one, m/s.
+    Vec3 velocity_after(std::size_t frame, std::size_t cloth, std::size_t particle) const;
+    /// The first `last` + 1 frames.
+    SceneRun until(std::size_t last) const;
+};
+
+/// Frames 0 .. last through the frame loop, positions wanted, no picture, on the validated device.
+SceneRun run_frames(const SceneDescription& scene, const SimulationModel& model, std::uint32_t last);
+
+/// What the oracles need of a cloth, computed anew from the scene's numbers.
+struct ClothMeasure {
+    ClothMeasure(const SceneDescription& scene, std::size_t cloth);
+    Grid grid;
+    double spacing[2];         ///< m
+    std::vector<double> mass;  ///< kg; 0 for a particle without cells
+};
+
+/// Strains of the springs along columns (`down`) or along rows that exist.
+std::vector<double> spring_strains(const SceneRun& run, std::size_t frame, std::size_t cloth, bool down);
+double mean(const std::vector<double>& values);
+double root_mean_square(const std::vector<double>& values);
+
+/// The relaxation's own mean strain of a hanging sheet of the cloth's N rows and height L, stretch springs
+/// only: N^2 g h^2 / (2 K L) (physics.md 2.1).
+double stretch_law(const SceneDescription& scene, std::size_t cloth);
+
+}  // namespace drape::test
