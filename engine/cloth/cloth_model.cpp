@@ -27,6 +27,11 @@ double start_displacement(double velocity, double acceleration, double damping, 
     return velocity * growth + acceleration / damping * (h - growth);
 }
 
+/// What one sweep over the three colours adds to the compliance of a smoothly bent cloth: an element is relaxed before
+/// its neighbours, whose corrections take 6, 3 and 0 lambda of its own away again; 3 on average. Measured on the
+/// cantilever: 2.2 at 16 elements, 2.7 at 32.
+constexpr double bend_sweep_compliance = 3;
+
 double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 glsl::vec4 texel(const std::array<double, 4>& v) {
@@ -49,8 +54,16 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     stiffness_constant = stiffness_constants(cloth.stiffness, spacing);
     used_stiffness = stiffness_constant.spring;
     if (cloth.stiffness.rigid) used_stiffness.fill(std::numeric_limits<double>::infinity());
+    // An axis of two particles has no elements; explicit steps need not mind them.
+    if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
+    if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
+    used_bend = cloth.stiffness.bend;
+    if (used_bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     const bool gathers = scene.solver.method == SolverMethod::explicit_steps;
-    if (!gathers) add_springs(cloth, scene.solver.iterations, options);
+    if (!gathers) {
+        add_bends(scene.solver.substeps);
+        add_springs(cloth, scene.solver.iterations, options);
+    }
     set_constants(scene, cloth);
     if (gathers) set_explicit(scene, cloth);
 }
@@ -148,6 +161,25 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
                                                                         : "one iteration per substep needs none"});
 }
 
+void ClothModel::add_bends(std::uint32_t substeps) {
+    const double h2 = substep_length * substep_length;
+    double least = std::numeric_limits<double>::infinity();
+    for (const BendPass& pass : bend_passes(grid.size())) {
+        const auto axis = static_cast<std::size_t>(pass.axis);
+        if (stiffness_constant.bend[axis] == 0 || pass.empty()) continue;
+        const double compliance = inner_mass / (stiffness_constant.bend[axis] * h2);
+        least = std::min(least, compliance);
+        bends.push_back({pass, {grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour, pass.axis,
+                                static_cast<float>(std::max(compliance - bend_sweep_compliance, 1e-20))}});
+    }
+    if (!(least < bend_sweep_compliance)) return;
+    used_bend *= least / bend_sweep_compliance;
+    skipped.push_back({name + "/full bending",
+                       fmt::format("one sweep per substep follows {:.3g} N m at {} substeps; {:.0f} substeps would "
+                                   "follow all of it", used_bend, substeps,
+                                   std::ceil(std::sqrt(bend_sweep_compliance / least) * substeps))});
+}
+
 void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth) {
     explicit_stiffness = drape::explicit_stiffness(stiffness_constant, spacing, inner_mass, substep_length,
                                                    scene.solver.strain_damping);
@@ -155,9 +187,12 @@ void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth)
     used_stiffness = {used.columns_share * stiffness_constant.spring[0], used.rows_share * stiffness_constant.spring[1],
                       used.shear_share * stiffness_constant.spring[2], used.shear_share * stiffness_constant.spring[3]};
     std::array<double, 4> scaled = used.spring;
-    for (double& value : scaled) value *= damping_mean(cloth.damping, substep_length);
+    const double mean = damping_mean(cloth.damping, substep_length);
+    for (double& value : scaled) value *= mean;
+    used_bend = used.bend_share * cloth.stiffness.bend;
     explicit_step = {grid.size(), force.damping_loss, force.force_step, force.gravity_step,
                      texel(stiffness_constant.rest_length), texel(scaled),
+                     {static_cast<float>(mean * used.bend[0]), static_cast<float>(mean * used.bend[1])},
                      static_cast<float>(scene.solver.strain_damping)};
     if (stiffness_constant.spring[2] == 0) skipped.push_back({name + "/shear springs", "zero stiffness"});
     if (!used.softened()) return;
@@ -167,9 +202,10 @@ void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth)
             ? std::string("rigid springs are as stiff as the substeps allow")
             : fmt::format("{:.0f} substeps would follow all of it", std::ceil(used.full_substeps_factor * substeps));
     skipped.push_back({name + "/full stiffness",
-                       fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on "
-                                   "diagonals at {} substeps; {}",
-                                   used_stiffness[0], used_stiffness[1], used_stiffness[2], substeps, remedy)});
+                       fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows, {:.3g} on "
+                                   "diagonals and {:.3g} N m of bending at {} substeps; {}",
+                                   used_stiffness[0], used_stiffness[1], used_stiffness[2], used_bend, substeps,
+                                   remedy)});
 }
 
 void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth) {

@@ -32,6 +32,12 @@ struct SpringWork {
     glsl::SpringPush push;  ///< first_iteration is set per iteration
 };
 
+/// One colour of one axis of bending elements with its constants.
+struct BendWork {
+    BendPass pass;
+    glsl::BendPush push;
+};
+
 /// A pin that moves or lets go; pins at rest for ever are just w = 0.
 struct DynamicPin {
     MotionPath path;
@@ -51,6 +57,7 @@ struct ClothModel {
     double inner_mass;      ///< kg of a particle with four cells
     double substep_length;  ///< s
     StiffnessConstants stiffness_constant;  ///< what the scene asks for
+    double used_bend = 0;                   ///< N m that the solver applies
     std::array<double, 4> used_stiffness;   ///< N/m that the solver applies per direction, away from borders; relax: infinite
                                           ///< when rigid
 
@@ -64,6 +71,7 @@ struct ClothModel {
     bool multiplied[4] = {}; ///< direction needs a multiplier image: compliant and iterated
 
     std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
+    std::vector<BendWork> bends;      ///< relax: likewise, once per substep before the springs
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
@@ -79,6 +87,7 @@ struct ClothModel {
     void place(const Cloth& cloth, const Vec3& gravity);
     void hold_pins(const Cloth& cloth);
     void add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options);
+    void add_bends(std::uint32_t substeps);
     void set_explicit(const SceneDescription& scene, const Cloth& cloth);
     void set_constants(const SceneDescription& scene, const Cloth& cloth);
 };

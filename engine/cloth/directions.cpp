@@ -21,4 +21,18 @@ std::vector<SpringPass> spring_passes(glsl::ivec2 grid) {
     return passes;
 }
 
+BendPass bend_pass(int axis, int colour, glsl::ivec2 grid) {
+    const glsl::ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
+    // Middles run from 1 to count - 2.
+    const auto third = [colour](int count) { return count - 2 > colour ? (count - 2 - colour + 2) / 3 : 0; };
+    return {axis, colour, {offset.x != 0 ? third(grid.x) : grid.x, offset.y != 0 ? third(grid.y) : grid.y}};
+}
+
+std::vector<BendPass> bend_passes(glsl::ivec2 grid) {
+    std::vector<BendPass> passes;
+    for (int axis = 0; axis < static_cast<int>(bend_axes.size()); ++axis)
+        for (int colour = 0; colour < bend_colour_count; ++colour) passes.push_back(bend_pass(axis, colour, grid));
+    return passes;
+}
+
 }  // namespace drape

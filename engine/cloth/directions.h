@@ -1,5 +1,5 @@
 // The spring directions as a table, and the parity passes that relax them (physics.md 1: constraints are
-// coloured, not particles). A new direction is one row here.
+// coloured, not particles); the same for bending elements. A new direction is one row here.
 #pragma once
 
 #include <array>
@@ -42,5 +42,27 @@ SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
 /// The eight passes in the order of relaxation: rows, columns, diagonals; even before odd. Empty ones (an odd
 /// pass of a two-column grid) included.
 std::vector<SpringPass> spring_passes(glsl::ivec2 grid);
+
+/// Axes along which three neighbouring particles form a bending element. Row index = channel of the stiffness image
+/// whose springs the element lies on.
+struct BendAxis {
+    std::string_view name;
+    glsl::ivec2 offset;  ///< from an element's middle to its third particle
+};
+inline constexpr std::array<BendAxis, 2> bend_axes{{{"row", {1, 0}}, {"column", {0, 1}}}};
+inline constexpr int bend_colour_count = 3;
+
+/// One dispatch of the plain schedule: every third bending element of one axis.
+struct BendPass {
+    int axis;                   ///< row of bend_axes
+    int colour;                 ///< 0 .. 2
+    glsl::ivec2 element_count;  ///< elements along columns, rows; either may be 0
+    bool empty() const { return element_count.x <= 0 || element_count.y <= 0; }
+};
+
+BendPass bend_pass(int axis, int colour, glsl::ivec2 grid);
+
+/// The six passes in the order of relaxation, empty ones included.
+std::vector<BendPass> bend_passes(glsl::ivec2 grid);
 
 }  // namespace drape

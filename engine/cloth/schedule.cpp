@@ -15,13 +15,15 @@ std::string SimulationModel::method_name() const {
 
 void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
     const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
-    const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t spring = 0) {
-        steps.push_back({kind, substep, iteration, spring});
+    const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t work = 0) {
+        steps.push_back({kind, substep, iteration, work});
     };
     if (cloth.has_release) add(StepKind::release);
     if (windy) add(StepKind::wind);
     add(StepKind::force);
     if (cloth.has_motion) add(StepKind::pin);
+    // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
+    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, 0, bend);
     for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
         for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
             add(StepKind::spring, iteration, spring);

@@ -11,13 +11,13 @@
 
 namespace drape {
 
-enum class StepKind { release, wind, force, explicit_step, pin, spring, collide, advance };
+enum class StepKind { release, wind, force, explicit_step, pin, bend, spring, collide, advance };
 
 struct Step {
     StepKind kind;
     std::uint32_t substep;
     std::uint32_t iteration;  ///< spring and collide
-    std::uint32_t spring;     ///< spring: index into ClothModel::springs
+    std::uint32_t work;       ///< spring: index into ClothModel::springs; bend: into ClothModel::bends
 };
 
 /// The whole scene, ready to be simulated.
@@ -34,8 +34,8 @@ struct SimulationModel {
     /// The method in use as a scene spells it; `auto` is resolved.
     std::string method_name() const;
     /// Steps of one frame of one cloth; at the end X += d.
-    /// relax: per substep release, wind, force, pin motion, then per iteration the springs direction by direction and
-    /// parity by parity, and collisions.
+    /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by direction
+    /// and parity by parity, and collisions.
     /// explicit: per substep release, wind, micro-step, pin motion, collisions.
     std::vector<Step> frame_steps(const ClothModel& cloth) const;
     /// What no cloth of this scene needs, and what each cloth does not need.

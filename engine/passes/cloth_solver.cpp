@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "passes/bend_pass.h"
 #include "passes/collision_pass.h"
 #include "passes/cut_pass.h"
 #include "passes/explicit_pass.h"
@@ -128,6 +129,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::force: return add_force(graph, pipelines_, state, step);
         case StepKind::explicit_step: return add_explicit_step(graph, pipelines_, state, step);
         case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
+        case StepKind::bend: return add_bend(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
         case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
         case StepKind::advance: return add_advance(graph, pipelines_, state);

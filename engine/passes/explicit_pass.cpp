@@ -43,9 +43,11 @@ const vulkan::ShaderInterface interfaces[2][2] = {
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const ClothModel& model = *state.model;
     const bool wind = state.wind_force.valid();
-    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = model.explicit_step.stiffness.z > 0 ? 1 : 0;
+    const glsl::ExplicitPush& constants = model.explicit_step;
+    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = constants.stiffness.z > 0 ? 1 : 0,
+                        has_bend = constants.bend.x > 0 || constants.bend.y > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(interfaces[model.masked][wind], {{0, advances}, {1, has_shear}});
+        pipelines.get(interfaces[model.masked][wind], {{0, advances}, {1, has_shear}, {2, has_bend}});
     graph.add_pass(
         state.step_name("explicit step", step),
         [&](graph::PassSetup& setup) {

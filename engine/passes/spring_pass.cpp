@@ -32,7 +32,7 @@ const vulkan::ShaderInterface interfaces[2][2] = {
 }  // namespace
 
 void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const SpringWork& work = state.model->springs[step.spring];
+    const SpringWork& work = state.model->springs[step.work];
     const auto direction = static_cast<std::size_t>(work.pass.direction);
     const bool has_multiplier = state.model->multiplied[direction];
     const vulkan::ComputePipeline& pipeline = pipelines.get(interfaces[state.model->masked][has_multiplier]);

@@ -36,7 +36,16 @@ constexpr vulkan::MemberLayout explicit_push_members[] = {
     {"gravity_step", offsetof(ExplicitPush, gravity_step)},
     {"rest_length", offsetof(ExplicitPush, rest_length)},
     {"stiffness", offsetof(ExplicitPush, stiffness)},
+    {"bend", offsetof(ExplicitPush, bend)},
     {"strain_damping", offsetof(ExplicitPush, strain_damping)},
+};
+constexpr vulkan::MemberLayout bend_push_members[] = {
+    {"grid", offsetof(BendPush, grid)},
+    {"element_count", offsetof(BendPush, element_count)},
+    {"axis", offsetof(BendPush, axis)},
+    {"colour", offsetof(BendPush, colour)},
+    {"channel", offsetof(BendPush, channel)},
+    {"compliance", offsetof(BendPush, compliance)},
 };
 constexpr vulkan::MemberLayout wind_push_members[] = {
     {"grid", offsetof(WindPush, grid)},
@@ -115,6 +124,7 @@ constexpr vulkan::MemberLayout cut_vertex_members[] = {
 const vulkan::StructLayout spring_push{"SpringPush", sizeof(SpringPush), spring_push_members};
 const vulkan::StructLayout force_push{"ForcePush", sizeof(ForcePush), force_push_members};
 const vulkan::StructLayout explicit_push{"ExplicitPush", sizeof(ExplicitPush), explicit_push_members};
+const vulkan::StructLayout bend_push{"BendPush", sizeof(BendPush), bend_push_members};
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};

@@ -8,6 +8,7 @@ namespace drape::glsl {
 
 #include "include/vector.h"
 
+#include "include/bend.h"
 #include "include/colliders.h"
 #include "include/cut.h"
 #include "include/explicit.h"

@@ -40,6 +40,7 @@ class Twin {
     void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
              std::uint32_t substep);
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);
+    void bend(const ClothModel& model, TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void advance(TwinCloth& state);
 

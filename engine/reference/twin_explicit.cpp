@@ -17,30 +17,47 @@ struct Before {
     const TwinCloth& state;
     bool advance;
 
-    vec3 edge(std::size_t from, std::size_t to) const {
-        const vec3 first = xyz(state.position[from]), second = xyz(state.position[to]);
-        return advance ? spring_edge(first, second, xyz(state.displacement[from]), xyz(state.displacement[to]))
+    std::size_t index(ivec2 p) const { return at(model.grid, p); }
+    vec3 edge(ivec2 from, ivec2 to) const {
+        const vec3 first = xyz(state.position[index(from)]), second = xyz(state.position[index(to)]);
+        return advance ? spring_edge(first, second, xyz(state.displacement[index(from)]),
+                                     xyz(state.displacement[index(to)]))
                        : second - first;
     }
-    float share(ivec2 here, ivec2 there, ivec4 around) const {
-        const ivec2 owner = around.w == 1 ? here : there;
-        return model.masked ? component(model.stiffness[at(model.grid, owner)], around.z)
-                            : border_stiffness(owner, {around.x, around.y}, model.grid.size());
+    float share(ivec2 owner, ivec2 offset, int channel) const {
+        return model.masked ? component(model.stiffness[index(owner)], channel)
+                            : border_stiffness(owner, offset, model.grid.size());
     }
-    vec3 pull(ivec2 here) const {
+    vec3 with_springs(vec3 sum, ivec2 here) const {
         const ExplicitPush& push = model.explicit_step;
-        const std::size_t i = at(model.grid, here);
-        vec3 sum = empty_sum();
         for (int k = 0; k < neighbour_count; ++k) {
             const ivec4 around = neighbour(k);
             if (around.z >= 2 && push.stiffness.z == 0.0f) continue;
-            const ivec2 there{here.x + around.x, here.y + around.y};
+            const ivec2 offset{around.x, around.y}, there{here.x + around.x, here.y + around.y};
             if (!inside(there, push.grid)) continue;
-            const std::size_t j = at(model.grid, there);
-            const vec3 closing = xyz(state.displacement[j]) - xyz(state.displacement[i]);
-            const float stiffness = component(push.stiffness, around.z) * share(here, there, around);
-            sum = add_pull(sum, edge(i, j), closing, component(push.rest_length, around.z), stiffness,
+            const vec3 closing = xyz(state.displacement[index(there)]) - xyz(state.displacement[index(here)]);
+            const float stiffness =
+                component(push.stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
+            sum = add_pull(sum, edge(here, there), closing, component(push.rest_length, around.z), stiffness,
                            push.strain_damping);
+        }
+        return sum;
+    }
+    vec3 with_element(vec3 sum, ivec2 middle, int axis, float factor) const {
+        const ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
+        const ivec2 first{middle.x - offset.x, middle.y - offset.y}, third{middle.x + offset.x, middle.y + offset.y};
+        if (!inside(first, model.grid.size()) || !inside(third, model.grid.size())) return sum;
+        const float shared = bend_share(share(first, offset, axis), share(middle, offset, axis));
+        return add_bend(sum, second_difference(edge(middle, first), edge(middle, third)), factor * shared);
+    }
+    vec3 with_bending(vec3 sum, ivec2 here) const {
+        for (int axis = 0; axis < 2; ++axis) {
+            const float bend = axis == 0 ? model.explicit_step.bend.x : model.explicit_step.bend.y;
+            if (bend == 0.0f) continue;
+            const ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
+            sum = with_element(sum, {here.x - offset.x, here.y - offset.y}, axis, -bend);
+            sum = with_element(sum, here, axis, 2.0f * bend);
+            sum = with_element(sum, {here.x + offset.x, here.y + offset.y}, axis, -bend);
         }
         return sum;
     }
@@ -69,7 +86,7 @@ void Twin::explicit_step(const ClothModel& model, TwinCloth& state, bool advance
             if (position.w == 0.0f) continue;
             const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
             const vec3 increment =
-                explicit_increment(displacement, xyz(push.gravity_step), applied, before.pull({x, y}), position.w,
+                explicit_increment(displacement, xyz(push.gravity_step), applied, before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
                                    push.force_step, push.damping_loss);
             const CompensatedSum stepped = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
             displacement_out[i] = texel(stepped.value);

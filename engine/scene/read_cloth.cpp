@@ -67,9 +67,7 @@ void read_stiffness(SceneNode node, Stiffness& stiffness) {
     node.open_object(ObjectKind::stiffness);
     node.member("stretch").read(stiffness.stretch, not_negative);
     node.member("shear").read(stiffness.shear, not_negative);
-    const SceneNode bend = node.member("bend");
-    if (bend.read(stiffness.bend, not_negative) && stiffness.bend > 0.0)
-        bend.fail("bending is not supported yet: set bend to 0");
+    node.member("bend").read(stiffness.bend, not_negative);
 }
 
 bool read_particle(const SceneNode& node, const std::array<std::uint32_t, 2>& grid,

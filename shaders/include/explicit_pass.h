@@ -5,6 +5,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;
 layout(constant_id = 1) const bool has_shear = false;
+layout(constant_id = 2) const bool has_bend = false;
 layout(push_constant) uniform Push { ExplicitPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
@@ -21,42 +22,73 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D stiffness_image;
 #endif
 
-/// What the gathers share: this particle, and its springs' shares where it is their first particle.
-struct Center {
+struct Particle {
     ivec2 texel;
     vec3 position;
     vec3 displacement;
-    vec4 shares;
+    vec4 shares;  // of this particle's own springs; masked only
 };
 
 bool inside(ivec2 texel) {
     return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y;
 }
 
-vec3 edge_to(Center center, vec3 position, vec3 displacement) {
-    if (advance) return spring_edge(center.position, position, center.displacement, displacement);
-    precise vec3 edge = position - center.position;
+/// The particle of a texel inside the grid.
+Particle particle_at(ivec2 texel) {
+    Particle particle = Particle(texel, imageLoad(position_in, texel).xyz, imageLoad(displacement_in, texel).xyz,
+                                 vec4(0.0f));
+#ifdef MASKED
+    particle.shares = imageLoad(stiffness_image, texel);
+#endif
+    return particle;
+}
+
+vec3 edge_between(Particle from, Particle to) {
+    if (advance) return spring_edge(from.position, to.position, from.displacement, to.displacement);
+    precise vec3 edge = to.position - from.position;
     return edge;
 }
 
-float share_of(Center center, ivec2 there, ivec4 around) {
+float share_of(Particle owner, ivec2 offset, int channel) {
 #ifdef MASKED
-    if (around.w == 1) return center.shares[around.z];
-    return imageLoad(stiffness_image, there)[around.z];
+    return owner.shares[channel];
 #else
-    return border_stiffness(around.w == 1 ? center.texel : there, around.xy, push.grid);
+    return border_stiffness(owner.texel, offset, push.grid);
 #endif
 }
 
-vec3 gather(vec3 sum, Center center, ivec4 around) {
+vec3 gather(vec3 sum, Particle center, ivec4 around) {
     if (around.z >= 2 && !has_shear) return sum;
-    ivec2 there = center.texel + around.xy;
-    if (!inside(there)) return sum;
-    vec3 displacement = imageLoad(displacement_in, there).xyz;
-    vec3 edge = edge_to(center, imageLoad(position_in, there).xyz, displacement);
-    precise vec3 closing = displacement - center.displacement;
-    precise float stiffness = push.stiffness[around.z] * share_of(center, there, around);
-    return add_pull(sum, edge, closing, push.rest_length[around.z], stiffness, push.strain_damping);
+    if (!inside(center.texel + around.xy)) return sum;
+    Particle there = particle_at(center.texel + around.xy);
+    precise vec3 closing = there.displacement - center.displacement;
+    float share = around.w == 1 ? share_of(center, around.xy, around.z) : share_of(there, around.xy, around.z);
+    precise float stiffness = push.stiffness[around.z] * share;
+    return add_pull(sum, edge_between(center, there), closing, push.rest_length[around.z], stiffness,
+                    push.strain_damping);
+}
+
+vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, int channel, float factor) {
+    ivec2 axis = third.texel - middle.texel;
+    float share = bend_share(share_of(first, axis, channel), share_of(middle, axis, channel));
+    vec3 difference = second_difference(edge_between(middle, first), edge_between(middle, third));
+    precise float scaled = factor * share;
+    return add_bend(sum, difference, scaled);
+}
+
+/// The up to three bending elements of one axis: before, after and around this particle.
+vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend) {
+    if (bend == 0.0f) return sum;
+    ivec2 back = center.texel - axis, ahead = center.texel + axis;
+    bool has_back = inside(back), has_ahead = inside(ahead);
+    Particle before = center, after = center;
+    if (has_back) before = particle_at(back);
+    if (has_ahead) after = particle_at(ahead);
+    if (inside(back - axis)) sum = gather_element(sum, particle_at(back - axis), before, center, channel, -bend);
+    precise float twice = 2.0f * bend;
+    if (has_back && has_ahead) sum = gather_element(sum, before, center, after, channel, twice);
+    if (inside(ahead + axis)) sum = gather_element(sum, center, after, particle_at(ahead + axis), channel, -bend);
+    return sum;
 }
 
 void main() {
@@ -76,7 +108,7 @@ void main() {
         imageStore(displacement_out, texel, vec4(displacement, 0.0f));
         return;
     }
-    Center center = Center(texel, position.xyz, displacement, vec4(0.0f));
+    Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
 #ifdef MASKED
     center.shares = imageLoad(stiffness_image, texel);
 #endif
@@ -89,6 +121,10 @@ void main() {
     pull = gather(pull, center, neighbour(5));
     pull = gather(pull, center, neighbour(6));
     pull = gather(pull, center, neighbour(7));
+    if (has_bend) {
+        pull = gather_bend(pull, center, ivec2(1, 0), 0, push.bend.x);
+        pull = gather_bend(pull, center, ivec2(0, 1), 1, push.bend.y);
+    }
     vec3 force = vec3(0.0f, 0.0f, 0.0f);
 #ifdef WINDY
     force = imageLoad(wind_force, texel).xyz;

@@ -40,7 +40,18 @@ struct ExplicitPush {
     vec4 gravity_step;     // xyz: phi h^2 g, metres; w unused
     vec4 rest_length;      // m
     vec4 stiffness;        // phi k h^2 / m_inner, dimensionless, softened where the step would not be stable
+    vec2 bend;             // phi b h^2 / m_inner: elements along columns (a row's), along rows
     float strain_damping;  // kappa: strain-rate damping is kappa k h
+};
+
+/// One colour of the bending elements of one axis (engine/cloth/directions.h).
+struct BendPush {
+    ivec2 grid;
+    ivec2 element_count;  // elements of this pass along columns, rows
+    ivec2 axis;           // (1, 0): three particles of a row, (0, 1): of a column
+    int colour;           // 0, 1, 2
+    int channel;          // of the stiffness image: 0 row, 1 column
+    float compliance;     // m_inner / (b h^2), dimensionless, > 0
 };
 
 struct WindPush {

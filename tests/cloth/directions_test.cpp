@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -58,6 +59,29 @@ TEST_P(DirectionTable, HoldsEverySpringOnceAndNoParticleTwiceInAPass) {
     const std::set<Spring> expected = expected_springs(grid);
     EXPECT_EQ(seen.size(), expected.size());
     for (const Spring& spring : expected) EXPECT_EQ(seen[spring], 1);
+}
+
+TEST_P(DirectionTable, HoldsEveryBendingElementOnceAndNoParticleTwiceInAPass) {
+    const glsl::ivec2 grid = GetParam();
+    std::map<std::tuple<int, int, int>, int> seen;  // axis, middle
+    for (const BendPass& pass : bend_passes(grid)) {
+        const glsl::ivec2 offset = bend_axes[static_cast<std::size_t>(pass.axis)].offset;
+        std::set<std::pair<int, int>> particles;
+        for (int y = 0; y < pass.element_count.y; ++y)
+            for (int x = 0; x < pass.element_count.x; ++x) {
+                const glsl::ivec2 middle = glsl::bend_middle({x, y}, offset, pass.colour);
+                for (int k = -1; k <= 1; ++k) {
+                    const glsl::ivec2 p{middle.x + k * offset.x, middle.y + k * offset.y};
+                    ASSERT_TRUE(p.x >= 0 && p.y >= 0 && p.x < grid.x && p.y < grid.y);
+                    ASSERT_TRUE(particles.insert({p.x, p.y}).second) << "particle " << p.x << "," << p.y << " twice";
+                }
+                ++seen[{pass.axis, middle.x, middle.y}];
+            }
+    }
+    const auto inner = [](int count) { return static_cast<std::size_t>(std::max(count - 2, 0)); };
+    EXPECT_EQ(seen.size(), inner(grid.x) * static_cast<std::size_t>(grid.y) +
+                               inner(grid.y) * static_cast<std::size_t>(grid.x));
+    for (const auto& [element, count] : seen) EXPECT_EQ(count, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grids, DirectionTable,

@@ -70,7 +70,8 @@ TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
     };
     // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4): 20 sqrt(118.8) = 218.01 substeps.
     EXPECT_EQ(note(scene),
-              "explicit steps follow 8.42 N/m along columns, 8.42 along rows and 0.842 on diagonals at 20 substeps; "
+              "explicit steps follow 8.42 N/m along columns, 8.42 along rows, 0.842 on diagonals and 0 N m of "
+              "bending at 20 substeps; "
               "219 substeps would follow all of it");
     scene.solver.substeps = 219;
     EXPECT_EQ(note(scene), "none");
@@ -78,6 +79,42 @@ TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
     EXPECT_NE(note(scene), "none");
     scene.cloths[0].stiffness.rigid = true;
     EXPECT_NE(note(scene).find("rigid springs are as stiff as the substeps allow"), std::string::npos);
+}
+
+TEST(BendStiffnessTest, RelaxationTakesOffWhatItsSweepAddsAndSaysWhatItFollows) {
+    SceneDescription scene = test::sheet(65, 65, 1, 1, 20);
+    Cloth& cloth = scene.cloths[0];
+    const double cell = 1.0 / 64, mass = cloth.areal_density * cell * cell, h = 1.0 / 1200;
+    const auto rigidity = [&](double compliance) { return mass * cell * cell / (compliance * h * h); };
+    const auto note = [&] {
+        for (const SkippedWork& work : ClothModel(scene, 0).skipped)
+            if (work.what == "sheet/full bending") return work.reason;
+        return std::string("none");
+    };
+    cloth.stiffness.bend = rigidity(60);
+    const ClothModel model(scene, 0);
+    ASSERT_EQ(model.bends.size(), 6u);
+    EXPECT_FLOAT_EQ(model.bends[0].push.compliance, 57);
+    EXPECT_EQ(model.used_bend, cloth.stiffness.bend);
+    EXPECT_EQ(note(), "none");
+    cloth.stiffness.bend = rigidity(0.75);  // a quarter of what a sweep can do: twice as many substeps
+    EXPECT_NEAR(ClothModel(scene, 0).used_bend, rigidity(3), 1e-12);
+    EXPECT_NE(note().find("40 substeps would follow all of it"), std::string::npos) << note();
+    cloth.stiffness.bend = 0;
+    EXPECT_TRUE(ClothModel(scene, 0).bends.empty());
+}
+
+TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {
+    const double mass = 2e-5;
+    for (const double bend : {1e-6, 1e-3, 1.0})
+        for (const double h : {1e-5, 1e-4, 1e-3}) {
+            const StiffnessConstants wanted = stiffness_constants({false, 1000, 100, bend}, square);
+            const ExplicitStiffness used = explicit_stiffness(wanted, square, mass, h, 0.2);
+            const double q = 4 * (used.bend[0] + used.bend[1]), s = used.spring[0] + used.spring[2];
+            EXPECT_LE(q, 0.3 * (1 + 1e-12));
+            EXPECT_LE(1.4 * s + 0.5 * q, 0.45 * (1 + 1e-12));
+            EXPECT_NEAR(used.bend[0], wanted.bend[0] * h * h / mass * used.bend_share, 1e-12);
+        }
 }
 
 }  // namespace

@@ -56,6 +56,19 @@ TEST(TwinExplicitTest, SoftenedSpringsWithoutShear) {
     compare(scene);
 }
 
+TEST(TwinExplicitTest, Bending) {
+    SceneDescription scene = everything_explicit();
+    scene.cloths[0].stiffness.bend = 1e-4;
+    compare(scene);
+}
+
+TEST(TwinExplicitTest, SoftenedBendingWithHoles) {
+    SceneDescription scene = everything_explicit();
+    scene.cloths[0].stiffness.bend = 0.1;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
 TEST(TwinExplicitTest, PlainHangingSheet) {
     SceneDescription scene = test::sheet(65, 33, 1, 0.5, test::substep_count);
     scene.solver.method = SolverMethod::explicit_steps;

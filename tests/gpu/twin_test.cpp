@@ -42,6 +42,20 @@ TEST(TwinTest, HolesAndTwoCloths) {
     compare(scene);
 }
 
+TEST(TwinTest, Bending) {
+    SceneDescription scene = everything();
+    scene.cloths[0].stiffness.bend = 1e-4;
+    scene.solver.iterations = 2;
+    compare(scene);
+}
+
+TEST(TwinTest, BendingWithHoles) {
+    SceneDescription scene = everything();
+    scene.cloths[0].stiffness.bend = 1e-3;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
 TEST(TwinTest, PlainHangingSheet) {
     SceneDescription scene = test::sheet(65, 33, 1, 0.5, substep_count);
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};

@@ -1,6 +1,7 @@
 // Double-precision measures of a twin's cloth: positions with what rounding kept, energies, momentum.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/twin.h"
@@ -43,9 +44,32 @@ inline double mass_of(const ClothModel& model, std::size_t i) {
     return w > 0 ? model.inner_mass / static_cast<double>(w) : 0.0;
 }
 
+/// Calls visit(first, middle, third, axis, share) for every bending element of a cloth.
+template <class Visit>
+void for_bends(const ClothModel& model, const Visit& visit) {
+    const glsl::ivec2 size = model.grid.size();
+    for (std::size_t axis = 0; axis < bend_axes.size(); ++axis)
+        for (int y = bend_axes[axis].offset.y; y + bend_axes[axis].offset.y < size.y; ++y)
+            for (int x = bend_axes[axis].offset.x; x + bend_axes[axis].offset.x < size.x; ++x) {
+                const auto particle = [&](int k) {
+                    return glsl::ivec2{x + k * bend_axes[axis].offset.x, y + k * bend_axes[axis].offset.y};
+                };
+                const auto index = [&](glsl::ivec2 p) {
+                    return model.grid.particle(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
+                };
+                const auto share = [&](glsl::ivec2 p) {
+                    const glsl::vec4 shares =
+                        model.grid.spring_shares(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y));
+                    return static_cast<double>(axis == 0 ? shares.x : shares.y);
+                };
+                visit(index(particle(-1)), index(particle(0)), index(particle(1)), axis,
+                      std::min(share(particle(-1)), share(particle(0))));
+            }
+}
+
 struct Energy {
-    double kinetic = 0, gravity = 0, elastic = 0;
-    double total() const { return kinetic + gravity + elastic; }
+    double kinetic = 0, gravity = 0, elastic = 0, bending = 0;
+    double total() const { return kinetic + gravity + elastic + bending; }
 };
 
 /// J, with the stiffness that the solver uses. The velocity is the last substep's mean, half a substep early.
@@ -64,6 +88,14 @@ inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const T
         const double stretch = distance(position_of(state, first), position_of(state, second)) -
                                model.stiffness_constant.rest_length[direction];
         energy.elastic += 0.5 * share * model.used_stiffness[direction] * stretch * stretch;
+    });
+    const double wanted = scene.scene.cloths[cloth].stiffness.bend;
+    for_bends(model, [&](std::size_t first, std::size_t middle, std::size_t third, std::size_t axis, double share) {
+        const Vec3 a = position_of(state, first), b = position_of(state, middle), c = position_of(state, third);
+        const double difference = std::hypot(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1], a[2] - 2 * b[2] + c[2]);
+        if (wanted > 0)
+            energy.bending += 0.5 * share * model.stiffness_constant.bend[axis] * (model.used_bend / wanted) *
+                              difference * difference;
     });
     return energy;
 }

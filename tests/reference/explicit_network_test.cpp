@@ -1,0 +1,64 @@
+// One explicit micro-step feels the forces of the double-precision network: minus its energy's gradient.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "reference/spring_network.h"
+#include "reference/twin.h"
+#include "support/sheet_state.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+/// Largest difference of a particle's force from the network's, relative to the largest force.
+double force_error(const SceneDescription& scene) {
+    const SimulationModel model(scene);
+    EXPECT_FALSE(model.cloths[0].explicit_stiffness.softened());
+    Twin twin(model);
+    TwinCloth& state = twin.cloth(0);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> noise(-0.02f, 0.02f);
+    std::vector<Vec3> position;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        glsl::vec4& x = state.position[i];
+        x = {x.x + noise(random), x.y + noise(random), x.z + noise(random), x.w};
+        state.displacement[i] = {};
+        position.push_back(test::position_of(state, i));
+    }
+    const SpringNetwork network(scene, 0);
+    const std::vector<Vec3> gradient = network.gradient(position);
+    twin.run_step(0, {StepKind::explicit_step, 0, 0, 0}, frame_inputs(model, 1));
+    const double h = model.cloths[0].substep_length;
+    double largest = 0, worst = 0;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        if (!(state.position[i].w > 0)) continue;
+        const Vec3 moved = test::displacement_of(state, i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double force = moved[k] * test::mass_of(model.cloths[0], i) / (h * h);
+            largest = std::max(largest, std::abs(force));
+            worst = std::max(worst, std::abs(force + gradient[i][k]));
+        }
+    }
+    return worst / largest;
+}
+
+TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForces) {
+    SceneDescription scene = test::sheet(14, 11, 1.0, 0.6, 100);  // cells are not square
+    scene.solver.method = SolverMethod::explicit_steps;
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins = {test::pin_box(3, 0, 5, 1)};
+    cloth.holes = {{{2, 3}, {5, 6}}, {{9, 7}, {13, 10}}};
+    for (const Stiffness& stiffness : {Stiffness{false, 80, 0, 0}, Stiffness{false, 80, 30, 0},
+                                       Stiffness{false, 0, 0, 1e-2}, Stiffness{false, 80, 30, 1e-2}}) {
+        cloth.stiffness = stiffness;
+        const double error = force_error(scene);
+        std::printf("[ measured ] stretch %g, shear %g, bend %g: largest error of a force %.1e of the largest\n",
+                    stiffness.stretch, stiffness.shear, stiffness.bend, error);
+        EXPECT_LE(error, 1e-5);
+    }
+}
+
+}  // namespace
+}  // namespace drape
