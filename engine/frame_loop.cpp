@@ -126,7 +126,7 @@ void FrameLoop::rebuild_resources() {
 void FrameLoop::build(FrameKind kind) {
     Frame& frame = frames_[static_cast<std::size_t>(kind)];
     const bool output = plain(kind) != FrameKind::simulate;
-    solver_.declare(frame.graph, output && options_.draw);
+    solver_.declare(frame.graph, {.drawing = output && options_.draw, .statistics = output && options_.statistics});
     if (plain(kind) != FrameKind::initial) solver_.add_simulation(frame.graph);
     if (searches_cuts(kind)) {
         solver_.add_cuts(frame.graph);

@@ -19,6 +19,10 @@ void add_strain(FrameValues& values, const std::string& name, const StrainStatis
 void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatistics& statistics) {
     add_strain(values, cloth + "/stretch", statistics.stretch);
     add_strain(values, cloth + "/shear", statistics.shear);
+    if (statistics.stretch.spring_count > 0) {
+        values[cloth + "/stretch_error_rms"] = statistics.stretch_error_rms;
+        values[cloth + "/stretch_error_max"] = statistics.stretch_error_max;
+    }
     values[cloth + "/kinetic_energy_j"] = statistics.kinetic_energy;
     values[cloth + "/potential_energy_j"] = statistics.potential_energy;
     values[cloth + "/elastic_energy_j"] = statistics.elastic_energy;
@@ -88,6 +92,8 @@ std::string RunStatistics::note(std::uint32_t frame) const {
     std::vector<std::string> parts;
     if (const auto rms = worst(values, "/stretch_rms"), max = worst(values, "/stretch_max"); rms && max)
         parts.push_back(fmt::format("stretch {:.3g} % RMS, {:.3g} % max", 100 * *rms, 100 * *max));
+    if (const auto error = worst(values, "/stretch_error_rms"))
+        parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
     if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
     if (const auto depth = worst(values, "/penetration_m")) parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));
     return fmt::format("{}", fmt::join(parts, ", "));

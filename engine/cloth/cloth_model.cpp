@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "fmt/format.h"
@@ -59,7 +60,7 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
     used_bend = cloth.stiffness.bend;
     if (used_bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
-    const bool gathers = scene.solver.method == SolverMethod::explicit_steps;
+    gathers = scene.solver.method == SolverMethod::explicit_steps;
     if (!gathers) {
         add_bends(scene.solver.substeps);
         add_springs(cloth, scene.solver.iterations, options);
@@ -151,13 +152,13 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
             continue;
         }
         const bool compliant = !cloth.stiffness.rigid;
-        multiplied[pass.direction] = compliant && (iterations > 1 || !options.skip);
+        carries_tension[pass.direction] = compliant && (iterations > 1 || !options.skip);
         const float compliance = compliant ? static_cast<float>(inner_mass / (constant * h2)) : 0.0f;
         springs.push_back({pass, {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
                                   static_cast<float>(rest), compliance, pass.direction, 1}});
     }
-    if (!multiplied[0] && !multiplied[1] && !multiplied[2] && !multiplied[3])
-        skipped.push_back({name + "/multipliers", cloth.stiffness.rigid ? "rigid springs need none"
+    if (std::ranges::none_of(carries_tension, std::identity()))
+        skipped.push_back({name + "/tension between iterations", cloth.stiffness.rigid ? "rigid springs need none"
                                                                         : "one iteration per substep needs none"});
 }
 
@@ -194,6 +195,10 @@ void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth)
                      texel(stiffness_constant.rest_length), texel(scaled),
                      {static_cast<float>(mean * used.bend[0]), static_cast<float>(mean * used.bend[1])},
                      static_cast<float>(scene.solver.strain_damping)};
+    tension = {grid.size(),
+               {static_cast<float>(stiffness_constant.rest_length[0]), static_cast<float>(stiffness_constant.rest_length[1])},
+               {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
+               explicit_step.strain_damping, 0};
     if (stiffness_constant.spring[2] == 0) skipped.push_back({name + "/shear springs", "zero stiffness"});
     if (!used.softened()) return;
     const std::uint32_t substeps = scene.solver.substeps;

@@ -21,7 +21,7 @@ struct SkippedWork {
 };
 
 struct ModelOptions {
-    /// false: keep the exact skips' work (empty parities, masks of whole cloths, multipliers of single
+    /// false: keep the exact skips' work (empty parities, masks of whole cloths, tensions of single
     /// iterations) to prove that skipping changes no bit.
     bool skip = true;
 };
@@ -68,7 +68,7 @@ struct ClothModel {
 
     bool masked = false;     ///< holes: stiffness and cell images exist
     std::vector<glsl::vec4> stiffness;  ///< when masked: share per direction, by first particle
-    bool multiplied[4] = {}; ///< direction needs a multiplier image: compliant and iterated
+    bool carries_tension[4] = {};  ///< relax: direction's tension goes from iteration to iteration: compliant, iterated
 
     std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
     std::vector<BendWork> bends;      ///< relax: likewise, once per substep before the springs
@@ -76,9 +76,11 @@ struct ClothModel {
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
 
+    bool gathers = false;               ///< explicit: particles gather what their springs do
     glsl::ForcePush force;              ///< relax
     glsl::ExplicitPush explicit_step{};   ///< explicit
     ExplicitStiffness explicit_stiffness{};  ///< explicit: what the step uses of the stiffness
+    glsl::TensionPush tension{};          ///< explicit
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
     std::vector<SkippedWork> skipped;

@@ -53,6 +53,10 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
     // Adding +0 turns the -0 of an empty sum into 0.
     statistics.stretch = strain_statistics(record.counts.z, record.squares.x + 0.0, record.strains.x, record.strains.z);
     statistics.shear = strain_statistics(record.counts.w, record.squares.y + 0.0, record.strains.y, record.strains.w);
+    if (record.counts.z > 0) {
+        statistics.stretch_error_rms = std::sqrt((record.errors.x + 0.0) / record.counts.z);
+        statistics.stretch_error_max = record.extents.w;
+    }
     statistics.elastic_energy = record.squares.z + 0.0;
     statistics.kinetic_energy = 0.5 * cloth.inner_mass * (record.squares.w + 0.0) / (h * h);
     const double share = record.moments.w + 0.0;

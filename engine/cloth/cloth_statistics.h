@@ -22,10 +22,10 @@ struct StrainStatistics {
 /// SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a number may
 /// overflow to infinity before the positions do.
 struct ClothStatistics {
-    /// Strain of the state. The *stretch error* of a solver, RMS of strain - tension/(k l), needs the tension that
-    /// the solver applied: the multiplier, which `relax` stores only when it iterates. Whoever stores it adds a
-    /// family here and reads it in add_spring_strain; until then a soft cloth's true stretch is in these numbers.
-    StrainStatistics stretch, shear;
+    StrainStatistics stretch, shear;  ///< of the state; soft cloth may stretch truly
+    /// Of the stretch springs: strain - tension/(k l) with the tension that the solver applied in the last substep, RMS
+    /// and largest magnitude. A perfect solve makes it zero; `tolerance` bounds the RMS.
+    double stretch_error_rms = 0, stretch_error_max = 0;
     /// J, with the velocities of the middle of the last substep: displacement / h.
     double kinetic_energy = 0;
     double potential_energy = 0;  ///< J, gravity's; 0 at the origin

@@ -28,6 +28,9 @@ inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
 }};
 
+/// The first rows are the stretch springs.
+inline constexpr std::size_t stretch_direction_count = 2;
+
 /// One dispatch of the plain schedule: every second spring of one direction.
 struct SpringPass {
     int direction;  ///< row of spring_directions = channel

@@ -25,9 +25,10 @@ void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t sub
     // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
     for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, 0, bend);
     for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
-        for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
-            add(StepKind::spring, iteration, spring);
         const bool last = iteration + 1 == scene.solver.iterations;
+        const bool ends_frame = last && substep + 1 == scene.solver.substeps;
+        for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
+            steps.push_back({StepKind::spring, substep, iteration, spring, ends_frame});
         if (collider_count > 0 && (per_iteration || last)) add(StepKind::collide, iteration);
     }
 }

@@ -18,6 +18,7 @@ struct Step {
     std::uint32_t substep;
     std::uint32_t iteration;  ///< spring and collide
     std::uint32_t work;       ///< spring: index into ClothModel::springs; bend: into ClothModel::bends
+    bool last = false;        ///< spring: of the frame's last iteration, after which its tension is the frame's
 };
 
 /// The whole scene, ready to be simulated.

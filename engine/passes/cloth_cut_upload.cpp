@@ -51,7 +51,7 @@ void upload_list(const graph::ResourcePool& pool, const std::string& name, const
 
 std::vector<std::string> state_image_parts() {
     std::vector<std::string> parts{"position", "displacement", "position rest", "displacement rest"};
-    for (const SpringDirection& direction : spring_directions) parts.push_back("multiplier " + std::string(direction.name));
+    for (const SpringDirection& direction : spring_directions) parts.push_back("tension " + std::string(direction.name));
     return parts;
 }
 

@@ -11,6 +11,7 @@
 #include "passes/pin_pass.h"
 #include "passes/spring_pass.h"
 #include "passes/statistics_pass.h"
+#include "passes/tension_pass.h"
 #include "passes/wind_pass.h"
 
 namespace drape {
@@ -42,7 +43,7 @@ std::string_view collider_kind_name(std::size_t kind) {
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
     : model_(model), pipelines_(device) {}
 
-void ClothSolver::declare(graph::Graph& graph, bool drawn) {
+void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     cloths_.clear();
     inputs_ = {};
     for (const SkippedWork& work : model_.skipped()) graph.skip(work.what, work.reason);
@@ -54,10 +55,11 @@ void ClothSolver::declare(graph::Graph& graph, bool drawn) {
             inputs_.colliders[kind] = graph.buffer({std::string("colliders/") + std::string(collider_kind_name(kind)),
                                                     count * sizeof(glsl::Collider), Lifetime::host_input});
     for (std::size_t index = 0; index < model_.cloths.size(); ++index)
-        declare_cloth(graph, model_.cloths[index], index, drawn);
+        declare_cloth(graph, model_.cloths[index], index, needs);
 }
 
-void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, bool drawn) {
+void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index,
+                                const FrameNeeds& needs) {
     const auto image = [&](const std::string& part, Lifetime lifetime, VkFormat format, std::uint32_t smaller = 0) {
         return graph.image({model.name + "/" + part, format, model.grid.columns() - smaller,
                             model.grid.rows() - smaller, VK_SAMPLE_COUNT_1_BIT, lifetime});
@@ -75,17 +77,17 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
         state.displacement_spare = image("displacement spare", Lifetime::transient, vec4);
     }
     if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
-    if (drawn) state.normal = image("normal", Lifetime::transient, vec4);
+    if (needs.drawing) state.normal = image("normal", Lifetime::transient, vec4);
     if (model.masked) {
         state.stiffness = image("stiffness", Lifetime::constant, vec4);
         state.mass = image("mass share", Lifetime::constant, VK_FORMAT_R32_SFLOAT);
         state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
     }
     for (std::size_t direction = 0; direction < 4; ++direction)
-        if (model.multiplied[direction])
-            state.multiplier[direction] = image("multiplier " + std::string(spring_directions[direction].name),
-                                                Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
-    if (drawn) declare_drawing(graph, state);
+        if (model.carries_tension[direction] || (needs.statistics && direction < stretch_direction_count))
+            state.tension[direction] = image("tension " + std::string(spring_directions[direction].name),
+                                             Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
+    if (needs.drawing) declare_drawing(graph, state);
     if (!model.pinned.empty()) {
         state.pinned = graph.buffer({model.name + "/pinned particles",
                                      model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
@@ -141,7 +143,10 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 }
 
 void ClothSolver::add_statistics(graph::Graph& graph) {
-    for (ClothState& state : cloths_) drape::add_statistics(graph, pipelines_, state, inputs_, model_);
+    for (ClothState& state : cloths_) {
+        if (state.model->gathers) add_tension(graph, pipelines_, state);
+        drape::add_statistics(graph, pipelines_, state, inputs_, model_);
+    }
     if (model_.collider_count == 0) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 
@@ -170,6 +175,9 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         image(cloth, "displacement", bytes_of(cloth.displacement));
         image(cloth, "position rest", bytes_of(zero));
         image(cloth, "displacement rest", bytes_of(zero));
+        const std::vector<float> slack(cloth.grid.particle_count());
+        for (const SpringDirection& direction : spring_directions)
+            image(cloth, ("tension " + std::string(direction.name)).c_str(), bytes_of(slack));
         if (cloth.masked) {
             image(cloth, "stiffness", bytes_of(cloth.stiffness));
             image(cloth, "mass share", bytes_of(mass_shares(cloth)));

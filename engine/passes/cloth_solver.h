@@ -26,6 +26,12 @@ std::vector<std::string> state_image_parts();
 /// new buffers.
 std::size_t draw_list_capacity(std::size_t count);
 
+/// What a frame is for, beside simulating.
+struct FrameNeeds {
+    bool drawing = false;     ///< triangles and normals
+    bool statistics = false;  ///< the tension of the stretch springs
+};
+
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
@@ -33,9 +39,8 @@ class ClothSolver {
 
     /// Cut cloths are drawn from their topology's lists; one per cloth, which must outlive the graphs.
     void set_topologies(const std::vector<CutTopology>* topologies) { topologies_ = topologies; }
-    /// Declares the images and host inputs that the scene needs, and only those. `drawn`: also what drawing
-    /// needs (triangles, normals).
-    void declare(graph::Graph& graph, bool drawn);
+    /// Declares the images and host inputs that the scene and what is wanted of the frame need, and only those.
+    void declare(graph::Graph& graph, const FrameNeeds& needs);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
@@ -69,7 +74,7 @@ class ClothSolver {
 
   private:
     void declare_drawing(graph::Graph& graph, ClothState& state) const;
-    void declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, bool drawn);
+    void declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, const FrameNeeds& needs);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;

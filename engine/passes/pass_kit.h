@@ -34,7 +34,8 @@ class PipelineCache {
 ///   *_spare        rgba32f  explicit: the other image of each pair; a micro-step reads one and writes the other
 ///   wind_force     rgba32f  N; scenes with wind
 ///   normal         rgba32f  unit normal of the front; only when something is drawn
-///   multiplier     r32f     XPBD multiplier per direction, by first particle; compliant and iterated springs
+///   tension        r32f     per direction, by first particle, m: extension that would balance the tension applied in the
+///                           substep; compliant and iterated springs, and stretch where the stretch error is wanted
 ///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
 ///   mass           r32f     mass share (1 = an inner particle's); holes and cuts, where statistics are wanted
 ///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
@@ -45,7 +46,7 @@ struct ClothState {
     graph::Handle position_spare, displacement_spare;
     bool away = false;  ///< explicit: position and displacement are the spare images, not where the frame starts
     graph::Handle wind_force, normal, stiffness, mass, cells;
-    std::array<graph::Handle, 4> multiplier;
+    std::array<graph::Handle, 4> tension;
     graph::Handle triangles;              ///< index buffer
     graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;

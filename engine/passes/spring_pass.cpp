@@ -13,29 +13,31 @@ constexpr vulkan::DescriptorDeclaration position = image_read(0, "position"),
                                         displacement_in = image_read(1, "displacement_in"),
                                         displacement_out = image_write(2, "displacement_out"),
                                         stiffness = image_read(3, "stiffness_image"),
-                                        multiplier_in = image_read(4, "multiplier_in", VK_FORMAT_R32_SFLOAT),
-                                        multiplier_out = image_write(5, "multiplier_out", VK_FORMAT_R32_SFLOAT);
+                                        tension_in = image_read(4, "tension_in", VK_FORMAT_R32_SFLOAT),
+                                        tension_out = image_write(5, "tension_out", VK_FORMAT_R32_SFLOAT);
 
 constexpr vulkan::DescriptorDeclaration plain[] = {position, displacement_in, displacement_out};
 constexpr vulkan::DescriptorDeclaration masked[] = {position, displacement_in, displacement_out, stiffness};
-constexpr vulkan::DescriptorDeclaration multiplied[] = {position, displacement_in, displacement_out, multiplier_in,
-                                                        multiplier_out};
+constexpr vulkan::DescriptorDeclaration stored[] = {position, displacement_in, displacement_out, tension_in,
+                                                    tension_out};
 constexpr vulkan::DescriptorDeclaration both[] = {position,  displacement_in, displacement_out,
-                                                  stiffness, multiplier_in,   multiplier_out};
+                                                  stiffness, tension_in,   tension_out};
 
-/// By [masked][multiplied].
+/// By [masked][stores tension].
 const vulkan::ShaderInterface interfaces[2][2] = {
-    {{"spring.comp", plain, &layouts::spring_push}, {"spring_multiplied.comp", multiplied, &layouts::spring_push}},
+    {{"spring.comp", plain, &layouts::spring_push}, {"spring_tension.comp", stored, &layouts::spring_push}},
     {{"spring_masked.comp", masked, &layouts::spring_push},
-     {"spring_masked_multiplied.comp", both, &layouts::spring_push}}};
+     {"spring_masked_tension.comp", both, &layouts::spring_push}}};
 
 }  // namespace
 
 void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const SpringWork& work = state.model->springs[step.work];
     const auto direction = static_cast<std::size_t>(work.pass.direction);
-    const bool has_multiplier = state.model->multiplied[direction];
-    const vulkan::ComputePipeline& pipeline = pipelines.get(interfaces[state.model->masked][has_multiplier]);
+    const bool stores_tension =
+        state.tension[direction].valid() &&
+        (state.model->carries_tension[direction] || (step.last && work.push.compliance > 0));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(interfaces[state.model->masked][stores_tension]);
     glsl::SpringPush push = work.push;
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const std::string name = std::string("spring ") + std::string(spring_directions[direction].name) +
@@ -46,7 +48,7 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             setup.read(state.position, graph::Access::compute_read, 0);
             update(setup, state.displacement, 1, 2);
             if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, 3);
-            if (has_multiplier) update(setup, state.multiplier[direction], 4, 5);
+            if (stores_tension) update(setup, state.tension[direction], 4, 5);
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.pair_count.x),

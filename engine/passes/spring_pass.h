@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// Reads position, reads and writes displacement; stiffness and multiplier where the cloth has them.
+/// Reads position, reads and writes displacement; stiffness where the cloth has it, tension where it is kept.
 void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

@@ -22,14 +22,17 @@ constexpr vulkan::DescriptorDeclaration position = image_read(0, "position"),
                                         planes = struct_buffer_read(5, "Planes", &layouts::collider),
                                         spheres = struct_buffer_read(6, "Spheres", &layouts::collider),
                                         boxes = struct_buffer_read(7, "Boxes", &layouts::collider),
-                                        ellipsoids = struct_buffer_read(8, "Ellipsoids", &layouts::collider);
+                                        ellipsoids = struct_buffer_read(8, "Ellipsoids", &layouts::collider),
+                                        tension_row = image_read(9, "tension_row", VK_FORMAT_R32_SFLOAT),
+                                        tension_column = image_read(10, "tension_column", VK_FORMAT_R32_SFLOAT);
 
-constexpr vulkan::DescriptorDeclaration plain[] = {position, displacement, partials};
-constexpr vulkan::DescriptorDeclaration masked[] = {position, displacement, partials, stiffness, mass};
-constexpr vulkan::DescriptorDeclaration colliding[] = {position, displacement, partials,  planes,
-                                                       spheres,  boxes,        ellipsoids};
-constexpr vulkan::DescriptorDeclaration both[] = {position, displacement, partials, stiffness, mass,
-                                                  planes,   spheres,      boxes,    ellipsoids};
+constexpr vulkan::DescriptorDeclaration plain[] = {position, displacement, partials, tension_row, tension_column};
+constexpr vulkan::DescriptorDeclaration masked[] = {position, displacement, partials,      stiffness,
+                                                    mass,     tension_row,  tension_column};
+constexpr vulkan::DescriptorDeclaration colliding[] = {position, displacement, partials,    planes,        spheres,
+                                                       boxes,    ellipsoids,   tension_row, tension_column};
+constexpr vulkan::DescriptorDeclaration both[] = {position, displacement, partials,   stiffness,   mass,          planes,
+                                                  spheres,  boxes,        ellipsoids, tension_row, tension_column};
 
 /// By [masked][colliding].
 const vulkan::ShaderInterface interfaces[2][2] = {
@@ -72,6 +75,8 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
             setup.read(state.position, graph::Access::compute_read, 0);
             setup.read(state.displacement, graph::Access::compute_read, 1);
             records = setup.write(records, graph::Access::compute_write, 2);
+            setup.read(state.tension[0], graph::Access::compute_read, 9);
+            setup.read(state.tension[1], graph::Access::compute_read, 10);
             if (state.model->masked) {
                 setup.read(state.stiffness, graph::Access::compute_read, 3);
                 setup.read(state.mass, graph::Access::compute_read, 4);

@@ -64,6 +64,13 @@ constexpr vulkan::MemberLayout pin_push_members[] = {
     {"particle_count", offsetof(PinPush, particle_count)},
     {"motion_first", offsetof(PinPush, motion_first)},
 };
+constexpr vulkan::MemberLayout tension_push_members[] = {
+    {"grid", offsetof(TensionPush, grid)},
+    {"rest_length", offsetof(TensionPush, rest_length)},
+    {"used_share", offsetof(TensionPush, used_share)},
+    {"strain_damping", offsetof(TensionPush, strain_damping)},
+    {"unused", offsetof(TensionPush, unused)},
+};
 constexpr vulkan::MemberLayout grid_push_members[] = {
     {"grid", offsetof(GridPush, grid)},
 };
@@ -81,7 +88,7 @@ constexpr vulkan::MemberLayout statistics_sum_push_members[] = {
 constexpr vulkan::MemberLayout statistics_record_members[] = {
     {"squares", offsetof(StatisticsRecord, squares)}, {"moments", offsetof(StatisticsRecord, moments)},
     {"strains", offsetof(StatisticsRecord, strains)}, {"extents", offsetof(StatisticsRecord, extents)},
-    {"counts", offsetof(StatisticsRecord, counts)},
+    {"errors", offsetof(StatisticsRecord, errors)},   {"counts", offsetof(StatisticsRecord, counts)},
 };
 constexpr vulkan::MemberLayout collider_members[] = {
     {"pose_x", offsetof(Collider, pose_x)},
@@ -128,6 +135,7 @@ const vulkan::StructLayout bend_push{"BendPush", sizeof(BendPush), bend_push_mem
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};
+const vulkan::StructLayout tension_push{"TensionPush", sizeof(TensionPush), tension_push_members};
 const vulkan::StructLayout grid_push{"GridPush", sizeof(GridPush), grid_push_members};
 const vulkan::StructLayout statistics_push{"StatisticsPush", sizeof(StatisticsPush), statistics_push_members};
 const vulkan::StructLayout statistics_sum_push{"StatisticsSumPush", sizeof(StatisticsSumPush),

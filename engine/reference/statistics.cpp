@@ -76,9 +76,10 @@ class Reduction {
         if (!inside(second)) return record;
         const float share = cloth_.masked ? component(cloth_.stiffness[at(first)], direction)
                                           : border_stiffness(first, offset, push_.grid);
+        const float tension = direction < 2 ? state_.tension[static_cast<std::size_t>(direction)][at(first)] : 0.0f;
         return add_spring_strain(record, xyz(state_.position[at(first)]), xyz(state_.position[at(second)]),
                                  component(push_.rest_length, direction), component(push_.half_stiffness, direction),
-                                 share, direction >= 2);
+                                 share, tension, direction >= 2);
     }
 
     float penetration(vec3 position) const {

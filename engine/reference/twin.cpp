@@ -35,8 +35,7 @@ Twin::Twin(const SimulationModel& model) : model_(model) {
             state.position_spare.resize(count);
             state.displacement_spare.resize(count);
         }
-        for (std::size_t direction = 0; direction < 4; ++direction)
-            if (cloth.multiplied[direction]) state.multiplier[direction].resize(count);
+        for (std::vector<float>& tension : state.tension) tension.resize(count);
         cloths_.push_back(std::move(state));
     }
 }
@@ -132,7 +131,8 @@ void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinM
 
 void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
     const SpringPush& push = model.springs[step.work].push;
-    std::vector<float>& multipliers = state.multiplier[static_cast<std::size_t>(push.channel)];
+    std::vector<float>& tensions = state.tension[static_cast<std::size_t>(push.channel)];
+    const bool carried = step.iteration > 0 && model.carries_tension[push.channel];
     for (int py = 0; py < push.pair_count.y; ++py)
         for (int px = 0; px < push.pair_count.x; ++px) {
             const ivec2 owner = spring_owner({px, py}, push.offset, push.parity_axis, push.parity);
@@ -140,16 +140,16 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             const std::size_t second = at(model.grid, {owner.x + push.offset.x, owner.y + push.offset.y});
             const float share = model.masked ? component(model.stiffness[first], push.channel)
                                              : border_stiffness(owner, push.offset, push.grid);
-            const float multiplier = multipliers.empty() || step.iteration == 0 ? 0.0f : multipliers[first];
+            const float tension = carried ? tensions[first] : 0.0f;
             const float weight_first = state.position[first].w, weight_second = state.position[second].w;
             const vec3 moved_first = xyz(state.displacement[first]), moved_second = xyz(state.displacement[second]);
             const vec3 edge =
                 spring_edge(xyz(state.position[first]), xyz(state.position[second]), moved_first, moved_second);
             const SpringResult result = project_spring(edge, weight_first + weight_second, push.rest_length, share,
-                                                       push.compliance, multiplier);
+                                                       push.compliance, tension);
             state.displacement[first] = texel(moved_by(moved_first, result.correction, -weight_first));
             state.displacement[second] = texel(moved_by(moved_second, result.correction, weight_second));
-            if (!multipliers.empty()) multipliers[first] = result.multiplier;
+            tensions[first] = result.tension;
         }
 }
 

@@ -15,7 +15,8 @@ namespace drape {
 struct TwinCloth {
     std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
     std::vector<glsl::vec4> position_spare, displacement_spare;  ///< explicit: where the next micro-step writes
-    std::array<std::vector<float>, 4> multiplier;  ///< per spring direction, where the model needs one
+    /// m, per spring direction, by first particle: what the tension applied in the last substep would stretch it by.
+    std::array<std::vector<float>, 4> tension;
 };
 
 class Twin {
@@ -27,6 +28,8 @@ class Twin {
     /// One step of one cloth.
     void run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);
+    /// explicit: the tension at a frame's end, for the statistics.
+    void tension(std::size_t cloth);
 
     const TwinCloth& cloth(std::size_t index) const { return cloths_[index]; }
     TwinCloth& cloth(std::size_t index) { return cloths_[index]; }

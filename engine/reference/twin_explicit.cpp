@@ -96,4 +96,24 @@ void Twin::explicit_step(const ClothModel& model, TwinCloth& state, bool advance
     std::swap(state.displacement, state.displacement_spare);
 }
 
+void Twin::tension(std::size_t index) {
+    const TensionPush& push = model_.cloths[index].tension;
+    const Grid& grid = model_.cloths[index].grid;
+    TwinCloth& state = cloths_[index];
+    const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {
+        const std::size_t a = at(grid, first), b = at(grid, second);
+        return gathered_tension(xyz(state.position[b]) - xyz(state.position[a]),
+                                xyz(state.displacement[b]) - xyz(state.displacement[a]), rest_length, used_share,
+                                push.strain_damping);
+    };
+    for (int y = 0; y < push.grid.y; ++y)
+        for (int x = 0; x < push.grid.x; ++x) {
+            const std::size_t i = at(grid, {x, y});
+            if (x + 1 < push.grid.x)
+                state.tension[0][i] = tension_to({x, y}, {x + 1, y}, push.rest_length.x, push.used_share.x);
+            if (y + 1 < push.grid.y)
+                state.tension[1][i] = tension_to({x, y}, {x, y + 1}, push.rest_length.y, push.used_share.y);
+        }
+}
+
 }  // namespace drape

@@ -36,6 +36,17 @@ SHARED vec3 add_pull(vec3 sum, vec3 edge, vec3 closing, float rest_length, float
     return total;
 }
 
+/// Tension of one stretch spring as the extension (m) that it would cause at the stiffness asked for, of which the
+/// micro-step uses `used_share`; its strain-rate damping included.
+SHARED float gathered_tension(vec3 edge, vec3 closing, float rest_length, float used_share, float strain_damping) {
+    precise float length_squared = ordered_dot(edge, edge);
+    if (!(length_squared > 0.0f)) return 0.0f;
+    precise float current = sqrt(length_squared);
+    precise float rate = strain_damping * (ordered_dot(closing, edge) / current);
+    precise float tension = used_share * ((current - rest_length) + rate);
+    return tension;
+}
+
 /// Increment to the displacement in one micro-step: phi h^2 (g + w (F_wind + F_springs)/m) - q d. `pull` is already a
 /// displacement of an inner particle.
 SHARED vec3 explicit_increment(vec3 displacement, vec3 gravity_step, vec3 force, vec3 pull, float inverse_mass,

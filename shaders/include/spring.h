@@ -38,24 +38,25 @@ SHARED vec3 moved_by(vec3 displacement, vec3 correction, float weight) {
 
 struct SpringResult {
     vec3 correction;   // to be added to the second particle times its w, subtracted from the first times its w
-    float multiplier;  // new XPBD multiplier, scaled by m_inner / h^2
+    float tension;    // m: extension that would balance the tension applied so far
 };
 
 /// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `stiffness`
 /// in [0, 1] scales the spring's stiffness, 0 = no spring; `compliance` = m_inner / (k h^2), 0 = rigid.
-/// delta lambda = -(s C + a lambda) / (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator
-/// times s, so that s = 0 is no division by zero. A rigid spring between two fixed particles, and one of zero
+/// `tension`: the XPBD multiplier lambda as the extension that would balance it, T = -a lambda/s, m. In place of lambda
+/// it means the same to every solver: C - T is what a perfect solve makes zero. delta lambda = -s (C - T) /
+/// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by zero. A rigid spring between two fixed particles, and one of zero
 /// length (no direction), are left alone.
 SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float stiffness, float compliance,
-                                   float multiplier) {
+                                   float tension) {
     precise float length_squared = ordered_dot(edge, edge);
     precise float denominator = stiffness * weight_sum + compliance;
-    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), multiplier);
+    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
     precise float current = sqrt(length_squared);
-    precise float numerator = stiffness * (current - rest_length) + compliance * multiplier;
-    precise float change = -numerator / denominator;
+    precise float residual = (current - rest_length) - tension;
+    precise float change = -(stiffness * residual) / denominator;
     precise vec3 correction = edge * (change / current);
-    precise float updated = multiplier + change;
+    precise float updated = tension + compliance * (residual / denominator);
     return SpringResult(correction, updated);
 }
 

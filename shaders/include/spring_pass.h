@@ -1,6 +1,6 @@
 // Body of the spring passes, plain schedule: one invocation per spring of a parity pass, so no particle is
-// touched twice. MASKED: the stiffness comes from an image (holes, cuts). MULTIPLIED: compliant springs
-// relaxed more than once per substep keep their XPBD multiplier.
+// touched twice. MASKED: the stiffness comes from an image (holes, cuts). TENSION: the springs' tension is
+// stored: for the next iteration of the substep, and for the stretch error.
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SpringPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -9,9 +9,9 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
 #endif
-#ifdef MULTIPLIED
-layout(set = 0, binding = 4, r32f) uniform readonly image2D multiplier_in;
-layout(set = 0, binding = 5, r32f) uniform writeonly image2D multiplier_out;
+#ifdef TENSION
+layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
+layout(set = 0, binding = 5, r32f) uniform writeonly image2D tension_out;
 #endif
 
 void main() {
@@ -28,19 +28,19 @@ void main() {
 #else
     float stiffness = border_stiffness(first, push.offset, push.grid);
 #endif
-    float multiplier = 0.0f;
-#ifdef MULTIPLIED
-    if (push.first_iteration == 0) multiplier = imageLoad(multiplier_in, first).x;
+    float tension = 0.0f;
+#ifdef TENSION
+    if (push.first_iteration == 0) tension = imageLoad(tension_in, first).x;
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
     precise float weight_sum = position_first.w + position_second.w;
     SpringResult result =
-        project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, multiplier);
+        project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
     vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
     imageStore(displacement_out, first, vec4(moved_first, 0.0f));
     imageStore(displacement_out, second, vec4(moved_second, 0.0f));
-#ifdef MULTIPLIED
-    imageStore(multiplier_out, first, vec4(result.multiplier, 0.0f, 0.0f, 0.0f));
+#ifdef TENSION
+    imageStore(tension_out, first, vec4(result.tension, 0.0f, 0.0f, 0.0f));
 #endif
 }

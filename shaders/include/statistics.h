@@ -20,7 +20,8 @@ SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_fi
 SHARED StatisticsRecord empty_statistics() {
     return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
                             vec4(lowest_float, lowest_float, lowest_float, lowest_float),
-                            vec4(0.0f, 0.0f, 0.0f, 0.0f), uvec4(0u, no_particle, 0u, 0u));
+                            vec4(0.0f, 0.0f, 0.0f, 0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
+                            uvec4(0u, no_particle, 0u, 0u));
 }
 
 SHARED vec4 ordered_sum(vec4 a, vec4 b) {
@@ -35,6 +36,7 @@ SHARED vec4 larger(vec4 a, vec4 b) {
 SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
     return StatisticsRecord(ordered_sum(a.squares, b.squares), ordered_sum(a.moments, b.moments),
                             larger(a.strains, b.strains), larger(a.extents, b.extents),
+                            ordered_sum(a.errors, b.errors),
                             uvec4(a.counts.x + b.counts.x, a.counts.y < b.counts.y ? a.counts.y : b.counts.y,
                                   a.counts.z + b.counts.z, a.counts.w + b.counts.w));
 }
@@ -67,8 +69,10 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, fl
 
 /// `record` plus the spring between two particles; `first` is finite. `rest_length`, m, and the spring's `share`
 /// of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m. Shear belongs to the diagonals.
+/// `tension`: extension (m) that the tension applied to the spring would cause; what it has beyond that, over its rest
+/// length, is the stretch error, which a perfect solver makes zero. Of shear springs it is not asked.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
-                                          float half_stiffness, float share, bool shear) {
+                                          float half_stiffness, float share, float tension, bool shear) {
     if (!(rest_length > 0.0f) || !(share > 0.0f) || !is_finite(second)) return record;
     precise vec3 edge = second - first;
     precise float current = sqrt(ordered_dot(edge, edge));
@@ -80,10 +84,15 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
                                                        : vec4(square, -0.0f, energy, -0.0f));
     record.strains = larger(record.strains, shear ? vec4(lowest_float, strain, lowest_float, -strain)
                                                   : vec4(strain, lowest_float, -strain, lowest_float));
-    if (shear)
+    if (shear) {
         record.counts.w += 1u;
-    else
-        record.counts.z += 1u;
+        return record;
+    }
+    precise float error = (extension - tension) / rest_length;
+    precise float squared_error = error * error;
+    record.errors = ordered_sum(record.errors, vec4(squared_error, -0.0f, -0.0f, -0.0f));
+    record.extents = larger(record.extents, vec4(0.0f, 0.0f, 0.0f, abs(error)));
+    record.counts.z += 1u;
     return record;
 }
 

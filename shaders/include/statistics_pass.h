@@ -10,6 +10,8 @@ layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecor
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
 layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
 #endif
+layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
+layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 #ifdef COLLIDING
 layout(constant_id = 0) const bool has_planes = false;
 layout(constant_id = 1) const bool has_spheres = false;
@@ -37,7 +39,8 @@ float mass_share(ivec2 texel) {
 #endif
 }
 
-StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, int direction, ivec2 offset) {
+StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, int direction, ivec2 offset,
+                              float tension) {
     ivec2 second = first + offset;
     if (!inside(second)) return record;
 #ifdef MASKED
@@ -46,7 +49,7 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
     float share = border_stiffness(first, offset, push.grid);
 #endif
     return add_spring_strain(record, start, imageLoad(position, second).xyz, push.rest_length[direction],
-                             push.half_stiffness[direction], share, direction >= 2);
+                             push.half_stiffness[direction], share, tension, direction >= 2);
 }
 
 #ifdef COLLIDING
@@ -85,10 +88,10 @@ StatisticsRecord statistics_of(ivec2 texel) {
         particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel), push.reference.xyz,
                             uint(texel.y * push.grid.x + texel.x));
     if (record.counts.x != 0u) return record;
-    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0));
-    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1));
-    record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1));
-    record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1));
+    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), imageLoad(tension_row, texel).x);
+    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), imageLoad(tension_column, texel).x);
+    record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1), 0.0f);
+    record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1), 0.0f);
 #ifdef COLLIDING
     // Contacts do not move held particles, so those are no measure of them.
     if (at.w != 0.0f) record.extents.z = penetration(at.xyz);

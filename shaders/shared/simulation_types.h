@@ -22,7 +22,7 @@ struct SpringPush {
     float rest_length;  // m
     float compliance;   // m_inner / (k h^2), dimensionless; 0 = rigid
     int channel;        // of the stiffness image: row, column, shear down-right, shear down-left
-    int first_iteration;  // 1: the multiplier starts at zero (it is written, not read)
+    int first_iteration;  // 1: the tension starts at zero (it is written, not read)
 };
 
 struct ForcePush {
@@ -73,6 +73,15 @@ struct CollisionPush {
 struct PinPush {
     int particle_count;
     int motion_first;  // first motion of this substep
+};
+
+/// Of the stretch springs: along a row (x), along a column (y).
+struct TensionPush {
+    ivec2 grid;
+    vec2 rest_length;      // m; 0: no springs
+    vec2 used_share;       // of the stiffness asked for that the micro-step uses
+    float strain_damping;  // kappa
+    float unused;
 };
 
 struct GridPush {

@@ -37,13 +37,13 @@ TEST(ClothModelTest, SpringConstantsFollowTheCellShape) {
     EXPECT_FLOAT_EQ(model.springs[4].push.rest_length, std::sqrt(0.05f));
 }
 
-TEST(ClothModelTest, RigidSpringsHaveNoComplianceAndNoMultiplier) {
+TEST(ClothModelTest, RigidSpringsHaveNoComplianceAndNoTension) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 4, 8);
     scene.cloths[0].stiffness.rigid = true;
     const ClothModel model(scene, 0);
     ASSERT_EQ(model.springs.size(), 8u);
     for (const SpringWork& work : model.springs) EXPECT_EQ(work.push.compliance, 0.0f);
-    for (const bool has : model.multiplied) EXPECT_FALSE(has);
+    for (const bool has : model.carries_tension) EXPECT_FALSE(has);
 }
 
 TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
@@ -54,7 +54,7 @@ TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring row odd"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring shear down-right even"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/stiffness"));
-    EXPECT_TRUE(skips(model.skipped(), "sheet/multipliers"));
+    EXPECT_TRUE(skips(model.skipped(), "sheet/tension between iterations"));
     EXPECT_TRUE(skips(model.skipped(), "wind"));
     EXPECT_TRUE(skips(model.skipped(), "collision"));
 }

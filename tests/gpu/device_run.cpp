@@ -33,7 +33,7 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
 
 DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep)
     : device_(device), model_(model), solver_(device, model), slots_(device) {
-    solver_.declare(graph_, true);
+    solver_.declare(graph_, {.drawing = true});
     solver_.add_simulation(graph_);
     solver_.add_normals(graph_);
     for (const ClothState& state : solver_.cloths()) add_normal_readback(graph_, state);
@@ -57,10 +57,10 @@ std::vector<glsl::vec4> DeviceRun::image(std::size_t cloth, const std::string& p
     return texels;
 }
 
-std::vector<float> DeviceRun::multiplier(std::size_t cloth, std::size_t direction) const {
+std::vector<float> DeviceRun::tension(std::size_t cloth, std::size_t direction) const {
     std::vector<float> texels(model_.cloths[cloth].grid.particle_count());
     vulkan::download(device_,
-                     pool_->image(model_.cloths[cloth].name + "/multiplier " +
+                     pool_->image(model_.cloths[cloth].name + "/tension " +
                                   std::string(spring_directions[direction].name)),
                      std::as_writable_bytes(std::span(texels)));
     return texels;

@@ -22,7 +22,7 @@ class DeviceRun {
 
     /// Texels of "<cloth>/<part>" of a persistent image, or the normals.
     std::vector<glsl::vec4> image(std::size_t cloth, const std::string& part) const;
-    std::vector<float> multiplier(std::size_t cloth, std::size_t direction) const;
+    std::vector<float> tension(std::size_t cloth, std::size_t direction) const;
     std::vector<glsl::vec4> normals(std::size_t cloth) const;
 
     const graph::Graph& graph() const { return graph_; }

@@ -84,8 +84,8 @@ inline void compare(const SceneDescription& scene, const ModelOptions& options =
                         frame);
             expect_same("normal", device.normals(cloth), expected.normal, frame);
             for (std::size_t direction = 0; direction < 4; ++direction) {
-                if (model.cloths[cloth].multiplied[direction]) {
-                    EXPECT_EQ(device.multiplier(cloth, direction), expected.multiplier[direction]);
+                if (model.cloths[cloth].carries_tension[direction]) {
+                    EXPECT_EQ(device.tension(cloth, direction), expected.tension[direction]);
                 }
             }
         }

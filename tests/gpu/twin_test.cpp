@@ -15,7 +15,7 @@ using test::substep_count;
 
 TEST(TwinTest, EverythingAtOnce) { compare(everything()); }
 
-TEST(TwinTest, IteratedCompliantSpringsWithMultipliers) {
+TEST(TwinTest, IteratedCompliantSpringsThatCarryTheirTension) {
     SceneDescription scene = everything();
     scene.solver.iterations = 3;
     compare(scene);
@@ -69,8 +69,8 @@ TEST(SkipTest, ExactSkipsChangeNoBit) {
     DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
     EXPECT_FALSE(skipping.pool().has("sheet/stiffness"));
     EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
-    EXPECT_FALSE(skipping.pool().has("sheet/multiplier row"));
-    EXPECT_TRUE(keeping.pool().has("sheet/multiplier row"));
+    EXPECT_FALSE(skipping.pool().has("sheet/tension row"));
+    EXPECT_TRUE(keeping.pool().has("sheet/tension row"));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         skipping.run_frame(frame);
         keeping.run_frame(frame);
@@ -83,7 +83,7 @@ TEST(SkipTest, WhatASceneDoesNotNeedDoesNotExist) {
     SceneDescription scene = test::sheet(16, 16, 1, 1, 4);
     const SimulationModel model(scene);
     const DeviceRun run(test::gpu().device, model);
-    for (const char* name : {"wind", "sheet/wind force", "sheet/stiffness", "sheet/cells", "sheet/multiplier row",
+    for (const char* name : {"wind", "sheet/wind force", "sheet/stiffness", "sheet/cells", "sheet/tension row",
                              "sheet/pinned particles", "sheet/pin motions", "colliders/spheres", "sheet/triangles"})
         EXPECT_FALSE(run.pool().has(name)) << name;
     EXPECT_TRUE(run.pool().has("sheet/position"));

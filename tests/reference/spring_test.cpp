@@ -31,23 +31,23 @@ TEST(SpringTest, LeavesAloneWhatHasNoDirectionOrNoFreeEnd) {
                                        project_spring({2, 0, 0}, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f),
                                        project_spring({2, 0, 0}, 2.0f, 1.0f, 0.0f, 0.0f, 0.0f)}) {
         EXPECT_EQ(result.correction.x, 0.0f);
-        EXPECT_EQ(result.multiplier, 0.0f);
+        EXPECT_EQ(result.tension, 0.0f);
     }
 }
 
 TEST(SpringTest, ComplianceConvergesToTheForceBalanceOfXpbd) {
-    // Iterated, lambda reaches -C/a: the spring's own force, whatever the iteration count.
+    // Iterated, the tension is that of the extension C: the spring's own force, whatever the iteration count.
     const float compliance = 0.7f;
     vec3 edge{1.5f, 0, 0};
-    float multiplier = 0;
+    float tension = 0;
     for (int iteration = 0; iteration < 60; ++iteration) {
-        const SpringResult result = project_spring(edge, 2.0f, 1.0f, 1.0f, compliance, multiplier);
+        const SpringResult result = project_spring(edge, 2.0f, 1.0f, 1.0f, compliance, tension);
         edge = edge + result.correction * 2.0f;
-        multiplier = result.multiplier;
+        tension = result.tension;
     }
     const double strain = 0.5 * 0.7 / (2.0 + 0.7);  // C = a lambda and C = 0.5 - 2 lambda
     EXPECT_NEAR(double(edge.x) - 1.0, strain, 1e-6);
-    EXPECT_NEAR(double(multiplier), -strain / 0.7, 1e-6);
+    EXPECT_NEAR(double(tension), strain, 1e-6);
 }
 
 TEST(SpringTest, TheOscillatorOfTheXpbdPaperHasItsPeriod) {

@@ -1,8 +1,7 @@
-// Relaxes one parity of one spring direction; stiffness from an image, with XPBD multipliers.
+// Relaxes one parity of one spring direction; which stores the tension.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/spring.h"
-#define MASKED
-#define MULTIPLIED
+#define TENSION
 #include "include/spring_pass.h"
