@@ -118,9 +118,10 @@ class Sink {
         }
     }
 
-    /// Throws Diverged before anything of the frame is kept.
+    /// Throws Diverged or ToleranceMissed before anything of the frame is kept.
     void add(const FinishedFrame& frame) {
         if (const auto why = divergence(model_, frame.frame, frame.statistics)) throw Diverged(*why);
+        if (const auto why = missed_tolerance(model_, frame.frame, frame.statistics)) throw ToleranceMissed(*why);
         FrameValues values = frame_values(model_, frame.statistics);
         statistics_.add(frame.frame, values);
         if (pictures_) {
@@ -259,6 +260,13 @@ MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& reque
 /// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
 bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std::uint32_t last,
                   const RunRequest& request, RunSummary& summary) {
+    // A run again would fail again at the same frame: what came before it is the result.
+    const auto keep_the_rest = [&](const std::runtime_error& error) {
+        if (summary.frame_count > 0) sink.finish();
+        const std::string kept = fmt::format("; what was written before it is kept ({} of {} frames)",
+                                             summary.frame_count, missing.frames.size());
+        return error.what() + (summary.frame_count > 0 ? kept : std::string());
+    };
     Progress progress(missing.frames.size(), Progress::standard_options(request.quiet));
     try {
         return loop.run(
@@ -269,11 +277,10 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
                 ++summary.frame_count;
             },
             request.stop);
-    } catch (const Diverged& diverged) {
-        if (summary.frame_count == 0) throw;
-        sink.finish();  // a run again would diverge again: what came before it is the result
-        throw Diverged(fmt::format("{}; what was written before it is kept ({} of {} frames)", diverged.what(),
-                                   summary.frame_count, missing.frames.size()));
+    } catch (const Diverged& error) {
+        throw Diverged(keep_the_rest(error));
+    } catch (const ToleranceMissed& error) {
+        throw ToleranceMissed(keep_the_rest(error));
     }
 }
 

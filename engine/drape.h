@@ -36,6 +36,11 @@ class Diverged : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The stretch error is above the scene's tolerance, with the frame and cloth: exit code 8.
+class ToleranceMissed : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// What the scene is asked to become. Unset values are the scene's own.
 struct SceneRequest {
     std::string path;
@@ -71,13 +76,13 @@ struct RunSummary {
 };
 
 /// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
-/// vulkan::VulkanError; nothing is written before everything that can be checked up front has been.
+/// ToleranceMissed, vulkan::VulkanError; nothing is written before everything that can be checked up front has been.
 ///
 /// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
 /// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
 /// bytes of an undisturbed run, but for the manifest's "run". Pictures of any other run are an OutputError.
-/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged. Whether it did is
-/// seen at the frames that are written.
+/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged or missed its
+/// tolerance. Whether it did is seen at the frames that are written.
 RunSummary run_scene(const RunRequest& request);
 
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.

@@ -31,6 +31,7 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
     values[cloth + "/center_of_mass_z_m"] = statistics.center_of_mass[2];
     values[cloth + "/distance_max_m"] = statistics.largest_distance;
     values[cloth + "/speed_max_m_s"] = statistics.largest_speed;
+    if (statistics.iteration_count) values[cloth + "/iterations"] = *statistics.iteration_count;
     if (statistics.penetration) values[cloth + "/penetration_m"] = *statistics.penetration;
 }
 
@@ -78,6 +79,21 @@ std::optional<std::string> divergence(const SimulationModel& model, std::uint32_
             "({} of the cloth's {} particles are not); more substeps, weaker forces or stiffness may help",
             frame, model.cloths[cloth].name, statistics.first_non_finite % grid.columns(),
             statistics.first_non_finite / grid.columns(), statistics.non_finite_count, grid.particle_count());
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
+                                            const std::vector<ClothStatistics>& cloths) {
+    const SolverSettings& solver = model.scene.solver;
+    if (!(solver.tolerance > 0)) return std::nullopt;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const double error = cloths[cloth].stretch_error_rms;
+        if (error <= solver.tolerance) continue;
+        return fmt::format("the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
+                           "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
+                           frame, model.cloths[cloth].name, error, solver.tolerance, model.method_name(),
+                           solver.substeps, solver.iterations);
     }
     return std::nullopt;
 }

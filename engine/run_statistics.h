@@ -19,6 +19,10 @@ FrameValues frame_values(const SimulationModel& model, const std::vector<ClothSt
 std::optional<std::string> divergence(const SimulationModel& model, std::uint32_t frame,
                                       const std::vector<ClothStatistics>& cloths);
 
+/// Why the frame is not within the scene's tolerance: the first cloth whose RMS stretch error is above it.
+std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
+                                            const std::vector<ClothStatistics>& cloths);
+
 class RunStatistics {
   public:
     /// In any order.

@@ -167,6 +167,9 @@ ExitCode report_current_exception() {
     } catch (const Diverged& error) {
         print_error(fmt::format("{}; no manifest was written", error.what()));
         return ExitCode::diverged;
+    } catch (const ToleranceMissed& error) {
+        print_error(fmt::format("{}; no manifest was written", error.what()));
+        return ExitCode::tolerance;
     } catch (const vulkan::VulkanError& error) {
         print_error(error.what() + vulkan_hint(error));
         return ExitCode::device;

@@ -219,6 +219,10 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     const Vec3 gravity_step{step * scene.gravity[0], step * scene.gravity[1], step * scene.gravity[2]};
     force = {grid.size(), static_cast<float>(-std::expm1(-cloth.damping * h)), static_cast<float>(step / inner_mass),
              texel(gravity_step, 0)};
+    const auto rest_length = [&](std::size_t direction) {
+        return static_cast<float>(stiffness_constant.spring[direction] > 0 ? stiffness_constant.rest_length[direction] : 0);
+    };
+    residual = {grid.size(), {rest_length(0), rest_length(1)}};
     const Wind& w = scene.wind;
     wind = {grid.size(), 0, static_cast<float>(1.0 / h), static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
             static_cast<float>(0.5 * w.air_density * w.lift)};

@@ -11,6 +11,7 @@
 #include "cloth/grid.h"
 #include "cloth/stiffness_constants.h"
 #include "scene/scene_description.h"
+#include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 
 namespace drape {
@@ -83,6 +84,7 @@ struct ClothModel {
     glsl::TensionPush tension{};          ///< explicit
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
+    glsl::ResidualPush residual;    ///< of the check between iterations
     std::vector<SkippedWork> skipped;
 
   private:

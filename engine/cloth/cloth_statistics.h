@@ -36,6 +36,8 @@ struct ClothStatistics {
     std::optional<double> penetration;
     double largest_distance = 0;  ///< m from the origin
     double largest_speed = 0;     ///< m/s
+    /// Iterations that the frame ran, over all its substeps; nothing when none can be skipped.
+    std::optional<std::uint32_t> iteration_count;
     std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
     std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
 };

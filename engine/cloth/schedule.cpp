@@ -13,6 +13,11 @@ std::string SimulationModel::method_name() const {
     return scene.solver.method == SolverMethod::explicit_steps ? "explicit" : "relax";
 }
 
+bool SimulationModel::adaptive() const {
+    const SolverSettings& solver = scene.solver;
+    return solver.tolerance > 0 && solver.iterations > 1 && solver.method != SolverMethod::explicit_steps;
+}
+
 void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
     const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
     const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t work = 0) {
@@ -27,9 +32,15 @@ void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t sub
     for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
         const bool last = iteration + 1 == scene.solver.iterations;
         const bool ends_frame = last && substep + 1 == scene.solver.substeps;
+        const bool conditional = adaptive() && iteration > 0;
         for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
-            steps.push_back({StepKind::spring, substep, iteration, spring, ends_frame});
-        if (collider_count > 0 && (per_iteration || last)) add(StepKind::collide, iteration);
+            steps.push_back({StepKind::spring, substep, iteration, spring, ends_frame, conditional});
+        if (collider_count > 0 && per_iteration) {
+            steps.push_back({StepKind::collide, substep, iteration, 0, false, conditional});
+        } else if (collider_count > 0 && last) {
+            add(StepKind::collide, iteration);
+        }
+        if (adaptive() && !last) steps.push_back({StepKind::check, substep, iteration, 0, false, conditional});
     }
 }
 

@@ -11,14 +11,16 @@
 
 namespace drape {
 
-enum class StepKind { release, wind, force, explicit_step, pin, bend, spring, collide, advance };
+enum class StepKind { release, wind, force, explicit_step, pin, bend, spring, collide, check, advance };
 
 struct Step {
     StepKind kind;
     std::uint32_t substep;
-    std::uint32_t iteration;  ///< spring and collide
+    std::uint32_t iteration;  ///< spring, collide and check
     std::uint32_t work;       ///< spring: index into ClothModel::springs; bend: into ClothModel::bends
     bool last = false;        ///< spring: of the frame's last iteration, after which its tension is the frame's
+    /// Runs only when the check before it found the tolerance not met: decided on the device.
+    bool conditional = false;
 };
 
 /// The whole scene, ready to be simulated.
@@ -34,7 +36,10 @@ struct SimulationModel {
 
     /// The method in use as a scene spells it; `auto` is resolved.
     std::string method_name() const;
-    /// Steps of one frame of one cloth; at the end X += d.
+    /// Whether iterations end when the tolerance is met.
+    bool adaptive() const;
+    /// Steps of one frame of one cloth; at the end X += d. When adaptive, a check follows every iteration but a
+    /// substep's last.
     /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by direction
     /// and parity by parity, and collisions.
     /// explicit: per substep release, wind, micro-step, pin motion, collisions.

@@ -13,6 +13,7 @@ using FlagName = std::pair<VkFlags64, std::string_view>;
 
 constexpr std::array stage_names = {
     FlagName{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, "all_commands"},
+    FlagName{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, "draw_indirect"},
     FlagName{VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, "index_input"},
     FlagName{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, "vertex_shader"},
     FlagName{VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "early_fragment_tests"},
@@ -27,6 +28,7 @@ constexpr std::array stage_names = {
 constexpr std::array access_names = {
     FlagName{VK_ACCESS_2_MEMORY_READ_BIT, "memory_read"},
     FlagName{VK_ACCESS_2_MEMORY_WRITE_BIT, "memory_write"},
+    FlagName{VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, "indirect_command_read"},
     FlagName{VK_ACCESS_2_INDEX_READ_BIT, "index_read"},
     FlagName{VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "shader_storage_read"},
     FlagName{VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, "shader_storage_write"},

@@ -69,12 +69,21 @@ class PassContext {
         dispatch_groups(pipeline, width, height);
     }
 
+    /// `bind`, then dispatch as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
+    template <class T>
+    void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const T& push_constants, Handle arguments,
+                           std::uint64_t offset) {
+        bind(pipeline, push_constants);
+        dispatch_indirect(arguments, offset);
+    }
+
   private:
     friend class Recorder;
     PassContext(VkCommandBuffer commands, std::uint32_t slot, const Graph& graph, const Pass& pass,
                 const ResourcePool& pool)
         : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
     void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
+    void dispatch_indirect(Handle arguments, std::uint64_t offset);
     const Use& use_of(Handle handle) const;
     const Use& use_at(const vulkan::Pipeline& pipeline,
                       const vulkan::DescriptorDeclaration& descriptor) const;

@@ -64,7 +64,8 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
         refuse(pass, resource.name, fmt::format("{}: {}", access_name(access), why));
     };
     if (resource.is_image) {
-        if (access == Access::index_read || access == Access::host_read) unfit("an image, not a buffer");
+        if (access == Access::index_read || access == Access::indirect_read || access == Access::host_read)
+            unfit("an image, not a buffer");
         const bool depth = is_depth(resource.image.format);
         const bool multisampled = resource.image.samples != VK_SAMPLE_COUNT_1_BIT;
         if (access == Access::depth_write && !depth) unfit("the format is no depth format");
@@ -130,9 +131,9 @@ bool is_write(Access access) {
 }
 
 std::string_view access_name(Access access) {
-    static constexpr std::array<std::string_view, 11> names = {
-        "compute_read", "compute_write", "vertex_read",   "fragment_read",  "index_read", "color_write",
-        "depth_write",  "resolve_write", "transfer_read", "transfer_write", "host_read"};
+    static constexpr std::array<std::string_view, 12> names = {
+        "compute_read", "compute_write", "vertex_read",   "fragment_read",  "index_read",     "indirect_read",
+        "color_write",  "depth_write",   "resolve_write", "transfer_read", "transfer_write", "host_read"};
     return names.at(static_cast<std::size_t>(access));
 }
 

@@ -28,6 +28,7 @@ enum class Access : std::uint8_t {
     vertex_read,    ///< storage image or storage buffer
     fragment_read,  ///< storage image or storage buffer
     index_read,     ///< index buffer
+    indirect_read,  ///< buffer of the sizes of an indirect dispatch
     color_write,    ///< colour attachment (write, or load and write)
     depth_write,    ///< depth attachment (test and write)
     resolve_write,  ///< resolve target of a multisampled colour attachment

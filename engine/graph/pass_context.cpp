@@ -148,4 +148,8 @@ void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::
     vkCmdDispatch(commands_, columns, rows, 1);
 }
 
+void PassContext::dispatch_indirect(Handle arguments, std::uint64_t offset) {
+    vkCmdDispatchIndirect(commands_, buffer(arguments).handle(), offset);
+}
+
 }  // namespace drape::graph

@@ -369,6 +369,9 @@ AccessScope access_scope(Access access) {
         case Access::index_read:
             return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT,
                     VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::indirect_read:
+            return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::color_write:
             return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,

@@ -37,6 +37,8 @@ VkBufferUsageFlags buffer_usage(Access access) {
     switch (access) {
         case Access::index_read:
             return VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        case Access::indirect_read:
+            return VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
         case Access::transfer_read:
         case Access::transfer_write:
         case Access::host_read:

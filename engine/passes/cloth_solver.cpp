@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "passes/bend_pass.h"
+#include "passes/check_pass.h"
 #include "passes/collision_pass.h"
 #include "passes/cut_pass.h"
 #include "passes/explicit_pass.h"
@@ -41,7 +42,10 @@ std::string_view collider_kind_name(std::size_t kind) {
 }
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
-    : model_(model), pipelines_(device) {}
+    : model_(model), pipelines_(device) {
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
+}
 
 void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     cloths_.clear();
@@ -84,9 +88,11 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
         state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
     }
     for (std::size_t direction = 0; direction < 4; ++direction)
-        if (model.carries_tension[direction] || (needs.statistics && direction < stretch_direction_count))
+        if (model.carries_tension[direction] ||
+            ((needs.statistics || model_.adaptive()) && direction < stretch_direction_count))
             state.tension[direction] = image("tension " + std::string(spring_directions[direction].name),
                                              Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
+    if (model_.adaptive()) declare_iterations(graph, state);
     if (needs.drawing) declare_drawing(graph, state);
     if (!model.pinned.empty()) {
         state.pinned = graph.buffer({model.name + "/pinned particles",
@@ -97,6 +103,15 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
                                           Lifetime::host_input});
     }
     cloths_.push_back(state);
+}
+
+void ClothSolver::declare_iterations(graph::Graph& graph, ClothState& state) {
+    const std::string& name = state.model->name;
+    constexpr std::uint64_t list = glsl::iteration_size_count * sizeof(glsl::uvec4);
+    state.residuals = graph.buffer({name + "/residuals", residual_byte_count(state.model->grid), Lifetime::transient});
+    state.iterations = graph.buffer({name + "/iterations", list + sizeof(glsl::uvec4), Lifetime::persistent});
+    state.iteration_size_list = graph.buffer({name + "/iteration sizes", list, Lifetime::constant});
+    state.iteration_sizes = iteration_sizes_[state.index];
 }
 
 void ClothSolver::declare_drawing(graph::Graph& graph, ClothState& state) const {
@@ -134,6 +149,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::bend: return add_bend(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
         case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
+        case StepKind::check: return add_check(graph, pipelines_, state, model_, step);
         case StepKind::advance: return add_advance(graph, pipelines_, state);
     }
 }
@@ -146,6 +162,7 @@ void ClothSolver::add_statistics(graph::Graph& graph) {
     for (ClothState& state : cloths_) {
         if (state.model->gathers) add_tension(graph, pipelines_, state);
         drape::add_statistics(graph, pipelines_, state, inputs_, model_);
+        if (model_.adaptive()) add_iteration_readback(graph, state);
     }
     if (model_.collider_count == 0) graph.skip("statistics: penetration", "no colliders in the scene");
 }
@@ -156,6 +173,10 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
         glsl::StatisticsRecord record;
         std::memcpy(&record, pool.buffer(statistics_readback_name(cloth), slot).mapped().data(), sizeof record);
         all.push_back(cloth_statistics(model_, cloth, record));
+        if (!model_.adaptive()) continue;
+        glsl::uvec4 used;
+        std::memcpy(&used, pool.buffer(iteration_readback_name(cloth), slot).mapped().data(), sizeof used);
+        all.back().iteration_count = used.x;
     }
     return all;
 }
@@ -185,6 +206,11 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         }
         if (topologies_ == nullptr) buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
         buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
+        if (model_.adaptive()) {
+            std::vector<glsl::uvec4> sizes = *iteration_sizes_[static_cast<std::size_t>(&cloth - model_.cloths.data())];
+            sizes.resize(glsl::iteration_size_count);
+            buffer(cloth, "iteration sizes", bytes_of(sizes));
+        }
     }
 }
 

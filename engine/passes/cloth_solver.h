@@ -74,12 +74,15 @@ class ClothSolver {
 
   private:
     void declare_drawing(graph::Graph& graph, ClothState& state) const;
+    void declare_iterations(graph::Graph& graph, ClothState& state);
     void declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, const FrameNeeds& needs);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
     const std::vector<CutTopology>* topologies_ = nullptr;
     PipelineCache pipelines_;
+    /// Per cloth; the same in the graph of every kind of frame.
+    std::vector<std::shared_ptr<std::vector<glsl::uvec4>>> iteration_sizes_;
     std::vector<ClothState> cloths_;
     SceneInputs inputs_;
 };

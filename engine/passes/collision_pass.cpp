@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/declare.h"
+#include "passes/step_dispatch.h"
 #include "passes/struct_layouts.h"
 
 namespace drape {
@@ -30,6 +31,7 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     const vulkan::ComputePipeline& pipeline = pipelines.get(shader, constants);
     glsl::CollisionPush push = state.model->collision;
     push.first = first_colliders(model.scene, step.substep);
+    const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());
     graph.add_pass(
         state.step_name("collision", step),
         [&](graph::PassSetup& setup) {
@@ -41,11 +43,9 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                 const graph::Handle buffer = inputs.colliders[kind];
                 setup.read(buffer.valid() ? buffer : any, graph::Access::compute_read, 3 + kind);
             }
+            dispatch.declare(setup);
         },
-        [&pipeline, push](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
-        });
+        [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
 }
 
 }  // namespace drape

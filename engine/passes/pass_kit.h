@@ -36,6 +36,8 @@ class PipelineCache {
 ///   normal         rgba32f  unit normal of the front; only when something is drawn
 ///   tension        r32f     per direction, by first particle, m: extension that would balance the tension applied in the
 ///                           substep; compliant and iterated springs, and stretch where the stretch error is wanted
+///   residuals      buffer   stretch error by workgroup; where iterations end by tolerance
+///   iterations     buffer   sizes of the next iteration's dispatches, and iterations run (residual_types.h); likewise
 ///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
 ///   mass           r32f     mass share (1 = an inner particle's); holes and cuts, where statistics are wanted
 ///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
@@ -47,6 +49,9 @@ struct ClothState {
     bool away = false;  ///< explicit: position and displacement are the spare images, not where the frame starts
     graph::Handle wind_force, normal, stiffness, mass, cells;
     std::array<graph::Handle, 4> tension;
+    graph::Handle residuals, iterations, iteration_size_list;
+    /// What the list will hold, gathered while the passes are added.
+    std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
     graph::Handle triangles;              ///< index buffer
     graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;

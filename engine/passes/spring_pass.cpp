@@ -3,6 +3,7 @@
 #include <string>
 
 #include "passes/declare.h"
+#include "passes/step_dispatch.h"
 #include "passes/struct_layouts.h"
 
 namespace drape {
@@ -42,6 +43,7 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const std::string name = std::string("spring ") + std::string(spring_directions[direction].name) +
                              (work.pass.parity == 0 ? " even" : " odd");
+    const StepDispatch dispatch(state, step, pipeline, push.pair_count);
     graph.add_pass(
         state.step_name(name, step),
         [&](graph::PassSetup& setup) {
@@ -49,11 +51,9 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             update(setup, state.displacement, 1, 2);
             if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, 3);
             if (stores_tension) update(setup, state.tension[direction], 4, 5);
+            dispatch.declare(setup);
         },
-        [&pipeline, push](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.pair_count.x),
-                             static_cast<std::uint32_t>(push.pair_count.y));
-        });
+        [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
 }
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "shared/cut_types.h"
+#include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
 
@@ -74,6 +75,20 @@ constexpr vulkan::MemberLayout tension_push_members[] = {
 constexpr vulkan::MemberLayout grid_push_members[] = {
     {"grid", offsetof(GridPush, grid)},
 };
+constexpr vulkan::MemberLayout residual_push_members[] = {
+    {"grid", offsetof(ResidualPush, grid)},
+    {"rest_length", offsetof(ResidualPush, rest_length)},
+};
+constexpr vulkan::MemberLayout iteration_push_members[] = {
+    {"partial_count", offsetof(IterationPush, partial_count)},
+    {"squared_tolerance", offsetof(IterationPush, squared_tolerance)},
+    {"first_check", offsetof(IterationPush, first_check)},
+    {"substep_count", offsetof(IterationPush, substep_count)},
+};
+constexpr vulkan::MemberLayout residual_record_members[] = {
+    {"squares", offsetof(ResidualRecord, squares)},
+    {"count", offsetof(ResidualRecord, count)},
+};
 constexpr vulkan::MemberLayout statistics_push_members[] = {
     {"rest_length", offsetof(StatisticsPush, rest_length)},
     {"half_stiffness", offsetof(StatisticsPush, half_stiffness)},
@@ -137,6 +152,9 @@ const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush)
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};
 const vulkan::StructLayout tension_push{"TensionPush", sizeof(TensionPush), tension_push_members};
 const vulkan::StructLayout grid_push{"GridPush", sizeof(GridPush), grid_push_members};
+const vulkan::StructLayout residual_push{"ResidualPush", sizeof(ResidualPush), residual_push_members};
+const vulkan::StructLayout iteration_push{"IterationPush", sizeof(IterationPush), iteration_push_members};
+const vulkan::StructLayout residual_record{"ResidualRecord", sizeof(ResidualRecord), residual_record_members};
 const vulkan::StructLayout statistics_push{"StatisticsPush", sizeof(StatisticsPush), statistics_push_members};
 const vulkan::StructLayout statistics_sum_push{"StatisticsSumPush", sizeof(StatisticsSumPush),
                                                statistics_sum_push_members};

@@ -1,6 +1,7 @@
 // The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
 #pragma once
 
+#include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
 
@@ -13,6 +14,7 @@ namespace drape::glsl {
 #include "include/cut.h"
 #include "include/explicit.h"
 #include "include/pin.h"
+#include "include/residual.h"
 #include "include/spring.h"
 #include "include/statistics.h"
 #include "include/triangles.h"

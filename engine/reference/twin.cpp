@@ -49,6 +49,7 @@ void Twin::run_frame(std::uint32_t frame) {
 void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs) {
     const ClothModel& model = model_.cloths[cloth];
     TwinCloth& state = cloths_[cloth];
+    if (step.conditional && !state.iterates) return;
     switch (step.kind) {
         case StepKind::release: return release(model, state, inputs.pins[cloth], step.substep);
         case StepKind::wind: return wind(model, state, inputs, step.substep);
@@ -58,6 +59,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::bend: return bend(model, state, step);
         case StepKind::spring: return spring(model, state, step);
         case StepKind::collide: return collide(model, state, inputs, step.substep);
+        case StepKind::check: return check(model, state, step);
         case StepKind::advance: return advance(state);
     }
 }

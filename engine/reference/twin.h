@@ -17,6 +17,8 @@ struct TwinCloth {
     std::vector<glsl::vec4> position_spare, displacement_spare;  ///< explicit: where the next micro-step writes
     /// m, per spring direction, by first particle: what the tension applied in the last substep would stretch it by.
     std::array<std::vector<float>, 4> tension;
+    bool iterates = true;               ///< what the last check found: conditional steps run
+    std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
 };
 
 class Twin {
@@ -45,6 +47,7 @@ class Twin {
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);
     void bend(const ClothModel& model, TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
+    void check(const ClothModel& model, TwinCloth& state, const Step& step);
     void advance(TwinCloth& state);
 
     const SimulationModel& model_;

@@ -45,10 +45,7 @@ void read_solver(SceneNode node, SolverSettings& solver) {
     constexpr std::pair<std::string_view, CollideWhen> moments[] = {{"iteration", CollideWhen::iteration},
                                                                     {"substep", CollideWhen::substep}};
     node.member("collide").read_choice<CollideWhen>(solver.collide, moments);
-    const SceneNode tolerance = node.member("tolerance");
-    double ignored = 0.0;
-    if (tolerance.read(ignored, positive) && tolerance)
-        tolerance.warn(fmt::format("tolerance is ignored by method {}", is_explicit ? "explicit" : "relax"));
+    node.member("tolerance").read(solver.tolerance, not_negative);
     const SceneNode strain_damping = node.member("strain_damping");
     if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit)
         strain_damping.warn("strain_damping is ignored by method relax");

@@ -168,6 +168,8 @@ struct SolverSettings {
     SolverMethod method = SolverMethod::automatic;  ///< `auto` means relax until more solvers exist
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
+    /// Largest RMS stretch error of a frame (cloth_statistics.h), 0 = no promise. Ends iterations once it is met.
+    double tolerance = 0;
     CollideWhen collide = CollideWhen::iteration;
     double strain_damping = 0.2;  ///< explicit: damping of each spring's strain rate, in units of its stiffness times h
     bool operator==(const SolverSettings&) const = default;

@@ -105,6 +105,8 @@ TEST_F(GraphBuilding, AccessThatDoesNotFitTheKindIsRefused) {
                    {"bad pass", "flags", "color_write"});
     expect_refused([&](PassSetup& setup) { setup.read(image, Access::index_read); },
                    {"bad pass", "cloth/position", "index_read"});
+    expect_refused([&](PassSetup& setup) { setup.read(image, Access::indirect_read); },
+                   {"bad pass", "cloth/position", "indirect_read"});
     expect_refused([&](PassSetup& setup) { setup.read(image, Access::host_read); },
                    {"bad pass", "cloth/position", "host_read"});
     expect_refused([&](PassSetup& setup) { setup.read(buffer, Access::host_read); },

@@ -7,7 +7,8 @@
 namespace drape::graph {
 namespace {
 
-constexpr std::array<VkPipelineStageFlags2, 9> all_stages = {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+constexpr std::array<VkPipelineStageFlags2, 10> all_stages = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                                             VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
                                                              VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
                                                              VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
                                                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
@@ -18,7 +19,7 @@ constexpr std::array<VkPipelineStageFlags2, 9> all_stages = {VK_PIPELINE_STAGE_2
                                                              VK_PIPELINE_STAGE_2_HOST_BIT};
 
 constexpr VkAccessFlags2 all_reads =
-    VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
 constexpr VkAccessFlags2 all_writes =
     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
@@ -75,6 +76,9 @@ Event use_event(Access access, std::string name, std::size_t command) {
             break;
         case Access::index_read:
             set(VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT);
+            break;
+        case Access::indirect_read:
+            set(VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
             break;
         case Access::color_write:
             set(VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,

@@ -37,12 +37,12 @@ void RandomGraphs::declare(Graph& graph, std::uint32_t kind, std::uint32_t index
 
 void RandomGraphs::use_something(Graph& graph, PassSetup& setup) {
     constexpr std::array reads = {Access::compute_read, Access::vertex_read, Access::fragment_read,
-                                  Access::index_read, Access::transfer_read};
+                                  Access::index_read, Access::indirect_read, Access::transfer_read};
     constexpr std::array writes = {Access::compute_write, Access::color_write, Access::depth_write,
                                    Access::resolve_write, Access::transfer_write};
     const std::uint32_t r = below(static_cast<std::uint32_t>(handles_.size()));
     const bool write = below(2) == 0;
-    const Access access = write ? writes[below(5)] : reads[below(5)];
+    const Access access = write ? writes[below(5)] : reads[below(6)];
     if (!write && !readable(graph.resources()[r])) return;
     try {
         if (write) {

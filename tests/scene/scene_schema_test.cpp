@@ -204,7 +204,6 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"box", {"path"}},
         {"ellipsoid", {"path"}},
         {"cutter", {"triangle", "active", "path"}},
-        {"solver", {"tolerance"}},
         {"oracle", {"check"}}};
     for (const ObjectKeys& object : scene_object_keys()) {
         std::set<std::string> keys;

@@ -23,7 +23,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.time, (TimeSettings{30, 12}));
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
-    EXPECT_EQ(scene.solver, (SolverSettings{SolverMethod::relax, 11, 3, CollideWhen::substep, 0.05}));
+    EXPECT_EQ(scene.solver, (SolverSettings{SolverMethod::relax, 11, 3, 0.01, CollideWhen::substep, 0.05}));
     EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
@@ -159,14 +159,10 @@ TEST(SceneValues, EachMethodByItsName) {
 
 TEST(SceneWarnings, SettingsThatDoNothing) {
     const std::vector<std::string> explicit_ignores{
-        "s:1:65: /solver/iterations: iterations is ignored by method explicit: a micro-step solves nothing",
-        "s:1:81: /solver/tolerance: tolerance is ignored by method explicit"};
-    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "explicit", "iterations": 3, "tolerance": 0.01}})"),
-              explicit_ignores);
+        "s:1:65: /solver/iterations: iterations is ignored by method explicit: a micro-step solves nothing"};
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "explicit", "iterations": 3}})"), explicit_ignores);
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"strain_damping": 0.1}})"),
               std::vector<std::string>{"s:1:47: /solver/strain_damping: strain_damping is ignored by method relax"});
-    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"tolerance": 0.01}})"),
-              std::vector<std::string>{"s:1:42: /solver/tolerance: tolerance is ignored by method relax"});
     EXPECT_EQ(
         warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
         std::vector<std::string>{

@@ -1,0 +1,101 @@
+#include "passes/check_pass.h"
+
+#include <volk.h>
+
+#include "passes/declare.h"
+#include "passes/step_dispatch.h"
+#include "passes/struct_layouts.h"
+
+namespace drape {
+
+namespace {
+
+constexpr vulkan::DescriptorDeclaration residual_descriptors[] = {
+    image_read(0, "position"), image_read(1, "displacement"),
+    image_read(2, "tension_row", VK_FORMAT_R32_SFLOAT), image_read(3, "tension_column", VK_FORMAT_R32_SFLOAT),
+    {4, "Partials", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::write, VK_FORMAT_UNDEFINED,
+     &layouts::residual_record, 0},
+    image_read(5, "stiffness_image"),  // the masked variant only
+};
+const vulkan::ShaderInterface whole{"residual.comp", std::span(residual_descriptors).first(5), &layouts::residual_push};
+const vulkan::ShaderInterface masked{"residual_masked.comp", residual_descriptors, &layouts::residual_push};
+
+constexpr vulkan::DescriptorDeclaration decision_descriptors[] = {
+    struct_buffer_read(0, "Partials", &layouts::residual_record), vector_buffer_read(1, "Sizes", sizeof(glsl::uvec4)),
+    {2, "State", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
+     nullptr, sizeof(glsl::uvec4)}};
+const vulkan::ShaderInterface decision{"iteration_decision.comp", decision_descriptors, &layouts::iteration_push};
+
+std::uint32_t strip_count(const Grid& grid) {
+    constexpr auto rows = static_cast<std::uint32_t>(glsl::residual_rows);
+    return (grid.rows() + rows - 1) / rows;
+}
+
+std::uint32_t partial_count(const Grid& grid) {
+    constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
+    return (grid.columns() + width - 1) / width * strip_count(grid);
+}
+
+void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const vulkan::ComputePipeline& pipeline = pipelines.get(state.model->masked ? masked : whole);
+    const glsl::ResidualPush push = state.model->residual;
+    const StepDispatch dispatch(state, step, pipeline, state.model->grid.columns(), strip_count(state.model->grid));
+    graph.add_pass(
+        state.step_name("residual", step),
+        [&](graph::PassSetup& setup) {
+            setup.read(state.position, graph::Access::compute_read, 0);
+            setup.read(state.displacement, graph::Access::compute_read, 1);
+            setup.read(state.tension[0], graph::Access::compute_read, 2);
+            setup.read(state.tension[1], graph::Access::compute_read, 3);
+            state.residuals = setup.write(state.residuals, graph::Access::compute_write, 4);
+            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, 5);
+            dispatch.declare(setup);
+        },
+        [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
+}
+
+}  // namespace
+
+void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SimulationModel& model,
+               const Step& step) {
+    add_residual(graph, pipelines, state, step);
+    const vulkan::ComputePipeline& pipeline = pipelines.get(decision);
+    const SolverSettings& solver = model.scene.solver;
+    const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)),
+                                   static_cast<float>(solver.tolerance * solver.tolerance),
+                                   step.substep == 0 && step.iteration == 0 ? 1 : 0, static_cast<int>(solver.substeps)};
+    const StepDispatch dispatch(state, step, pipeline, 1, 1);
+    graph.add_pass(
+        state.step_name("iteration decision", step),
+        [&](graph::PassSetup& setup) {
+            setup.read(state.residuals, graph::Access::compute_read, 0);
+            setup.read(state.iteration_size_list, graph::Access::compute_read, 1);
+            dispatch.declare(setup);
+            setup.read(state.iterations, graph::Access::compute_read);
+            state.iterations = setup.write(state.iterations, graph::Access::compute_write, 2);
+        },
+        [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
+}
+
+std::uint64_t residual_byte_count(const Grid& grid) { return partial_count(grid) * sizeof(glsl::ResidualRecord); }
+
+std::string iteration_readback_name(const ClothModel& cloth) { return cloth.name + "/iterations on the host"; }
+
+void add_iteration_readback(graph::Graph& graph, const ClothState& state) {
+    const graph::Handle empty = graph.buffer(
+        {iteration_readback_name(*state.model), sizeof(glsl::uvec4), graph::Lifetime::host_output});
+    const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
+    graph.add_pass(
+        state.pass_name("iteration readback", "statistics"),
+        [&](graph::PassSetup& setup) {
+            setup.read(state.iterations, graph::Access::transfer_read);
+            *target = setup.write(empty, graph::Access::transfer_write);
+        },
+        [iterations = state.iterations, target](graph::PassContext& context) {
+            const VkBufferCopy used{glsl::iteration_size_count * sizeof(glsl::uvec4), 0, sizeof(glsl::uvec4)};
+            vkCmdCopyBuffer(context.commands(), context.buffer(iterations).handle(), context.buffer(*target).handle(), 1,
+                            &used);
+        });
+}
+
+}  // namespace drape

@@ -1,0 +1,71 @@
+// The twin of the check between iterations: the same records in the same order.
+#include <array>
+
+#include "reference/kernels.h"
+#include "reference/texels.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+using Workgroup = std::array<ResidualRecord, workgroup_width>;
+
+ResidualRecord joined_over_workgroup(Workgroup& lanes) {
+    for (std::size_t stride = workgroup_width / 2; stride > 0; stride /= 2)
+        for (std::size_t lane = 0; lane < stride; ++lane)
+            lanes[lane] = joined_residuals(lanes[lane], lanes[lane + stride]);
+    return lanes[0];
+}
+
+ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model, const TwinCloth& state, ivec2 first,
+                           int channel) {
+    const ivec2 offset = spring_directions[static_cast<std::size_t>(channel)].offset;
+    const ivec2 second{first.x + offset.x, first.y + offset.y};
+    if (second.x >= model.residual.grid.x || second.y >= model.residual.grid.y) return record;
+    const std::size_t a = at(model.grid, first), b = at(model.grid, second);
+    const vec3 edge = spring_edge(xyz(state.position[a]), xyz(state.position[b]), xyz(state.displacement[a]),
+                                  xyz(state.displacement[b]));
+    return add_residual(record, edge, channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y,
+                        model.masked ? component(model.stiffness[a], channel) : 1.0f,
+                        state.tension[static_cast<std::size_t>(channel)][a]);
+}
+
+ResidualRecord strip(const ClothModel& model, const TwinCloth& state, ivec2 first) {
+    ResidualRecord record = empty_residual();
+    for (int y = first.y; y < first.y + residual_rows && y < model.residual.grid.y; ++y)
+        for (int channel = 0; channel < 2; ++channel)
+            record = with_spring(record, model, state, {first.x, y}, channel);
+    return record;
+}
+
+ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
+    const ivec2 grid = model.residual.grid;
+    std::vector<ResidualRecord> partials;
+    for (int y = 0; y < grid.y; y += residual_rows)
+        for (int x = 0; x < grid.x; x += workgroup_width) {
+            Workgroup lanes;
+            lanes.fill(empty_residual());
+            for (int lane = 0; lane < workgroup_width && x + lane < grid.x; ++lane)
+                lanes[static_cast<std::size_t>(lane)] = strip(model, state, {x + lane, y});
+            partials.push_back(joined_over_workgroup(lanes));
+        }
+    Workgroup lanes;
+    lanes.fill(empty_residual());
+    for (std::size_t i = 0; i < partials.size(); ++i)
+        lanes[i % workgroup_width] = joined_residuals(lanes[i % workgroup_width], partials[i]);
+    return joined_over_workgroup(lanes);
+}
+
+}  // namespace
+
+void Twin::check(const ClothModel& model, TwinCloth& state, const Step& step) {
+    if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_.scene.solver.substeps;
+    const double tolerance = model_.scene.solver.tolerance;
+    state.iterates = needs_iteration(residual(model, state), static_cast<float>(tolerance * tolerance));
+    if (state.iterates) ++state.iteration_count;
+}
+
+}  // namespace drape

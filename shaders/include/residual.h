@@ -1,0 +1,31 @@
+// How far a substep's solve is from done: the stretch error of its springs, and what is decided from it.
+#ifndef DRAPE_RESIDUAL_H
+#define DRAPE_RESIDUAL_H
+
+#include "include/vector.h"
+#include "shared/residual_types.h"
+
+SHARED ResidualRecord empty_residual() { return ResidualRecord(-0.0f, 0u); }
+
+SHARED ResidualRecord joined_residuals(ResidualRecord a, ResidualRecord b) {
+    precise float squares = a.squares + b.squares;
+    return ResidualRecord(squares, a.count + b.count);
+}
+
+/// `record` plus a stretch spring of length |edge|: (|edge| - rest_length - tension)/rest_length, what a perfect solve
+/// makes zero (spring.h). `share` of its stiffness, 0: no such spring.
+SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_length, float share, float tension) {
+    if (!(rest_length > 0.0f) || !(share > 0.0f)) return record;
+    precise float current = sqrt(ordered_dot(edge, edge));
+    precise float error = ((current - rest_length) - tension) / rest_length;
+    precise float squares = record.squares + error * error;
+    return ResidualRecord(squares, record.count + 1u);
+}
+
+/// Whether the RMS is not within the tolerance; a sum that is not finite is not.
+SHARED bool needs_iteration(ResidualRecord record, float squared_tolerance) {
+    precise float limit = squared_tolerance * float(record.count);
+    return !(record.squares <= limit);
+}
+
+#endif

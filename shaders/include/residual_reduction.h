@@ -1,0 +1,13 @@
+// The tree over a workgroup's residuals, in a fixed order: lane l joins lane l + 32, then l + 16, ... l + 1.
+shared ResidualRecord lane_records[workgroup_width];
+
+/// Joins the records of all lanes; every lane must call it. The result is lane 0's.
+ResidualRecord joined_over_workgroup(ResidualRecord record) {
+    uint lane = gl_LocalInvocationIndex;
+    lane_records[lane] = record;
+    for (uint stride = uint(workgroup_width) / 2u; stride > 0u; stride /= 2u) {
+        barrier();
+        if (lane < stride) lane_records[lane] = joined_residuals(lane_records[lane], lane_records[lane + stride]);
+    }
+    return lane_records[0];
+}

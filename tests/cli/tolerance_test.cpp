@@ -1,0 +1,36 @@
+// A scene that misses its own tolerance: exit code 8, with what came before.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Tolerance, MissedEndsTheRunNamingFrameClothAndErrorAndKeepsTheFramesBefore) {
+    const SceneFolder folder(small_scene(9));
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--set",
+                                   "/solver/tolerance=1e-5", "--set", "/solver/iterations=2"});
+    EXPECT_EQ(outcome.code, 8) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("the tolerance is missed: in frame 1, cloth 'sheet', the stretch error is "),
+                                   HasSubstr("the scene allows 1e-05"), HasSubstr("(1 of 9 frames)"),
+                                   HasSubstr("no manifest was written")));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("positions.npy"));
+}
+
+TEST(Tolerance, MetIsARunLikeAnyOtherAndStatesItsIterations) {
+    const SceneFolder folder(small_scene(4));
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--set",
+                                   "/solver/tolerance=0.5", "--set", "/solver/iterations=6"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string manifest = read_text(folder / "out/manifest.json");
+    EXPECT_THAT(manifest, HasSubstr("sheet/iterations"));
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,82 @@
+// Iterations that end when the tolerance is met: the device decides, and decides as its twin does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "frame_loop.h"
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::DeviceRun;
+using test::everything;
+using test::expect_same;
+using test::frame_count;
+using test::substep_count;
+
+/// Iterations by frame, device and twin alike; the last frames' are returned.
+std::vector<std::uint32_t> compare_iterations(const SceneDescription& scene) {
+    const SimulationModel model(scene);
+    FrameLoopOptions options;
+    options.draw = false;
+    options.positions = options.statistics = true;
+    FrameLoop loop(test::gpu().device, model, options);
+    Twin twin(model);
+    std::vector<std::uint32_t> counts;
+    loop.run(frame_count, [](std::uint32_t frame) { return frame > 0; }, [&](const FinishedFrame& frame) {
+        twin.run_frame(frame.frame);
+        const TwinCloth& expected = twin.cloth(0);
+        EXPECT_EQ(std::memcmp(frame.positions[0].data(), expected.position.data(),
+                              expected.position.size() * sizeof(glsl::vec4)), 0) << "frame " << frame.frame;
+        EXPECT_EQ(frame.statistics[0].iteration_count, expected.iteration_count) << "frame " << frame.frame;
+        counts.push_back(frame.statistics[0].iteration_count.value_or(0));
+    });
+    return counts;
+}
+
+TEST(AdaptiveIterations, TheDeviceSkipsWhatTheTwinSkips) {
+    SceneDescription scene = everything();
+    scene.solver.iterations = 7;
+    scene.solver.tolerance = 0.004;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}};
+    const std::vector<std::uint32_t> counts = compare_iterations(scene);
+    // The tolerance is one that some substeps need several iterations for, and some one.
+    EXPECT_GT(*std::ranges::max_element(counts), substep_count);
+    EXPECT_LT(*std::ranges::min_element(counts), 7 * substep_count);
+    EXPECT_NE(counts.front(), counts.back());
+}
+
+TEST(AdaptiveIterations, RigidSpringsAndContactOncePerSubstep) {
+    SceneDescription scene = everything();
+    scene.solver.iterations = 5;
+    scene.solver.tolerance = 0.01;
+    scene.solver.collide = CollideWhen::substep;
+    scene.cloths[0].stiffness.rigid = true;
+    compare_iterations(scene);
+}
+
+TEST(AdaptiveIterations, MetAtOnceIsOneIterationAndNeverMetIsAllOfThem) {
+    SceneDescription scene = test::sheet(65, 33, 1, 0.5, substep_count);
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.solver.iterations = 4;
+    for (const auto& [tolerance, each] : {std::pair(10.0, 1u), std::pair(1e-9, 4u)}) {
+        scene.solver.tolerance = tolerance;
+        for (const std::uint32_t count : compare_iterations(scene)) EXPECT_EQ(count, each * substep_count);
+    }
+    // All of them is what runs without a tolerance, bit for bit.
+    SceneDescription plain = scene;
+    plain.solver.tolerance = 0;
+    const SimulationModel adaptive_model(scene), plain_model(plain);
+    DeviceRun adaptive(test::gpu().device, adaptive_model), all(test::gpu().device, plain_model);
+    EXPECT_FALSE(all.pool().has("sheet/iterations"));
+    for (std::uint32_t frame = 1; frame <= 4; ++frame) {
+        adaptive.run_frame(frame);
+        all.run_frame(frame);
+    }
+    expect_same("position", adaptive.image(0, "position"), all.image(0, "position"), 4);
+}
+
+}  // namespace
+}  // namespace drape
