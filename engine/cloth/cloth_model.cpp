@@ -50,6 +50,8 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     inner_mass = cloth.areal_density * spacing[0] * spacing[1];
     substep_length = 1.0 / (scene.time.fps * scene.solver.substeps);
     masked = !grid.whole() || !options.skip;
+    const bool is_line = scene.solver.method == SolverMethod::line;
+    second_order = is_line && scene.colliders.empty();
     place(cloth, scene.gravity);
     hold_pins(cloth);
     stiffness_constant = stiffness_constants(cloth.stiffness, spacing);
@@ -61,18 +63,18 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     used_bend = cloth.stiffness.bend;
     if (used_bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     gathers = scene.solver.method == SolverMethod::explicit_steps;
-    if (!gathers) {
-        add_bends(scene.solver.substeps);
-        add_springs(cloth, scene.solver.iterations, options);
-    }
+    if (!gathers) add_bends(scene.solver.substeps, line_settings(cloth));
+    if (!gathers && !is_line) add_springs(cloth, scene.solver.iterations, options);
     set_constants(scene, cloth);
     if (gathers) set_explicit(scene, cloth);
+    if (is_line) set_lines(scene, cloth, options);
 }
 
 void ClothModel::place(const Cloth& cloth, const Vec3& gravity) {
     Vec3 start;
     for (std::size_t k = 0; k < 3; ++k)
-        start[k] = start_displacement(cloth.velocity[k], gravity[k], cloth.damping, substep_length);
+        start[k] = second_order ? cloth.velocity[k] * substep_length
+                                : start_displacement(cloth.velocity[k], gravity[k], cloth.damping, substep_length);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
             Vec3 at = cloth.placement.origin;
@@ -157,18 +159,49 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
         springs.push_back({pass, {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
                                   static_cast<float>(rest), compliance, pass.direction, 1}});
     }
+    note_tension(cloth);
+}
+
+void ClothModel::note_tension(const Cloth& cloth) {
     if (std::ranges::none_of(carries_tension, std::identity()))
         skipped.push_back({name + "/tension between iterations", cloth.stiffness.rigid ? "rigid springs need none"
                                                                         : "one iteration per substep needs none"});
 }
 
-void ClothModel::add_bends(std::uint32_t substeps) {
-    const double h2 = substep_length * substep_length;
+LineSettings ClothModel::line_settings(const Cloth& cloth) const {
+    return {grid.size(), inner_mass, substep_length, cloth.damping, cloth.stiffness.rigid, second_order};
+}
+
+void ClothModel::set_lines(const SceneDescription& scene, const Cloth& cloth, const ModelOptions& options) {
+    const LineSettings settings = line_settings(cloth);
+    lines = line_passes(stiffness_constant, settings);
+    if (second_order) {
+        predict = predict_constants(force, settings, scene.gravity);
+    } else {
+        skipped.push_back({name + "/second order", "colliders: contact is backward Euler throughout"});
+    }
+    if (stiffness_constant.spring[2] == 0) skipped.push_back({name + "/shear springs", "zero stiffness"});
+    bool softened = false;
+    for (std::size_t direction = 0; direction < used_stiffness.size(); ++direction) {
+        used_stiffness[direction] = line_stiffness(stiffness_constant.spring[direction], settings);
+        softened = softened || used_stiffness[direction] < stiffness_constant.spring[direction];
+    }
+    for (const LineWork& line : lines)
+        carries_tension[line.direction] = line.compliant && (scene.solver.iterations > 1 || !options.skip);
+    note_tension(cloth);
+    if (softened)
+        skipped.push_back({name + "/full stiffness",
+                           fmt::format("line solves follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on "
+                                       "diagonals at {} substeps", used_stiffness[0], used_stiffness[1],
+                                       used_stiffness[2], scene.solver.substeps)});
+}
+
+void ClothModel::add_bends(std::uint32_t substeps, const LineSettings& settings) {
     double least = std::numeric_limits<double>::infinity();
     for (const BendPass& pass : bend_passes(grid.size())) {
         const auto axis = static_cast<std::size_t>(pass.axis);
         if (stiffness_constant.bend[axis] == 0 || pass.empty()) continue;
-        const double compliance = inner_mass / (stiffness_constant.bend[axis] * h2);
+        const double compliance = method_compliance(stiffness_constant.bend[axis], settings);
         least = std::min(least, compliance);
         bends.push_back({pass, {grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour, pass.axis,
                                 static_cast<float>(std::max(compliance - bend_sweep_compliance, 1e-20))}});

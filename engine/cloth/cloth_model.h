@@ -9,6 +9,7 @@
 
 #include "cloth/directions.h"
 #include "cloth/grid.h"
+#include "cloth/line_constants.h"
 #include "cloth/stiffness_constants.h"
 #include "scene/scene_description.h"
 #include "shared/residual_types.h"
@@ -58,27 +59,30 @@ struct ClothModel {
     double inner_mass;      ///< kg of a particle with four cells
     double substep_length;  ///< s
     StiffnessConstants stiffness_constant;  ///< what the scene asks for
+    bool second_order = false;              ///< line: BDF2; without it (colliders) backward Euler
     double used_bend = 0;                   ///< N m that the solver applies
     std::array<double, 4> used_stiffness;   ///< N/m that the solver applies per direction, away from borders; relax: infinite
                                           ///< when rigid
 
     // Initial images, one texel per particle, row by row.
     std::vector<glsl::vec4> position;      ///< xyz m; w: relative inverse mass, 0 = pinned or without a cell
-    std::vector<glsl::vec4> displacement;  ///< xyz: x(0) - x(-h), the half-kick start; 0 where pinned
+    std::vector<glsl::vec4> displacement;  ///< xyz: x(0) - x(-h), the half-kick start; line in second order: h v(0); 0 where pinned
     std::vector<float> free_weight;        ///< w without pins
 
     bool masked = false;     ///< holes: stiffness and cell images exist
     std::vector<glsl::vec4> stiffness;  ///< when masked: share per direction, by first particle
-    bool carries_tension[4] = {};  ///< relax: direction's tension goes from iteration to iteration: compliant, iterated
+    bool carries_tension[4] = {};  ///< relax, line: direction's tension goes from iteration to iteration: compliant, iterated
 
     std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
-    std::vector<BendWork> bends;      ///< relax: likewise, once per substep before the springs
+    std::vector<BendWork> bends;      ///< relax, line: likewise, once per substep before the springs
+    std::vector<LineWork> lines;      ///< line: in order of solution
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
 
     bool gathers = false;               ///< explicit: particles gather what their springs do
-    glsl::ForcePush force;              ///< relax
+    glsl::ForcePush force;              ///< relax, and line in first order
+    glsl::PredictPush predict{};          ///< line in second order
     glsl::ExplicitPush explicit_step{};   ///< explicit
     ExplicitStiffness explicit_stiffness{};  ///< explicit: what the step uses of the stiffness
     glsl::TensionPush tension{};          ///< explicit
@@ -89,9 +93,12 @@ struct ClothModel {
 
   private:
     void place(const Cloth& cloth, const Vec3& gravity);
+    void note_tension(const Cloth& cloth);
     void hold_pins(const Cloth& cloth);
     void add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options);
-    void add_bends(std::uint32_t substeps);
+    void add_bends(std::uint32_t substeps, const LineSettings& settings);
+    void set_lines(const SceneDescription& scene, const Cloth& cloth, const ModelOptions& options);
+    LineSettings line_settings(const Cloth& cloth) const;
     void set_explicit(const SceneDescription& scene, const Cloth& cloth);
     void set_constants(const SceneDescription& scene, const Cloth& cloth);
 };

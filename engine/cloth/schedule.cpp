@@ -10,7 +10,11 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
 }
 
 std::string SimulationModel::method_name() const {
-    return scene.solver.method == SolverMethod::explicit_steps ? "explicit" : "relax";
+    switch (scene.solver.method) {
+        case SolverMethod::explicit_steps: return "explicit";
+        case SolverMethod::line: return "line";
+        default: return "relax";
+    }
 }
 
 bool SimulationModel::adaptive() const {
@@ -19,26 +23,44 @@ bool SimulationModel::adaptive() const {
 }
 
 void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
-    const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
-    const auto add = [&](StepKind kind, std::uint32_t iteration = 0, std::uint32_t work = 0) {
-        steps.push_back({kind, substep, iteration, work});
-    };
+    const auto add = [&](StepKind kind, std::uint32_t work = 0) { steps.push_back({kind, substep, 0, work}); };
     if (cloth.has_release) add(StepKind::release);
     if (windy) add(StepKind::wind);
     add(StepKind::force);
     if (cloth.has_motion) add(StepKind::pin);
     // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
-    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, 0, bend);
+    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, bend);
+    add_iterations(StepKind::spring, static_cast<std::uint32_t>(cloth.springs.size()), substep, steps);
+}
+
+void SimulationModel::add_line_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
+    const auto add = [&](StepKind kind, std::uint32_t work = 0) { steps.push_back({kind, substep, 0, work}); };
+    if (cloth.has_release) add(StepKind::release);
+    if (windy) add(StepKind::wind);
+    if (cloth.second_order) {
+        add(StepKind::control);
+        add(StepKind::predict);
+    } else {
+        add(StepKind::force);
+    }
+    if (cloth.has_motion) add(StepKind::pin);
+    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, bend);
+    add_iterations(StepKind::line, static_cast<std::uint32_t>(cloth.lines.size()), substep, steps);
+}
+
+void SimulationModel::add_iterations(StepKind kind, std::uint32_t work_count, std::uint32_t substep,
+                                     std::vector<Step>& steps) const {
+    const bool per_iteration = scene.solver.collide == CollideWhen::iteration;
     for (std::uint32_t iteration = 0; iteration < scene.solver.iterations; ++iteration) {
         const bool last = iteration + 1 == scene.solver.iterations;
         const bool ends_frame = last && substep + 1 == scene.solver.substeps;
         const bool conditional = adaptive() && iteration > 0;
-        for (std::uint32_t spring = 0; spring < cloth.springs.size(); ++spring)
-            steps.push_back({StepKind::spring, substep, iteration, spring, ends_frame, conditional});
+        for (std::uint32_t work = 0; work < work_count; ++work)
+            steps.push_back({kind, substep, iteration, work, ends_frame, conditional});
         if (collider_count > 0 && per_iteration) {
             steps.push_back({StepKind::collide, substep, iteration, 0, false, conditional});
         } else if (collider_count > 0 && last) {
-            add(StepKind::collide, iteration);
+            steps.push_back({StepKind::collide, substep, iteration, 0});
         }
         if (adaptive() && !last) steps.push_back({StepKind::check, substep, iteration, 0, false, conditional});
     }
@@ -59,6 +81,8 @@ std::vector<Step> SimulationModel::frame_steps(const ClothModel& cloth) const {
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
         if (scene.solver.method == SolverMethod::explicit_steps) {
             add_explicit_steps(cloth, substep, steps);
+        } else if (scene.solver.method == SolverMethod::line) {
+            add_line_steps(cloth, substep, steps);
         } else {
             add_relax_steps(cloth, substep, steps);
         }

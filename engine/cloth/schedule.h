@@ -1,5 +1,5 @@
-// Which passes make a frame, in which order: each method (`relax`, the slides' algorithm outline; `explicit`) as a
-// plain list.
+// Which passes make a frame, in which order: each method (`relax`, the slides' algorithm outline; `explicit`; `line`)
+// as a plain list.
 // The device's solver adds one graph pass per step, the C++ twin runs one function per step. Pure.
 #pragma once
 
@@ -11,14 +11,16 @@
 
 namespace drape {
 
-enum class StepKind { release, wind, force, explicit_step, pin, bend, spring, collide, check, advance };
+enum class StepKind {
+    release, wind, control, predict, force, explicit_step, pin, bend, spring, line, collide, check, advance
+};
 
 struct Step {
     StepKind kind;
     std::uint32_t substep;
-    std::uint32_t iteration;  ///< spring, collide and check
-    std::uint32_t work;       ///< spring: index into ClothModel::springs; bend: into ClothModel::bends
-    bool last = false;        ///< spring: of the frame's last iteration, after which its tension is the frame's
+    std::uint32_t iteration;  ///< spring, line, collide and check
+    std::uint32_t work;       ///< spring, bend, line: index into ClothModel::springs, bends, lines
+    bool last = false;        ///< spring, line: of the frame's last iteration, after which its tension is the frame's
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
 };
@@ -43,12 +45,17 @@ struct SimulationModel {
     /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by direction
     /// and parity by parity, and collisions.
     /// explicit: per substep release, wind, micro-step, pin motion, collisions.
+    /// line: per substep release, wind, control and prediction (with colliders: force), pin motion, bending, then per
+    /// iteration the lines of both diagonals, the rows and the columns, and collisions.
     std::vector<Step> frame_steps(const ClothModel& cloth) const;
     /// What no cloth of this scene needs, and what each cloth does not need.
     std::vector<SkippedWork> skipped() const;
 
   private:
     void add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
+    /// The iterations of a substep over `work_count` springs or lines, with collisions and checks.
+    void add_iterations(StepKind kind, std::uint32_t work_count, std::uint32_t substep, std::vector<Step>& steps) const;
+    void add_line_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     void add_explicit_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
 };
 

@@ -61,6 +61,11 @@ class PassContext {
     void bind(const vulkan::Pipeline& pipeline, const T& push_constants) {
         bind(pipeline, std::as_bytes(std::span<const T>(&push_constants, 1)));
     }
+    /// Likewise for a pipeline without push constants.
+    void dispatch(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
+        bind(pipeline);
+        dispatch_groups(pipeline, width, height);
+    }
     /// `bind`, then dispatch enough workgroups for width x height invocations.
     template <class T>
     void dispatch(const vulkan::ComputePipeline& pipeline, const T& push_constants, std::uint32_t width,

@@ -50,7 +50,8 @@ void upload_list(const graph::ResourcePool& pool, const std::string& name, const
 }  // namespace
 
 std::vector<std::string> state_image_parts() {
-    std::vector<std::string> parts{"position", "displacement", "position rest", "displacement rest"};
+    std::vector<std::string> parts{"position", "displacement", "position rest", "displacement rest",
+                                   "displacement before", "velocity excess", "line control"};
     for (const SpringDirection& direction : spring_directions) parts.push_back("tension " + std::string(direction.name));
     return parts;
 }

@@ -8,6 +8,7 @@
 #include "passes/cut_pass.h"
 #include "passes/explicit_pass.h"
 #include "passes/force_pass.h"
+#include "passes/line_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
 #include "passes/spring_pass.h"
@@ -80,6 +81,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
         state.position_spare = image("position spare", Lifetime::transient, vec4);
         state.displacement_spare = image("displacement spare", Lifetime::transient, vec4);
     }
+    if (model_.method_name() == "line") declare_line(graph, state);
     if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
     if (needs.drawing) state.normal = image("normal", Lifetime::transient, vec4);
     if (model.masked) {
@@ -143,11 +145,14 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
     switch (step.kind) {
         case StepKind::release: return add_pin_release(graph, pipelines_, state, step);
         case StepKind::wind: return add_wind(graph, pipelines_, state, inputs_, step);
+        case StepKind::control: return add_line_control(graph, pipelines_, state, step);
+        case StepKind::predict: return add_predict(graph, pipelines_, state, step);
         case StepKind::force: return add_force(graph, pipelines_, state, step);
         case StepKind::explicit_step: return add_explicit_step(graph, pipelines_, state, step);
         case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
         case StepKind::bend: return add_bend(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
+        case StepKind::line: return add_line(graph, pipelines_, state, step);
         case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
         case StepKind::check: return add_check(graph, pipelines_, state, model_, step);
         case StepKind::advance: return add_advance(graph, pipelines_, state);
@@ -196,6 +201,8 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         image(cloth, "displacement", bytes_of(cloth.displacement));
         image(cloth, "position rest", bytes_of(zero));
         image(cloth, "displacement rest", bytes_of(zero));
+        image(cloth, "displacement before", bytes_of(zero));
+        image(cloth, "velocity excess", bytes_of(zero));
         const std::vector<float> slack(cloth.grid.particle_count());
         for (const SpringDirection& direction : spring_directions)
             image(cloth, ("tension " + std::string(direction.name)).c_str(), bytes_of(slack));

@@ -38,6 +38,10 @@ class PipelineCache {
 ///                           substep; compliant and iterated springs, and stretch where the stretch error is wanted
 ///   residuals      buffer   stretch error by workgroup; where iterations end by tolerance
 ///   iterations     buffer   sizes of the next iteration's dispatches, and iterations run (residual_types.h); likewise
+///   displacement_before     rgba32f  line in second order: displacement of the substep before the last, m
+///   velocity_excess         rgba32f  line in second order: of that substep, h times its end's velocity - displacement, m
+///   line_control   r32ui    line in second order: LineControl (shaders/include/bdf2.h), an integer per texel
+///   line_scratch   vec2[]   line: eliminated rows, within a pass
 ///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
 ///   mass           r32f     mass share (1 = an inner particle's); holes and cuts, where statistics are wanted
 ///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
@@ -52,6 +56,7 @@ struct ClothState {
     graph::Handle residuals, iterations, iteration_size_list;
     /// What the list will hold, gathered while the passes are added.
     std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
+    graph::Handle line_scratch, displacement_before, velocity_excess, line_control;
     graph::Handle triangles;              ///< index buffer
     graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "shared/cut_types.h"
+#include "shared/line_types.h"
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
@@ -47,6 +48,29 @@ constexpr vulkan::MemberLayout bend_push_members[] = {
     {"colour", offsetof(BendPush, colour)},
     {"channel", offsetof(BendPush, channel)},
     {"compliance", offsetof(BendPush, compliance)},
+};
+constexpr vulkan::MemberLayout line_push_members[] = {
+    {"grid", offsetof(LinePush, grid)},
+    {"step", offsetof(LinePush, step)},
+    {"line_count", offsetof(LinePush, line_count)},
+    {"particle_count", offsetof(LinePush, particle_count)},
+    {"seam", offsetof(LinePush, seam)},
+    {"channel", offsetof(LinePush, channel)},
+    {"rest_length", offsetof(LinePush, rest_length)},
+    {"compliance", offsetof(LinePush, compliance)},
+    {"compliance_bdf2", offsetof(LinePush, compliance_bdf2)},
+    {"followed", offsetof(LinePush, followed)},
+    {"followed_bdf2", offsetof(LinePush, followed_bdf2)},
+    {"first_iteration", offsetof(LinePush, first_iteration)},
+    {"unused", offsetof(LinePush, unused)},
+};
+constexpr vulkan::MemberLayout predict_push_members[] = {
+    {"grid", offsetof(PredictPush, grid)},
+    {"loss", offsetof(PredictPush, loss)},
+    {"force_step", offsetof(PredictPush, force_step)},
+    {"weight", offsetof(PredictPush, weight)},
+    {"gravity_step", offsetof(PredictPush, gravity_step)},
+    {"gravity_step_bdf2", offsetof(PredictPush, gravity_step_bdf2)},
 };
 constexpr vulkan::MemberLayout wind_push_members[] = {
     {"grid", offsetof(WindPush, grid)},
@@ -147,6 +171,8 @@ const vulkan::StructLayout spring_push{"SpringPush", sizeof(SpringPush), spring_
 const vulkan::StructLayout force_push{"ForcePush", sizeof(ForcePush), force_push_members};
 const vulkan::StructLayout explicit_push{"ExplicitPush", sizeof(ExplicitPush), explicit_push_members};
 const vulkan::StructLayout bend_push{"BendPush", sizeof(BendPush), bend_push_members};
+const vulkan::StructLayout line_push{"LinePush", sizeof(LinePush), line_push_members};
+const vulkan::StructLayout predict_push{"PredictPush", sizeof(PredictPush), predict_push_members};
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};

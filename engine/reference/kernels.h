@@ -1,6 +1,7 @@
 // The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
 #pragma once
 
+#include "shared/line_types.h"
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
@@ -9,10 +10,12 @@ namespace drape::glsl {
 
 #include "include/vector.h"
 
+#include "include/bdf2.h"
 #include "include/bend.h"
 #include "include/colliders.h"
 #include "include/cut.h"
 #include "include/explicit.h"
+#include "include/line.h"
 #include "include/pin.h"
 #include "include/residual.h"
 #include "include/spring.h"

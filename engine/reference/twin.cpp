@@ -35,6 +35,10 @@ Twin::Twin(const SimulationModel& model) : model_(model) {
             state.position_spare.resize(count);
             state.displacement_spare.resize(count);
         }
+        if (cloth.second_order) {
+            state.displacement_before.resize(count);
+            state.velocity_excess.resize(count);
+        }
         for (std::vector<float>& tension : state.tension) tension.resize(count);
         cloths_.push_back(std::move(state));
     }
@@ -53,11 +57,14 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
     switch (step.kind) {
         case StepKind::release: return release(model, state, inputs.pins[cloth], step.substep);
         case StepKind::wind: return wind(model, state, inputs, step.substep);
+        case StepKind::control: return control(state);
+        case StepKind::predict: return predict(model, state, step.substep > 0);
         case StepKind::force: return force(model, state, step.substep > 0);
         case StepKind::explicit_step: return explicit_step(model, state, step.substep > 0);
         case StepKind::pin: return pin(model, state, inputs.pins[cloth], step.substep);
         case StepKind::bend: return bend(model, state, step);
         case StepKind::spring: return spring(model, state, step);
+        case StepKind::line: return line(model, state, step);
         case StepKind::collide: return collide(model, state, inputs, step.substep);
         case StepKind::check: return check(model, state, step);
         case StepKind::advance: return advance(state);

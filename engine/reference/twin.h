@@ -15,6 +15,8 @@ namespace drape {
 struct TwinCloth {
     std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
     std::vector<glsl::vec4> position_spare, displacement_spare;  ///< explicit: where the next micro-step writes
+    std::vector<glsl::vec4> displacement_before, velocity_excess;  ///< line in second order
+    std::array<std::uint32_t, glsl::control_texel_count> line_control{};  ///< likewise
     /// m, per spring direction, by first particle: what the tension applied in the last substep would stretch it by.
     std::array<std::vector<float>, 4> tension;
     bool iterates = true;               ///< what the last check found: conditional steps run
@@ -42,6 +44,9 @@ class Twin {
     void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void force(const ClothModel& model, TwinCloth& state, bool advance);
     void explicit_step(const ClothModel& model, TwinCloth& state, bool advance);
+    void control(TwinCloth& state);
+    void predict(const ClothModel& model, TwinCloth& state, bool advance);
+    void line(const ClothModel& model, TwinCloth& state, const Step& step);
     void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
              std::uint32_t substep);
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);

@@ -28,15 +28,11 @@ void read_wind(SceneNode node, Wind& wind) {
 void read_solver(SceneNode node, SolverSettings& solver) {
     if (!node.open_object(ObjectKind::solver)) return;
     const SceneNode method = node.member("method");
-    const bool is_planned = method && method.value()->isString() && *method.value() == "line";
-    if (is_planned) {
-        method.fail("method \"line\" is not supported yet: expected \"relax\" or \"explicit\" or \"auto\"");
-    } else {
-        constexpr std::pair<std::string_view, SolverMethod> methods[] = {{"relax", SolverMethod::relax},
-                                                                         {"explicit", SolverMethod::explicit_steps},
-                                                                         {"auto", SolverMethod::automatic}};
-        method.read_choice<SolverMethod>(solver.method, methods);
-    }
+    constexpr std::pair<std::string_view, SolverMethod> methods[] = {{"relax", SolverMethod::relax},
+                                                                     {"explicit", SolverMethod::explicit_steps},
+                                                                     {"line", SolverMethod::line},
+                                                                     {"auto", SolverMethod::automatic}};
+    method.read_choice<SolverMethod>(solver.method, methods);
     node.member("substeps").read(solver.substeps, 1, 4096);
     const SceneNode iterations = node.member("iterations");
     const bool is_explicit = solver.method == SolverMethod::explicit_steps;
@@ -46,9 +42,10 @@ void read_solver(SceneNode node, SolverSettings& solver) {
                                                                     {"substep", CollideWhen::substep}};
     node.member("collide").read_choice<CollideWhen>(solver.collide, moments);
     node.member("tolerance").read(solver.tolerance, not_negative);
+    const std::string_view name = solver.method == SolverMethod::line ? "line" : "relax";
     const SceneNode strain_damping = node.member("strain_damping");
     if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit)
-        strain_damping.warn("strain_damping is ignored by method relax");
+        strain_damping.warn(fmt::format("strain_damping is ignored by method {}", name));
 }
 
 void read_camera(SceneNode node, Camera& camera) {

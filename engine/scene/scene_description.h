@@ -161,7 +161,7 @@ struct Cutter {
     bool operator==(const Cutter&) const = default;
 };
 
-enum class SolverMethod { automatic, relax, explicit_steps };
+enum class SolverMethod { automatic, relax, explicit_steps, line };
 enum class CollideWhen { iteration, substep };
 
 struct SolverSettings {

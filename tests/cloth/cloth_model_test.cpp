@@ -91,6 +91,47 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     EXPECT_EQ(SimulationModel(scene).method_name(), "relax");
 }
 
+TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 2);
+    scene.solver.method = SolverMethod::line;
+    const auto kinds = [&] {
+        const SimulationModel model(scene);
+        EXPECT_EQ(model.method_name(), "line");
+        std::vector<StepKind> list;
+        for (const Step& step : model.frame_steps(model.cloths[0])) list.push_back(step.kind);
+        return list;
+    };
+    using enum StepKind;
+    const auto expected = [](std::vector<StepKind> substep) {
+        std::vector<StepKind> list = substep;
+        list.insert(list.end(), substep.begin(), substep.end());
+        list.push_back(advance);
+        return list;
+    };
+    EXPECT_EQ(kinds(), expected({control, predict, line, line, line, line, line, line, line, line}));
+    scene.colliders.spheres.emplace_back();
+    scene.cloths[0].stiffness.shear = 0;
+    EXPECT_EQ(kinds(), expected({force, line, line, collide, line, line, collide}));
+}
+
+TEST(ClothModelTest, LinesSayWhatTheySoften) {
+    SceneDescription scene = test::sheet(33, 33, 1, 1, 20);
+    scene.solver.method = SolverMethod::line;
+    const auto softened = [&] {
+        const ClothModel model(scene, 0);
+        for (const SkippedWork& skipped : model.skipped)
+            if (skipped.what == "sheet/full stiffness") return true;
+        return false;
+    };
+    EXPECT_FALSE(softened());
+    scene.cloths[0].stiffness.stretch = 1e9;
+    EXPECT_TRUE(softened());
+    const ClothModel model(scene, 0);
+    // Of compliance 1e-3 in units of (4/9) h^2/m.
+    EXPECT_NEAR(model.used_stiffness[0], 1e3 * 2.25 * model.inner_mass * 1200 * 1200, 1e-6 * model.used_stiffness[0]);
+    EXPECT_FLOAT_EQ(model.lines[2].push.compliance_bdf2, 1e-3f);
+}
+
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};

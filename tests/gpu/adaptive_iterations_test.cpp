@@ -57,6 +57,20 @@ TEST(AdaptiveIterations, RigidSpringsAndContactOncePerSubstep) {
     compare_iterations(scene);
 }
 
+TEST(AdaptiveIterations, LineSolvesEndToo) {
+    SceneDescription scene = everything();
+    scene.solver.method = SolverMethod::line;
+    scene.solver.iterations = 6;
+    scene.solver.tolerance = 0.004;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}};
+    compare_iterations(scene);
+    scene.colliders = {};
+    scene.solver.tolerance = 0.0005;
+    const std::vector<std::uint32_t> counts = compare_iterations(scene);
+    EXPECT_GT(*std::ranges::max_element(counts), substep_count);
+    EXPECT_LT(*std::ranges::min_element(counts), 6 * substep_count);
+}
+
 TEST(AdaptiveIterations, MetAtOnceIsOneIterationAndNeverMetIsAllOfThem) {
     SceneDescription scene = test::sheet(65, 33, 1, 0.5, substep_count);
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};

@@ -221,6 +221,36 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
     EXPECT_FALSE(plain_loop.pool().has("cutters"));
 }
 
+TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
+    // Without colliders, so that the solver is of second order and its history goes over to the new resources too.
+    constexpr std::uint32_t frames = 40;
+    SceneDescription scene = test::sheet(40, 36, 0.9, 0.8, 3);
+    scene.time.frame_count = frames + 1;
+    scene.solver.method = SolverMethod::line;
+    scene.solver.iterations = 2;
+    scene.gravity = {0, -0.5, 0};
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.cutters = random_blades(frames - 5, scene.time.fps, 0.9);
+    TwinWithCuts twin(scene);
+    ASSERT_TRUE(twin.cloth(0).second_order);
+    std::uint32_t device_cuts = 0, twin_cuts = 0;
+    FrameLoopOptions options = positions_only();
+    options.on_cut = [&](const CutEvent&, const ClothModel&, const CutTopology&) { ++device_cuts; };
+    FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
+    loop.run(
+        frames, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            if (testing::Test::HasFailure()) return;
+            twin_cuts += twin.run_frame(frame.frame).any();
+            std::string where;
+            ASSERT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where))
+                << "frame " << frame.frame << ": " << where;
+        },
+        [] { return testing::Test::HasFailure(); });
+    EXPECT_EQ(device_cuts, twin_cuts);
+    EXPECT_GE(device_cuts, 10u);
+}
+
 TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
     SceneDescription scene = test::sheet(9, 9, 0.8, 0.8, 4);
     scene.time.frame_count = 4;

@@ -66,6 +66,13 @@ std::vector<float> DeviceRun::tension(std::size_t cloth, std::size_t direction) 
     return texels;
 }
 
+std::array<std::uint32_t, glsl::control_texel_count> DeviceRun::line_control(std::size_t cloth) const {
+    std::array<std::uint32_t, glsl::control_texel_count> texels;
+    vulkan::download(device_, pool_->image(model_.cloths[cloth].name + "/line control"),
+                     std::as_writable_bytes(std::span(texels)));
+    return texels;
+}
+
 std::vector<glsl::vec4> DeviceRun::normals(std::size_t cloth) const {
     std::vector<glsl::vec4> texels(model_.cloths[cloth].grid.particle_count());
     std::memcpy(texels.data(), pool_->buffer(normal_buffer(model_.cloths[cloth]), 0).mapped().data(),

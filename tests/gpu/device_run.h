@@ -1,6 +1,7 @@
 // Runs a model's frames on the device and fetches any of its images: for comparison with the C++ twin.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <memory>
@@ -23,6 +24,7 @@ class DeviceRun {
     /// Texels of "<cloth>/<part>" of a persistent image, or the normals.
     std::vector<glsl::vec4> image(std::size_t cloth, const std::string& part) const;
     std::vector<float> tension(std::size_t cloth, std::size_t direction) const;
+    std::array<std::uint32_t, glsl::control_texel_count> line_control(std::size_t cloth) const;
     std::vector<glsl::vec4> normals(std::size_t cloth) const;
 
     const graph::Graph& graph() const { return graph_; }

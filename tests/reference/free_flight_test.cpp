@@ -29,7 +29,11 @@ TEST_P(FreeFlight, FollowsTheClosedForm) {
     Twin twin(model);
     const std::uint32_t frames = 600;
     for (std::uint32_t frame = 1; frame <= frames; ++frame) twin.run_frame(frame);
-    const double limit = substeps <= 16 ? 1e-5 : 1e-4;
+    // BDF2 is not exact under damping, as the others are: its error is (c h)^2 of the distance. And its solves round more.
+    const double ch = damping / (scene.time.fps * substeps);
+    const double limit = substeps > 16                    ? 1e-4
+                         : method == SolverMethod::line ? 2e-5 + ch * ch
+                                                        : 1e-5;
     double worst = 0;
     for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i) {
         const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0).position[i];
@@ -46,7 +50,8 @@ TEST_P(FreeFlight, FollowsTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MethodsSubstepsAndDamping, FreeFlight,
-                         testing::Combine(testing::Values(SolverMethod::relax, SolverMethod::explicit_steps),
+                         testing::Combine(testing::Values(SolverMethod::relax, SolverMethod::explicit_steps,
+                                                          SolverMethod::line),
                                           testing::Values(1u, 16u, 256u), testing::Values(0.0, 0.5)));
 
 }  // namespace

@@ -155,6 +155,7 @@ TEST(SceneValues, EachMethodByItsName) {
     EXPECT_EQ(method("auto"), SolverMethod::automatic);
     EXPECT_EQ(method("relax"), SolverMethod::relax);
     EXPECT_EQ(method("explicit"), SolverMethod::explicit_steps);
+    EXPECT_EQ(method("line"), SolverMethod::line);
 }
 
 TEST(SceneWarnings, SettingsThatDoNothing) {
@@ -163,6 +164,8 @@ TEST(SceneWarnings, SettingsThatDoNothing) {
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "explicit", "iterations": 3}})"), explicit_ignores);
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"strain_damping": 0.1}})"),
               std::vector<std::string>{"s:1:47: /solver/strain_damping: strain_damping is ignored by method relax"});
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "line", "strain_damping": 0.1}})"),
+              std::vector<std::string>{"s:1:65: /solver/strain_damping: strain_damping is ignored by method line"});
     EXPECT_EQ(
         warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
         std::vector<std::string>{

@@ -1,0 +1,138 @@
+// The twin's line solver: control, prediction in second order, tridiagonal solves.
+#include <algorithm>
+
+#include "reference/kernels.h"
+#include "reference/texels.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+void Twin::control(TwinCloth& state) {
+    auto& texels = state.line_control;
+    const LineControl next = next_control({texels[control_order], texels[control_previous_order],
+                                           texels[control_violation], texels[control_hold]});
+    texels = {next.order, next.previous_order, next.violation, next.hold};
+}
+
+void Twin::predict(const ClothModel& model, TwinCloth& state, bool advance) {
+    const PredictPush& push = model.predict;
+    const bool is_bdf2 = state.line_control[control_order] == 2u;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const vec4 position = state.position[i];
+        const vec3 displacement = xyz(state.displacement[i]);
+        if (advance) {
+            const CompensatedSum advanced = compensated_add(xyz(position), displacement, xyz(state.position_rest[i]));
+            state.position[i] = texel(advanced.value, position.w);
+            state.position_rest[i] = texel(advanced.rest);
+        }
+        const vec3 before = xyz(state.displacement_before[i]), excess_before = xyz(state.velocity_excess[i]);
+        const vec3 excess = velocity_excess(displacement, before, state.line_control[control_previous_order]);
+        state.displacement_before[i] = texel(displacement);
+        state.velocity_excess[i] = texel(excess);
+        if (position.w == 0.0f) continue;
+        const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
+        vec3 increment;
+        if (is_bdf2) {
+            const vec3 forced = forced_step(xyz(push.gravity_step_bdf2), applied, position.w, push.force_step.y);
+            increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x,
+                                       push.weight.y, push.loss.y);
+        } else {
+            const vec3 forced = forced_step(xyz(push.gravity_step), applied, position.w, push.force_step.x);
+            increment = euler_increment(displacement, excess, forced, push.loss.x);
+        }
+        const CompensatedSum predicted = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
+        state.displacement[i] = texel(predicted.value);
+        state.displacement_rest[i] = texel(predicted.rest);
+    }
+}
+
+namespace {
+
+/// One line as the shader sees it.
+struct LineView {
+    const ClothModel& model;
+    const LinePush& push;
+    const TwinCloth& state;
+    std::vector<ivec2> particles;
+
+    LineView(const ClothModel& cloth, const LinePush& pass, const TwinCloth& images, int line)
+        : model(cloth), push(pass), state(images), particles{line_start(line, pass.step)} {
+        for (int p = 1; p < push.particle_count; ++p)
+            particles.push_back(next_on_line(particles.back(), push.step, push.grid.x));
+    }
+    std::size_t spring_count() const { return particles.size() - 1; }
+    std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
+    float weight(std::size_t particle) const { return state.position[index(particle)].w; }
+    LineSpring spring(std::size_t e) const {
+        const std::size_t first = index(e), second = index(e + 1);
+        return line_spring(spring_edge(xyz(state.position[first]), xyz(state.position[second]),
+                                       xyz(state.displacement[first]), xyz(state.displacement[second])),
+                           push.rest_length);
+    }
+    float share(std::size_t e) const {
+        if (particles[e].x == push.seam) return 0.0f;
+        return model.masked ? component(model.stiffness[index(e)], push.channel)
+                            : border_stiffness(particles[e], push.step, push.grid);
+    }
+};
+
+/// Changes of the multipliers of a line's springs of the given tensions; `largest` hears of the worst of them.
+std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
+                         const std::vector<float>& tensions, float& largest) {
+    std::vector<vec2> eliminated;
+    vec2 previous{0, 0};
+    vec3 before{0, 0, 0};
+    for (std::size_t e = 0; e < springs.size(); ++e) {
+        const vec3 after = e + 1 < springs.size() ? springs[e + 1].normal : vec3{0, 0, 0};
+        const float stiffness = line.share(e);
+        largest = larger_violation(largest, springs[e], stiffness, line.push.rest_length);
+        previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), stiffness,
+                                    compliance, tensions[e]);
+        eliminated.push_back(previous);
+        before = springs[e].normal;
+    }
+    std::vector<float> change(springs.size());
+    float next = 0;
+    for (std::size_t e = springs.size(); e-- > 0;) next = change[e] = substitute_spring(eliminated[e], next);
+    return change;
+}
+
+}  // namespace
+
+void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const LinePush& push = model.lines[step.work].push;
+    const bool is_bdf2 = model.second_order && state.line_control[control_order] == 2u;
+    const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
+    const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
+    std::vector<float>& stored = state.tension[static_cast<std::size_t>(push.channel)];
+    const bool carried = step.iteration > 0 && model.carries_tension[push.channel];
+    float largest = 0;
+    for (int k = 0; k < push.line_count; ++k) {
+        const LineView line(model, push, state, k);
+        std::vector<LineSpring> springs;
+        std::vector<float> tensions;
+        for (std::size_t e = 0; e < line.spring_count(); ++e) {
+            springs.push_back(line.spring(e));
+            tensions.push_back(carried ? stored[line.index(e)] / followed : 0.0f);
+        }
+        const std::vector<float> change = solve(line, springs, compliance, tensions, largest);
+        const vec3 none{0, 0, 0};
+        for (std::size_t p = 0; p < line.particles.size(); ++p) {
+            const bool is_first = p == 0, is_last = p == springs.size();
+            const vec3 correction =
+                line_correction(is_first ? none : springs[p - 1].normal, is_first ? 0.0f : change[p - 1],
+                                is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
+            const std::size_t i = line.index(p);
+            state.displacement[i] = texel(moved_by(xyz(state.displacement[i]), correction, state.position[i].w));
+            if (!is_last && model.lines[step.work].compliant)
+                stored[i] = changed_tension(tensions[p], change[p], line.share(p), compliance) * followed;
+        }
+    }
+    if (!model.second_order) return;
+    const std::uint32_t bits = floatBitsToUint(largest);
+    state.line_control[control_violation] = std::max(state.line_control[control_violation], bits);
+}
+
+}  // namespace drape

@@ -1,0 +1,57 @@
+// Body of the prediction passes of the line solver in second order: finishes the last substep (X += d, after the first
+// substep of a frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the control
+// says. WINDY: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+layout(local_size_x = workgroup_width) in;
+layout(constant_id = 0) const bool advance = false;
+layout(push_constant) uniform Push { PredictPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D displacement_out;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_rest_in;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D position_rest_out;
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_rest_in;
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_rest_out;
+#ifdef WINDY
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
+#endif
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
+layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D displacement_before_out;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
+layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D velocity_excess_out;
+layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    vec4 position = imageLoad(position_in, texel);
+    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    if (advance) {
+        CompensatedSum advanced =
+            compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
+        imageStore(position_out, texel, vec4(advanced.value, position.w));
+        imageStore(position_rest_out, texel, vec4(advanced.rest, 0.0f));
+    }
+    vec3 before = imageLoad(displacement_before_in, texel).xyz;
+    vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
+    vec3 excess = velocity_excess(displacement, before, imageLoad(control, ivec2(control_previous_order, 0)).x);
+    imageStore(displacement_before_out, texel, vec4(displacement, 0.0f));
+    imageStore(velocity_excess_out, texel, vec4(excess, 0.0f));
+    if (position.w == 0.0f) return;
+    vec3 force = vec3(0.0f, 0.0f, 0.0f);
+#ifdef WINDY
+    force = imageLoad(wind_force, texel).xyz;
+#endif
+    vec3 increment;
+    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
+        vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force, position.w, push.force_step.y);
+        increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
+                                   push.loss.y);
+    } else {
+        vec3 forced = forced_step(push.gravity_step.xyz, force, position.w, push.force_step.x);
+        increment = euler_increment(displacement, excess, forced, push.loss.x);
+    }
+    CompensatedSum predicted = compensated_add(displacement, increment, imageLoad(displacement_rest_in, texel).xyz);
+    imageStore(displacement_out, texel, vec4(predicted.value, 0.0f));
+    imageStore(displacement_rest_out, texel, vec4(predicted.rest, 0.0f));
+}

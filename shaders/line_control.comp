@@ -1,0 +1,22 @@
+// Decides of one cloth whether the coming substep is BDF2 or backward Euler.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/line_types.h"
+#include "include/bdf2.h"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D control_in;
+layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D control_out;
+
+uint control_at(int texel) { return imageLoad(control_in, ivec2(texel, 0)).x; }
+
+void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel, 0), uvec4(value, 0u, 0u, 0u)); }
+
+void main() {
+    LineControl next = next_control(LineControl(control_at(control_order), control_at(control_previous_order),
+                                                control_at(control_violation), control_at(control_hold)));
+    store_control(control_order, next.order);
+    store_control(control_previous_order, next.previous_order);
+    store_control(control_violation, next.violation);
+    store_control(control_hold, next.hold);
+}

@@ -1,0 +1,150 @@
+// The line solver on the device equals its C++ twin bit for bit (lavapipe), over more than 200 substeps, in both orders.
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::compare;
+using test::DeviceRun;
+using test::everything;
+using test::frame_count;
+
+SceneDescription everything_in_lines() {
+    SceneDescription scene = everything();
+    scene.solver.method = SolverMethod::line;
+    return scene;
+}
+
+/// Without colliders: second order.
+SceneDescription free_lines() {
+    SceneDescription scene = everything_in_lines();
+    scene.colliders = {};
+    return scene;
+}
+
+void add_second_cloth(SceneDescription& scene) {
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.grid = {24, 41};
+    second.holes.clear();
+    second.pins = {test::pin_top(second)};
+    second.placement.origin = {-0.4, 0.3, -0.2};
+    scene.cloths.push_back(second);
+}
+
+TEST(TwinLineTest, EverythingAtOnce) { compare(everything_in_lines()); }
+
+TEST(TwinLineTest, SecondOrder) {
+    const SimulationModel model(free_lines());
+    ASSERT_TRUE(model.cloths[0].second_order);
+    compare(free_lines());
+}
+
+TEST(TwinLineTest, BothOrdersTakeTurnsWhereAPinJerksTheCloth) {
+    SceneDescription scene = free_lines();
+    Pin jerked = test::pin_box(0, 0, 4, 0);
+    jerked.path.keys = {{0.05, {0, 0, 0}, {}}, {0.1, {1, 0.5, 0}, {}}};
+    scene.cloths[0].pins = {jerked};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    std::array<bool, 3> seen{};
+    for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
+        twin.run_frame(frame);
+        seen[twin.cloth(0).line_control[glsl::control_order]] = true;
+    }
+    EXPECT_TRUE(seen[1] && seen[2]) << "the control must have switched";
+    compare(scene);
+}
+
+TEST(TwinLineTest, ThreeIterationsWithTensionHolesAndTwoCloths) {
+    SceneDescription scene = free_lines();
+    scene.solver.iterations = 3;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 20}, {36, 29}}};
+    add_second_cloth(scene);
+    compare(scene);
+}
+
+TEST(TwinLineTest, ThreeIterationsWithColliders) {
+    SceneDescription scene = everything_in_lines();
+    scene.solver.iterations = 3;
+    scene.solver.collide = CollideWhen::substep;
+    compare(scene);
+}
+
+TEST(TwinLineTest, HolesWithColliders) {
+    SceneDescription scene = everything_in_lines();
+    scene.wind = {};
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
+TEST(TwinLineTest, HolesInThreeIterationsWithColliders) {
+    SceneDescription scene = everything_in_lines();
+    scene.solver.iterations = 3;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
+TEST(TwinLineTest, BendingHolesAndNoWind) {
+    SceneDescription scene = free_lines();
+    scene.wind = {};
+    scene.cloths[0].stiffness.bend = 1e-4;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    compare(scene);
+}
+
+TEST(TwinLineTest, RigidSpringsAndPinsAtBothEnds) {
+    SceneDescription scene = free_lines();
+    scene.cloths[0].stiffness.rigid = true;
+    scene.cloths[0].pins.push_back(test::pin_box(0, 29, 36, 29));
+    compare(scene);
+}
+
+TEST(TwinLineTest, StretchAloneInThreeIterations) {
+    SceneDescription scene = free_lines();
+    scene.solver.iterations = 3;
+    scene.cloths[0].stiffness = {false, 1e5, 0, 0};
+    compare(scene);
+}
+
+class TwinLineGrid : public testing::TestWithParam<std::array<std::uint32_t, 2>> {};
+
+TEST_P(TwinLineGrid, EveryShapeOfGrid) {
+    SceneDescription scene = test::sheet(GetParam()[0], GetParam()[1], 1.0, 0.7, test::substep_count);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].velocity = {0.5, 0, 1};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0)};
+    compare(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
+                         testing::Values(std::array<std::uint32_t, 2>{2, 2}, std::array<std::uint32_t, 2>{2, 33},
+                                         std::array<std::uint32_t, 2>{41, 2}, std::array<std::uint32_t, 2>{9, 8},
+                                         std::array<std::uint32_t, 2>{65, 33}));
+
+TEST(TwinLineTest, ExactSkipsChangeNoBit) {
+    const SceneDescription scene = free_lines();
+    const SimulationModel lean(scene), full(scene, {.skip = false});
+    DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
+    EXPECT_FALSE(skipping.pool().has("sheet/tension row"));
+    EXPECT_TRUE(keeping.pool().has("sheet/tension row"));
+    EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
+    for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
+        skipping.run_frame(frame);
+        keeping.run_frame(frame);
+    }
+    test::expect_same("position", skipping.image(0, "position"), keeping.image(0, "position"), frame_count);
+}
+
+TEST(CanaryTest, AMissingBarrierBetweenLinePassesIsReported) {
+    const SimulationModel model(free_lines());
+    test::ExpectValidationMessages expected;
+    DeviceRun run(test::gpu().device, model, [](const graph::PlannedPass&, const graph::Barrier& barrier) {
+        return barrier.reason.find("line row") == std::string::npos;
+    });
+    run.run_frame(1);
+    EXPECT_FALSE(expected.messages().empty());
+}
+
+}  // namespace
+}  // namespace drape
