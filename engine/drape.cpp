@@ -196,7 +196,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
     if (request.draw)
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
-    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations};
+    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations, scene.solver.tethers};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
     manifest.created = utc_timestamp();

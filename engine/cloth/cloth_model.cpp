@@ -68,7 +68,17 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     set_constants(scene, cloth);
     if (gathers) set_explicit(scene, cloth);
     if (is_line) set_lines(scene, cloth, options);
+    if (scene.solver.tethers) set_tethers(scene, cloth);
 }
+
+void ClothModel::set_tethers(const SceneDescription& scene, const Cloth& cloth) {
+    if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
+    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, scene.gravity));
+    if (!scene.cutters.empty())
+        skipped.push_back({name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});
+}
+
+void ClothModel::drop_tethers() { std::ranges::fill(tethers, glsl::ParticleTethers{-1, -1, 0, 0}); }
 
 void ClothModel::place(const Cloth& cloth, const Vec3& gravity) {
     Vec3 start;

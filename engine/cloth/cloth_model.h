@@ -11,6 +11,7 @@
 #include "cloth/grid.h"
 #include "cloth/line_constants.h"
 #include "cloth/stiffness_constants.h"
+#include "cloth/tethers.h"
 #include "scene/scene_description.h"
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"
@@ -52,6 +53,8 @@ struct ClothModel {
 
     /// Makes the stiffness image exist, with the shares of the grid as it is now; does nothing the second time.
     void make_masked();
+    /// Lets go of every tether: what was cut off no longer hangs on what holds the rest.
+    void drop_tethers();
 
     std::string name;
     Grid grid;
@@ -79,6 +82,7 @@ struct ClothModel {
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
+    std::vector<glsl::ParticleTethers> tethers;  ///< with tethers and pins: of every particle
 
     bool gathers = false;               ///< explicit: particles gather what their springs do
     glsl::ForcePush force;              ///< relax, and line in first order
@@ -93,6 +97,7 @@ struct ClothModel {
 
   private:
     void place(const Cloth& cloth, const Vec3& gravity);
+    void set_tethers(const SceneDescription& scene, const Cloth& cloth);
     void note_tension(const Cloth& cloth);
     void hold_pins(const Cloth& cloth);
     void add_springs(const Cloth& cloth, std::uint32_t iterations, const ModelOptions& options);

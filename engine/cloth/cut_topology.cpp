@@ -112,6 +112,7 @@ CutCounts CutTopology::apply(ClothModel& model, const CutFindings& findings) {
     model.make_masked();
     CutCounts counts = take_crossings(model, findings);
     if (!counts.any()) return counts;
+    model.drop_tethers();
     counts.triangles = split_triangles(model);
     rebuild_drawing(model);
     return counts;

@@ -30,7 +30,7 @@ class CutTopology {
 
     /// Cuts the springs that were crossed (their shares in `model` become 0), and the cell's other diagonal where
     /// its corners no longer hang together; triangles with two or three cut edges leave the model's cells and are
-    /// split for drawing. A triangle with one cut edge is the end of a slit: it stays whole. Masses stay.
+    /// split for drawing. A triangle with one cut edge is the end of a slit: it stays whole. Masses stay, tethers end.
     CutCounts apply(ClothModel& model, const CutFindings& findings);
 
     /// Three indices per triangle: each triangle of the uncut grid at its own place (its first index three times

@@ -76,6 +76,12 @@ void SimulationModel::add_explicit_steps(const ClothModel& cloth, std::uint32_t 
     if (collider_count > 0) add(StepKind::collide);
 }
 
+void SimulationModel::add_tethers(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
+    if (cloth.tethers.empty()) return;
+    steps.push_back({StepKind::tether, substep, 0, 0});
+    if (collider_count > 0) steps.push_back({StepKind::collide, substep, scene.solver.iterations, 0});
+}
+
 std::vector<Step> SimulationModel::frame_steps(const ClothModel& cloth) const {
     std::vector<Step> steps;
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
@@ -86,6 +92,7 @@ std::vector<Step> SimulationModel::frame_steps(const ClothModel& cloth) const {
         } else {
             add_relax_steps(cloth, substep, steps);
         }
+        add_tethers(cloth, substep, steps);
     }
     steps.push_back({StepKind::advance, scene.solver.substeps, 0, 0});
     return steps;

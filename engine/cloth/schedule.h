@@ -12,7 +12,7 @@
 namespace drape {
 
 enum class StepKind {
-    release, wind, control, predict, force, explicit_step, pin, bend, spring, line, collide, check, advance
+    release, wind, control, predict, force, explicit_step, pin, bend, spring, line, tether, collide, check, advance
 };
 
 struct Step {
@@ -47,6 +47,7 @@ struct SimulationModel {
     /// explicit: per substep release, wind, micro-step, pin motion, collisions.
     /// line: per substep release, wind, control and prediction (with colliders: force), pin motion, bending, then per
     /// iteration the lines of both diagonals, the rows and the columns, and collisions.
+    /// With tethers each substep ends with them, and with collisions again.
     std::vector<Step> frame_steps(const ClothModel& cloth) const;
     /// What no cloth of this scene needs, and what each cloth does not need.
     std::vector<SkippedWork> skipped() const;
@@ -55,6 +56,8 @@ struct SimulationModel {
     void add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     /// The iterations of a substep over `work_count` springs or lines, with collisions and checks.
     void add_iterations(StepKind kind, std::uint32_t work_count, std::uint32_t substep, std::vector<Step>& steps) const;
+    /// Ends a substep: tethers, and once more the contacts that they may have pulled particles into.
+    void add_tethers(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     void add_line_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     void add_explicit_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
 };

@@ -152,6 +152,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["solver"]["method"] = manifest.solver.method;
     json["solver"]["substeps"] = manifest.solver.substeps;
     json["solver"]["iterations"] = manifest.solver.iterations;
+    json["solver"]["tethers"] = manifest.solver.tethers;
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);

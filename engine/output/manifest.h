@@ -48,6 +48,7 @@ struct Manifest {
         std::string method;
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
+        bool tethers = false;
     };
     struct Validation {
         bool enabled = false;

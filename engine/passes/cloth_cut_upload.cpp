@@ -61,7 +61,7 @@ std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::ma
 CutImages ClothSolver::cut_images(std::size_t cloth) const {
     const CutTopology& topology = (*topologies_)[cloth];
     const ClothModel& model = model_.cloths[cloth];
-    return {model.stiffness, model.grid.cells(), topology.indices(), topology.vertices()};
+    return {model.stiffness, model.grid.cells(), topology.indices(), topology.vertices(), model.tethers};
 }
 
 void ClothSolver::upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const {
@@ -70,6 +70,7 @@ void ClothSolver::upload_cut(const graph::ResourcePool& pool, std::size_t cloth,
     upload_rows(pool, model.name + "/stiffness", model.grid.columns(), before.stiffness, model.stiffness);
     upload_rows(pool, model.name + "/cells", model.grid.columns() - 1, before.cells, model.grid.cells());
     upload_list(pool, model.name + "/triangles", before.indices, topology.indices());
+    upload_list(pool, model.name + "/tethers", before.tethers, model.tethers);
     upload_list(pool, model.name + "/cut vertices", before.vertices, topology.vertices());
 }
 

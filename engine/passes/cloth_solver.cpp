@@ -14,6 +14,7 @@
 #include "passes/spring_pass.h"
 #include "passes/statistics_pass.h"
 #include "passes/tension_pass.h"
+#include "passes/tether_pass.h"
 #include "passes/wind_pass.h"
 
 namespace drape {
@@ -96,6 +97,9 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
                                              Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
     if (model_.adaptive()) declare_iterations(graph, state);
     if (needs.drawing) declare_drawing(graph, state);
+    if (!model.tethers.empty())
+        state.tethers = graph.buffer({model.name + "/tethers", model.tethers.size() * sizeof(glsl::ParticleTethers),
+                                      Lifetime::constant});
     if (!model.pinned.empty()) {
         state.pinned = graph.buffer({model.name + "/pinned particles",
                                      model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
@@ -153,6 +157,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::bend: return add_bend(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
         case StepKind::line: return add_line(graph, pipelines_, state, step);
+        case StepKind::tether: return add_tether(graph, pipelines_, state, step);
         case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
         case StepKind::check: return add_check(graph, pipelines_, state, model_, step);
         case StepKind::advance: return add_advance(graph, pipelines_, state);
@@ -213,6 +218,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         }
         if (topologies_ == nullptr) buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
         buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
+        buffer(cloth, "tethers", bytes_of(cloth.tethers));
         if (model_.adaptive()) {
             std::vector<glsl::uvec4> sizes = *iteration_sizes_[static_cast<std::size_t>(&cloth - model_.cloths.data())];
             sizes.resize(glsl::iteration_size_count);

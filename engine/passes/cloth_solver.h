@@ -17,6 +17,7 @@ struct CutImages {
     std::vector<glsl::vec4> stiffness;
     std::vector<std::uint32_t> cells, indices;
     std::vector<glsl::CutVertex> vertices;
+    std::vector<glsl::ParticleTethers> tethers;
 };
 
 /// The images that carry a cloth from frame to frame, without the cloth's name; a scene may lack some.

@@ -61,6 +61,7 @@ struct ClothState {
     graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;
     graph::Handle pinned, pin_motions;    ///< dynamic pins
+    graph::Handle tethers;                ///< ParticleTethers of every particle
     /// What a micro-step wrote becomes the state.
     void turn();
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;

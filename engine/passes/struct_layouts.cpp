@@ -7,6 +7,7 @@
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
+#include "shared/tether_types.h"
 
 namespace drape::layouts {
 
@@ -71,6 +72,12 @@ constexpr vulkan::MemberLayout predict_push_members[] = {
     {"weight", offsetof(PredictPush, weight)},
     {"gravity_step", offsetof(PredictPush, gravity_step)},
     {"gravity_step_bdf2", offsetof(PredictPush, gravity_step_bdf2)},
+};
+constexpr vulkan::MemberLayout particle_tethers_members[] = {
+    {"anchor_a", offsetof(ParticleTethers, anchor_a)},
+    {"anchor_b", offsetof(ParticleTethers, anchor_b)},
+    {"length_a", offsetof(ParticleTethers, length_a)},
+    {"length_b", offsetof(ParticleTethers, length_b)},
 };
 constexpr vulkan::MemberLayout wind_push_members[] = {
     {"grid", offsetof(WindPush, grid)},
@@ -173,6 +180,7 @@ const vulkan::StructLayout explicit_push{"ExplicitPush", sizeof(ExplicitPush), e
 const vulkan::StructLayout bend_push{"BendPush", sizeof(BendPush), bend_push_members};
 const vulkan::StructLayout line_push{"LinePush", sizeof(LinePush), line_push_members};
 const vulkan::StructLayout predict_push{"PredictPush", sizeof(PredictPush), predict_push_members};
+const vulkan::StructLayout particle_tethers{"ParticleTethers", sizeof(ParticleTethers), particle_tethers_members};
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};

@@ -5,6 +5,7 @@
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"
 #include "shared/statistics_types.h"
+#include "shared/tether_types.h"
 
 namespace drape::glsl {
 
@@ -20,6 +21,7 @@ namespace drape::glsl {
 #include "include/residual.h"
 #include "include/spring.h"
 #include "include/statistics.h"
+#include "include/tether.h"
 #include "include/triangles.h"
 #include "include/verlet.h"
 #include "include/wind.h"

@@ -65,6 +65,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::bend: return bend(model, state, step);
         case StepKind::spring: return spring(model, state, step);
         case StepKind::line: return line(model, state, step);
+        case StepKind::tether: return tether(model, state);
         case StepKind::collide: return collide(model, state, inputs, step.substep);
         case StepKind::check: return check(model, state, step);
         case StepKind::advance: return advance(state);
@@ -216,6 +217,23 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
             if (!(deepest > push.contact.z)) break;
         }
         state.displacement[i] = texel(displacement);
+    }
+}
+
+void Twin::tether(const ClothModel& model, TwinCloth& state) {
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        if (state.position[i].w == 0.0f) continue;
+        vec3 moved = xyz(state.displacement[i]);
+        const auto apply = [&](int anchor, float length) {
+            if (anchor < 0) return;
+            const auto a = static_cast<std::size_t>(anchor);
+            if (state.position[a].w != 0.0f) return;
+            const vec3 edge = spring_edge(xyz(state.position[a]), xyz(state.position[i]), xyz(state.displacement[a]), moved);
+            moved = moved_by(moved, tether_correction(edge, length), 1.0f);
+        };
+        apply(model.tethers[i].anchor_a, model.tethers[i].length_a);
+        apply(model.tethers[i].anchor_b, model.tethers[i].length_b);
+        state.displacement[i] = texel(moved);
     }
 }
 

@@ -47,6 +47,7 @@ class Twin {
     void control(TwinCloth& state);
     void predict(const ClothModel& model, TwinCloth& state, bool advance);
     void line(const ClothModel& model, TwinCloth& state, const Step& step);
+    void tether(const ClothModel& model, TwinCloth& state);
     void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
              std::uint32_t substep);
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);

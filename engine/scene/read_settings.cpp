@@ -43,6 +43,7 @@ void read_solver(SceneNode node, SolverSettings& solver) {
     node.member("collide").read_choice<CollideWhen>(solver.collide, moments);
     node.member("tolerance").read(solver.tolerance, not_negative);
     const std::string_view name = solver.method == SolverMethod::line ? "line" : "relax";
+    node.member("tethers").read(solver.tethers);
     const SceneNode strain_damping = node.member("strain_damping");
     if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit)
         strain_damping.warn(fmt::format("strain_damping is ignored by method {}", name));

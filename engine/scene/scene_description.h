@@ -171,6 +171,7 @@ struct SolverSettings {
     /// Largest RMS stretch error of a frame (cloth_statistics.h), 0 = no promise. Ends iterations once it is met.
     double tolerance = 0;
     CollideWhen collide = CollideWhen::iteration;
+    bool tethers = false;         ///< no particle leaves where the cloth is held farther than the cloth reaches
     double strain_damping = 0.2;  ///< explicit: damping of each spring's strain rate, in units of its stiffness times h
     bool operator==(const SolverSettings&) const = default;
 };

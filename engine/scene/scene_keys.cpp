@@ -30,7 +30,7 @@ constexpr Key box_keys[] = {"center", "half_extents", "friction", "rotate", "pat
 constexpr Key ellipsoid_keys[] = {"center", "radii", "friction", "rotate", "path", "color"};
 constexpr Key cutter_keys[] = {"triangle", "active", "path"};
 constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance",
-                               "strain_damping"};
+                               "strain_damping", "tethers"};
 constexpr Key camera_keys[] = {"position", "target", "fov"};
 constexpr Key light_keys[] = {"direction", "color", "intensity"};
 constexpr Key image_keys[] = {"size", "samples", "background"};

@@ -133,6 +133,13 @@ bool SceneNode::read_direction(Vec3& field) const {
     return true;
 }
 
+bool SceneNode::read(bool& field) const {
+    if (value_ == nullptr) return true;
+    if (!value_->isBool()) return fail_expected("true or false");
+    field = value_->asBool();
+    return true;
+}
+
 bool SceneNode::read(std::string& field) const {
     if (value_ == nullptr) return true;
     if (!value_->isString()) return fail_expected("a string");

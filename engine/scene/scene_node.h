@@ -65,6 +65,7 @@ class SceneNode {
     bool read_color(Vec3& field) const;
     /// A vector that is not zero; the field becomes its unit vector.
     bool read_direction(Vec3& field) const;
+    bool read(bool& field) const;
     bool read(std::string& field) const;
 
     template <typename Value>

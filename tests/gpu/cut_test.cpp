@@ -228,11 +228,13 @@ TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
     scene.time.frame_count = frames + 1;
     scene.solver.method = SolverMethod::line;
     scene.solver.iterations = 2;
+    scene.solver.tethers = true;  // which end with the first cut
     scene.gravity = {0, -0.5, 0};
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cutters = random_blades(frames - 5, scene.time.fps, 0.9);
     TwinWithCuts twin(scene);
     ASSERT_TRUE(twin.cloth(0).second_order);
+    ASSERT_EQ(twin.cloth(0).tethers[5 * 40].anchor_a, 0);
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     FrameLoopOptions options = positions_only();
     options.on_cut = [&](const CutEvent&, const ClothModel&, const CutTopology&) { ++device_cuts; };
@@ -249,6 +251,7 @@ TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
         [] { return testing::Test::HasFailure(); });
     EXPECT_EQ(device_cuts, twin_cuts);
     EXPECT_GE(device_cuts, 10u);
+    EXPECT_EQ(twin.cloth(0).tethers[5 * 40].anchor_a, -1);
 }
 
 TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {

@@ -122,6 +122,22 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
                                          std::array<std::uint32_t, 2>{41, 2}, std::array<std::uint32_t, 2>{9, 8},
                                          std::array<std::uint32_t, 2>{65, 33}));
 
+TEST(TwinLineTest, TethersInSecondOrder) {
+    SceneDescription scene = free_lines();
+    scene.solver.tethers = true;
+    compare(scene);
+}
+
+TEST(TwinTetherTest, EveryMethodWithHolesAndColliders) {
+    SceneDescription scene = everything();
+    scene.solver.tethers = true;
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 20}, {36, 29}}};
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
+        scene.solver.method = method;
+        compare(scene);
+    }
+}
+
 TEST(TwinLineTest, ExactSkipsChangeNoBit) {
     const SceneDescription scene = free_lines();
     const SimulationModel lean(scene), full(scene, {.skip = false});

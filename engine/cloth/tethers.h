@@ -1,0 +1,21 @@
+// Tethers (long-range attachments): which held particles a free one hangs on, and how far it may be from them. Pure.
+#pragma once
+
+#include <vector>
+
+#include "cloth/grid.h"
+#include "shared/tether_types.h"
+
+namespace drape {
+
+/// Of every particle, row by row: the nearest particle of each of the two nearest pins, at the distance within the
+/// cloth at rest times 1 + `give`. On a whole grid that distance is the straight line; around holes it is the shortest
+/// path along rows, columns and diagonals (up to 8 % longer than the true one, so never too short). `spacing`: m along
+/// columns and rows. Without pins, or out of their reach: none.
+std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const double (&spacing)[2],
+                                                const std::vector<Pin>& pins, double give);
+
+/// The strain of the cloth hanging by its whole length, rho g l/stretch: what a tether gives way by.
+double tether_give(const Cloth& cloth, const Vec3& gravity);
+
+}  // namespace drape

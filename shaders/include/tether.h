@@ -1,0 +1,18 @@
+// Tethers: long-range attachments (Kim, Chentanez and Mueller-Fischer 2012). A particle farther from where the cloth is
+// held than the cloth reaches comes back along the straight line.
+#ifndef DRAPE_TETHER_H
+#define DRAPE_TETHER_H
+
+#include "include/vector.h"
+
+/// Motion (m) of a particle at the end of `edge`, which starts at its anchor; zero within `length`.
+SHARED vec3 tether_correction(vec3 edge, float length) {
+    precise float length_squared = ordered_dot(edge, edge);
+    precise float reach_squared = length * length;
+    if (!(length_squared > reach_squared)) return vec3(0.0f, 0.0f, 0.0f);
+    precise float current = sqrt(length_squared);
+    precise vec3 correction = edge * ((length - current) / current);
+    return correction;
+}
+
+#endif
