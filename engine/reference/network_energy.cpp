@@ -142,8 +142,8 @@ std::vector<HessianEntry> SpringNetwork::hessian(std::span<const Vec3> position,
     return entries;
 }
 
-StrainStatistics SpringNetwork::strain(std::span<const Vec3> position, SpringFamily family) const {
-    StrainStatistics result;
+NetworkStrain SpringNetwork::strain(std::span<const Vec3> position, SpringFamily family) const {
+    NetworkStrain result;
     double squares = 0;
     for (const NetworkSpring& spring : springs) {
         if (spring.family != family) continue;

@@ -1,7 +1,10 @@
 #include "reference/reference_run.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <stdexcept>
 
 namespace drape {
@@ -30,15 +33,23 @@ void check_times(std::span<const double> times) {
 ReferenceRun refine(std::string_view method, double step, std::span<const double> times, const StatesAtStep& states_at,
                     const ReferenceProgress& progress) {
     check_times(times);
-    // Of the work, 1/7, 2/7 and 4/7.
-    const auto part = [&progress](double done, double share) -> ReferenceProgress {
-        if (!progress) return {};
-        return [&progress, done, share](double fraction) { progress(done + share * fraction); };
+    // The two coarse runs together take three quarters of the finest one's time, beside it.
+    std::atomic<bool> is_cancelled = false;
+    const ReferenceProgress heed_cancel = [&is_cancelled](double) {
+        if (is_cancelled) throw std::runtime_error("reference run cancelled");
     };
-    const std::vector<NetworkState> coarse = states_at(4 * step, part(0, 1.0 / 7));
-    const std::vector<NetworkState> medium = states_at(2 * step, part(1.0 / 7, 2.0 / 7));
-    ReferenceRun run{std::string(method), step, {times.begin(), times.end()}, states_at(step, part(3.0 / 7, 4.0 / 7)),
-                     {}, {}};
+    std::future<std::array<std::vector<NetworkState>, 2>> coarse_runs = std::async(std::launch::async, [&] {
+        return std::array{states_at(4 * step, heed_cancel), states_at(2 * step, heed_cancel)};
+    });
+    ReferenceRun run{std::string(method), step, {times.begin(), times.end()}, {}, {}, {}};
+    try {
+        run.states = states_at(step, progress);
+    } catch (...) {
+        is_cancelled = true;
+        coarse_runs.wait();
+        throw;
+    }
+    const auto [coarse, medium] = coarse_runs.get();
     for (std::size_t k = 0; k < times.size(); ++k) {
         const double first = position_rms(coarse[k].position, medium[k].position);
         const double second = position_rms(medium[k].position, run.states[k].position);

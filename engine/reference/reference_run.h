@@ -32,10 +32,11 @@ double position_rms(std::span<const Vec3> a, std::span<const Vec3> b);
 /// Called with the fraction done (0..1), from the calling thread only. May throw to stop the run.
 using ReferenceProgress = std::function<void(double)>;
 
-/// States at given times, integrated with steps of at most `step` seconds.
+/// States at given times, integrated with steps of at most `step` seconds. Called from several threads at once.
 using StatesAtStep = std::function<std::vector<NetworkState>(double step, const ReferenceProgress& progress)>;
 
-/// Runs at 4, 2 and 1 times `step` and estimates the finest run's error from the differences.
+/// Runs at 4, 2 and 1 times `step`, the coarse ones on a second thread, and estimates the finest run's error from the
+/// differences. `progress` is the finest run's.
 ReferenceRun refine(std::string_view method, double step, std::span<const double> times, const StatesAtStep& states_at,
                     const ReferenceProgress& progress);
 

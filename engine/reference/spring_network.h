@@ -55,7 +55,7 @@ struct NetworkOptions {
 };
 
 /// Strain |r|/rest_length - 1 of the springs of one family.
-struct StrainStatistics {
+struct NetworkStrain {
     double rms = 0, max = 0, min = 0;  ///< max: worst stretch, min: worst compression (negative)
     std::size_t count = 0;
 };
@@ -113,7 +113,7 @@ struct SpringNetwork {
                         std::span<Vec3> force) const;
     std::vector<HessianEntry> hessian(std::span<const Vec3> position, HessianForm form) const;
 
-    StrainStatistics strain(std::span<const Vec3> position, SpringFamily family) const;
+    NetworkStrain strain(std::span<const Vec3> position, SpringFamily family) const;
 
     /// Upper bound (Gershgorin) of the angular frequencies, rad/s; an explicit step must stay below 2 over it.
     double highest_frequency_bound() const;

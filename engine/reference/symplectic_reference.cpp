@@ -24,8 +24,8 @@ class SymplecticRun {
         begin_interval();
     }
 
-    /// Integrates to `end` in even steps of at most `step`.
-    void advance(double end, double step) {
+    /// Integrates to `end` in even steps of at most `step`; `tell` hears the time now and then.
+    void advance(double end, double step, const std::function<void(double)>& tell) {
         const double span = end - time_;
         if (span <= 0) return;
         const double count = std::max(1.0, std::ceil(span / step * (1 - 1e-12)));
@@ -36,6 +36,7 @@ class SymplecticRun {
         for (std::uint64_t n = 1; n <= steps; ++n) {
             time_ = n == steps ? end : begin + span * (static_cast<double>(n) / count);
             make_step();
+            if (n % 64 == 0) tell(time_);
         }
         check_finite();
         begin_interval();  // a release may lie here
@@ -145,10 +146,13 @@ std::vector<NetworkState> symplectic_states(const SpringNetwork& network, std::s
     check_times(times);
     SymplecticRun run(network);
     std::vector<NetworkState> states;
+    const auto tell = [&](double time) {
+        if (progress && times.back() > 0) progress(time / times.back());
+    };
     for (const TimeSpanEnd& end : span_ends(network, times)) {
-        run.advance(end.time, step);
+        run.advance(end.time, step, tell);
         if (end.wanted) states.push_back(run.state());
-        if (progress && times.back() > 0) progress(end.time / times.back());
+        tell(end.time);
     }
     return states;
 }

@@ -4,48 +4,21 @@
 
 #include <cmath>
 
+#include "reference/model_scenes.h"
 #include "reference/twin.h"
 #include "support/sheet_state.h"
-#include "support/sheets.h"
 
 namespace drape {
 namespace {
 
-constexpr double length = 0.1, density = 0.2, gravity = 9.81, stretch = 500;
-
-/// `segments` cells from the clamp to the free end. Two held columns clamp the middle of their cell, so the free length
-/// is half a cell more than the free columns.
-SceneDescription cantilever(std::uint32_t segments, double gamma, SolverMethod method) {
-    const double cell = length / (segments + 0.5), mass = density * cell * cell;
-    const double rigidity = density * gravity * length * length * length / gamma, bend = rigidity / (cell * cell);
-    // Relaxation in steps of m/(b h^2) = 60; explicit steps a little shorter than their limit.
-    const double steps_per_second = method == SolverMethod::relax
-                                        ? std::sqrt(60 * bend / mass)
-                                        : std::sqrt(std::max(16 * bend, 4 * 1.54 * stretch) / mass);
-    const auto substeps = static_cast<std::uint32_t>(std::ceil(steps_per_second / 1000));
-    SceneDescription scene = test::sheet(segments + 2, 2, cell * (segments + 1), cell, substeps);
-    scene.time.fps = 1000;
-    scene.solver.method = method;
-    Cloth& cloth = scene.cloths[0];
-    cloth.areal_density = density;
-    cloth.placement = {{-0.5 * cell, 0, 0}, {1, 0, 0}, {0, 0, 1}};
-    cloth.stiffness = {false, stretch, 0.1 * stretch, rigidity};
-    cloth.pins = {test::pin_box(0, 0, 1, 1)};
-    return scene;
-}
-
 /// H/W once the strip hangs still.
 double fall_over_reach(std::uint32_t segments, double gamma, SolverMethod method) {
-    SceneDescription scene = cantilever(segments, gamma, method);
-    // Beam and pendulum together: about the first mode. Damped a little less than critically, so that nothing creeps.
-    const double slowest = std::sqrt((12.36 / gamma + 1.4) * gravity / length);
-    scene.cloths[0].damping = 1.4 * slowest;
+    const SceneDescription scene = model_scenes::hanging_cantilever(segments, gamma, method);
     const SimulationModel model(scene);
     EXPECT_FALSE(model.cloths[0].explicit_stiffness.softened());
     EXPECT_EQ(model.cloths[0].used_bend, scene.cloths[0].stiffness.bend);
     Twin twin(model);
-    const auto frames = static_cast<std::uint32_t>(1000 * 20 / slowest);
-    for (std::uint32_t frame = 1; frame <= frames; ++frame) twin.run_frame(frame);
+    for (std::uint32_t frame = 1; frame < scene.time.frame_count; ++frame) twin.run_frame(frame);
     const Vec3 tip = test::position_of(twin.cloth(0), model.cloths[0].grid.columns() - 1);
     return -tip[1] / tip[0];
 }

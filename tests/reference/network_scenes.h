@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -11,19 +10,7 @@
 
 namespace drape::test {
 
-/// A sheet pinned along its top row and turned by `degrees` about it, links x links over 1 m, of the given wave speed
-/// (m/s) and shear a tenth of stretch.
-inline SceneDescription swing(std::uint32_t links, double wave_speed, double degrees) {
-    SceneDescription scene = sheet(links + 1, links + 1, 1.0, 1.0, 1);
-    Cloth& cloth = scene.cloths[0];
-    const double angle = degrees * std::numbers::pi / 180;
-    cloth.placement.v = {0, -std::cos(angle), std::sin(angle)};
-    cloth.areal_density = 0.2;
-    cloth.stiffness.stretch = cloth.areal_density * wave_speed * wave_speed;
-    cloth.stiffness.shear = 0.1 * cloth.stiffness.stretch;
-    cloth.pins = {pin_top(cloth)};
-    return scene;
-}
+using model_scenes::swing;
 
 /// A chain of `links` equal springs in a line along `direction` (unit) from the origin, its first particle pinned,
 /// inner particles of mass density/links and end particles of half that, as at the border of a cloth.

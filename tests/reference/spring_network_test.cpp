@@ -235,12 +235,12 @@ TEST(SpringNetworkTest, StrainPerFamily) {
     SpringNetwork network(test::swing(4, 100, 0), 0);
     std::vector<Vec3> x = network.rest_position;
     for (Vec3& at : x) at[1] *= 1.1;  // column springs + 10 %, rows 0, diagonals between
-    const StrainStatistics stretch = network.strain(x, SpringFamily::stretch);
+    const NetworkStrain stretch = network.strain(x, SpringFamily::stretch);
     EXPECT_EQ(stretch.count, 40u);
     EXPECT_NEAR(stretch.rms, 0.1 * std::sqrt(0.5), 1e-12);
     EXPECT_NEAR(stretch.max, 0.1, 1e-12);
     EXPECT_NEAR(stretch.min, 0.0, 1e-12);
-    const StrainStatistics shear = network.strain(x, SpringFamily::shear);
+    const NetworkStrain shear = network.strain(x, SpringFamily::shear);
     EXPECT_EQ(shear.count, 32u);
     EXPECT_NEAR(shear.rms, std::sqrt((1 + 1.21) / 2) - 1, 1e-12);
 }
