@@ -115,4 +115,21 @@ FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<c
     return file.commit();
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    const std::string beside = fmt::format("{}.tmp-{}", path.string(), getpid());
+    FileDescriptor descriptor(open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (!descriptor) throw system_error_at("write", path.string(), errno);
+    const auto fail = [&](int error) {
+        unlink(beside.c_str());
+        throw system_error_at("write", path.string(), error);
+    };
+    while (!text.empty()) {
+        const ssize_t written = write(descriptor.get(), text.data(), text.size());
+        if (written >= 0) text.remove_prefix(static_cast<size_t>(written));
+        else if (errno != EINTR) fail(errno);
+    }
+    if (fsync(descriptor.get()) != 0 || descriptor.close() != 0) fail(errno);
+    if (rename(beside.c_str(), path.c_str()) != 0) fail(errno);
+}
+
 }  // namespace drape
