@@ -150,6 +150,26 @@ ExitCode devices(bool json) {
     return ExitCode::device;
 }
 
+ExitCode bench_accuracy(bench::AccuracyRequest request) {
+    catch_signals();
+    request.stop = [] { return signal_number != 0; };
+    request.message = print_message;
+    const bench::AccuracySummary summary = bench::run_accuracy(request);
+    if (summary.stopped) {
+        const bool terminated = signal_number == SIGTERM;
+        print_error(fmt::format("stopped by {}: the finished cases are kept in {}; the same command goes on from there",
+                                terminated ? "SIGTERM" : "SIGINT", request.folder.string()));
+        return terminated ? ExitCode::terminated : ExitCode::interrupted;
+    }
+    print_data(summary.text);
+    if (!request.quiet)
+        print_message(fmt::format("{} cases measured, {} kept from before, {} left out by --budget",
+                                  summary.measured_count, summary.kept_count, summary.left_out_count));
+    if (summary.validation_count == 0) return ExitCode::ok;
+    print_error(fmt::format("{} validation messages", summary.validation_count));
+    return ExitCode::validation;
+}
+
 ExitCode report_current_exception() {
     try {
         throw;

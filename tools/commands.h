@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/accuracy.h"
 #include "drape.h"
 
 namespace drape::cli {
@@ -21,6 +22,9 @@ ExitCode check(const std::vector<std::string>& paths, const std::vector<std::str
 ExitCode schema();
 
 ExitCode devices(bool json);
+
+/// Measures errors against work; the table on stdout.
+ExitCode bench_accuracy(bench::AccuracyRequest request);
 
 /// The exit code that the current exception stands for; prints its message. Call in a catch block.
 ExitCode report_current_exception();

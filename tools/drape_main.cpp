@@ -20,6 +20,7 @@ Examples:
   drape render scenes/flag.json -o out/flag
   drape simulate scenes/hanging_sheet.json -o out/hang
   drape graph scenes/flag.json --format dot | dot -Tsvg > flag.svg
+  drape bench accuracy --short
 `drape COMMAND --help` has each command's options and examples.
 )text";
 
@@ -60,6 +61,18 @@ Examples:
   drape check my.json --set /solver/substeps=40 --json
 )text";
 
+constexpr const char* accuracy_examples = R"text(
+Runs reference problems by every solver at many settings and compares with closed forms and converged
+double-precision solutions. On stdout a table of errors and times, fitted orders of convergence, limits met, and
+which solver meets an error soonest. Times are the device's, of the simulation alone: medians over repetitions.
+The full benchmark takes hours on a CPU, references included; SIGINT ends it, and the same command goes on.
+
+Examples:
+  drape bench accuracy --short --svg out/plots
+  drape bench accuracy --filter '^(swing|drum)/(64|128)/' --json out/swing.json
+  drape bench accuracy --budget 120 --json out/accuracy.json --csv out/accuracy.csv --svg out/plots
+)text";
+
 /// What the command line asks for, and what came of it.
 struct CommandLine {
     RunRequest render, simulate;
@@ -67,6 +80,7 @@ struct CommandLine {
     std::string graph_format = "text";
     bool graph_simulate = false;
     std::vector<std::string> check_paths, check_overrides;
+    drape::bench::AccuracyRequest accuracy;
     bool check_json = false, check_quiet = false, devices_json = false;
     ExitCode code = ExitCode::ok;
 };
@@ -140,10 +154,23 @@ void add_checks(CLI::App& app, CommandLine& line) {
     command->callback([&line] { line.code = drape::cli::devices(line.devices_json); });
 }
 
+void add_bench(CLI::App& app, CommandLine& line) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure every solver: `drape bench accuracy`, error against work");
+    bench->require_subcommand(1);
+    bench->footer(footer("\nExample:\n  drape bench accuracy --short\n"));
+    CLI::App* command = bench->add_subcommand("accuracy", "Error against time, substeps, iterations and size");
+    command->footer(footer(accuracy_examples));
+    drape::cli::add_accuracy_options(*command, line.accuracy);
+    command->callback([&line] { line.code = drape::cli::bench_accuracy(line.accuracy); });
+}
+
 /// Says what is wrong with the command line, and where help is.
 int usage_error(const CLI::App& app, const std::string& text) {
     std::string name = "drape";
-    for (const CLI::App* command : app.get_subcommands()) name += " " + command->get_name();
+    for (const CLI::App* command = &app; !command->get_subcommands().empty();) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
     drape::cli::print_message(name + ": " + text + "\nSee `" + name + " --help`.");
     return static_cast<int>(ExitCode::usage);
 }
@@ -193,6 +220,7 @@ int main(int argc, char** argv) {
         add_runs(app, line);
         add_graph(app, line);
         add_checks(app, line);
+        add_bench(app, line);
         const int usage = run_command_line(argc, argv, app);
         return usage != 0 ? usage : static_cast<int>(line.code);
     } catch (...) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdlib>
 #include <functional>
 
 namespace drape::cli {
@@ -60,6 +61,20 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
     option->type_name("/POINTER=VALUE")->check(check_override, "");
 }
 
+void add_device_option(CLI::App& command, std::string& device) {
+    command
+        .add_option("--device", device,
+                    "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them);\n"
+                    "default: a GPU when there is one")
+        ->type_name("DEVICE");
+}
+
+void add_validate_option(CLI::App& command, bool& validate) {
+    command.add_flag("--validate", validate,
+                     "Core and synchronization validation by the Khronos layer: each message on\n"
+                     "stderr, and exit code 6 when there was one");
+}
+
 void add_scene_options(CLI::App& command, SceneRequest& scene) {
     command
         .add_option("SCENE", scene.path,
@@ -67,14 +82,8 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
         ->required()
         ->type_name("");
     add_override_option(command, scene.overrides);
-    command
-        .add_option("--device", scene.device,
-                    "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them);\n"
-                    "default: a GPU when there is one")
-        ->type_name("DEVICE");
-    command.add_flag("--validate", scene.validate,
-                     "Core and synchronization validation by the Khronos layer: each message on\n"
-                     "stderr, and exit code 6 when there was one");
+    add_device_option(command, scene.device);
+    add_validate_option(command, scene.validate);
     command.add_flag_callback(
         "--no-skip", [&scene] { scene.skip = false; },
         "Do the work that is skipped because it changes no bit of the result");
@@ -136,6 +145,41 @@ void add_run_options(CLI::App& command, RunRequest& request) {
         command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")
         ->excludes(quiet);
+}
+
+void add_accuracy_options(CLI::App& command, bench::AccuracyRequest& request) {
+    command
+        .add_option("--filter", request.filter,
+                    "Only cases whose name contains this regular expression; names are\n"
+                    "PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
+                    "default: all")
+        ->type_name("REGEX");
+    command.add_flag("--short", request.is_short, "A few small cases of every problem: under 3 minutes");
+    command
+        .add_option("--folder", request.folder,
+                    "Where finished cases and references are kept: the same command goes on from\n"
+                    "there, and only what has changed is measured again; default: bench")
+        ->type_name("DIR");
+    const auto check_minutes = [](const std::string& text) {
+        char* end = nullptr;
+        const double minutes = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == 0 && minutes > 0 && minutes < 1e6
+                   ? std::string()
+                   : "expected minutes above 0, got '" + text + "'";
+    };
+    command
+        .add_option("--budget", request.budget_minutes,
+                    "Start no case that would end later than after so many minutes, the important\n"
+                    "cases first; default: no limit")
+        ->type_name("MINUTES")
+        ->check(check_minutes, "");
+    command.add_option("--json", request.json, "Write results, orders, limits and ratios as JSON")->type_name("FILE");
+    command.add_option("--csv", request.csv, "Write a row per case")->type_name("FILE");
+    command.add_option("--svg", request.svg, "Write plots of error against time, passes, substeps and N")
+        ->type_name("DIR");
+    add_device_option(command, request.device);
+    add_validate_option(command, request.validate);
+    command.add_flag("-q,--quiet", request.quiet, "No progress");
 }
 
 }  // namespace drape::cli

@@ -17,7 +17,7 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     const Outcome general = drape({"--help"});
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
-    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices"}) {
+    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices", "bench"}) {
         EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

@@ -1,0 +1,27 @@
+// Results as a run would make them, for tests of what is done with them.
+#pragma once
+
+#include "bench/bench_case.h"
+
+namespace drape::bench::test {
+
+/// swing/64/METHOD/SUBSTEPS with these errors; as many passes as substeps.
+inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, double milliseconds,
+                               double position, double stretch, std::uint32_t iterations = 1) {
+    CaseResult result;
+    result.problem = "swing";
+    result.size = 64;
+    result.method = method_name(method);
+    result.substeps = substeps;
+    result.iterations = iterations;
+    result.name = "swing/64/" + result.method + "/" + setting_name({method, substeps, iterations});
+    result.key = result.name;
+    result.passes = substeps * iterations;
+    result.device_ms = result.device_ms_low = result.device_ms_high = milliseconds;
+    result.wall_ms = 2 * milliseconds;
+    result.metrics = {{"position_rms", position}, {"stretch_error", stretch}, {"stretch_rms", stretch}};
+    result.seconds = 1;
+    return result;
+}
+
+}  // namespace drape::bench::test

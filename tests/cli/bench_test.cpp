@@ -1,0 +1,92 @@
+// `drape bench accuracy` as a user runs it: files, exit codes, what a second run does not do again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "output/temporary_folder.h"
+#include "program.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments = {"bench",    "accuracy",        "--short",  "--validate",
+                                                "--filter", "free fall",       "--folder", folder / "b",
+                                                "--json",   folder / "a.json", "--csv",    folder / "a.csv",
+                                                "--svg",    folder / "plots"};
+    const Outcome first = drape(arguments);
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_THAT(first.out, AllOf(HasSubstr("free fall/2/relax/16"), HasSubstr("met"),
+                                 Not(HasSubstr("NOT MET")), Not(HasSubstr("swing"))));
+    EXPECT_THAT(first.err, AllOf(HasSubstr("6/6 free fall/2/line/16"), HasSubstr("ETA 0:00"),
+                                 HasSubstr("6 cases measured, 0 kept")));
+    EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("\"format\": \"drape bench accuracy 1\""));
+    EXPECT_THAT(read_text(folder / "a.csv"),
+                HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
+    EXPECT_EQ(names_in(folder / "plots"), std::set<std::string>{"free_fall_substeps.svg"});
+
+    // Without the last line, which a kill may have cut short, one case is missing.
+    std::string kept = read_text(folder / "b/results.jsonl");
+    write_text(folder / "b/results.jsonl", kept.substr(0, kept.size() - 20));
+    const Outcome second = drape(arguments);
+    EXPECT_EQ(second.code, 0) << second.err;
+    EXPECT_THAT(second.err, HasSubstr("1 cases measured, 5 kept"));
+    const Outcome third = drape(arguments);
+    EXPECT_THAT(third.err, HasSubstr("0 cases measured, 6 kept"));
+    EXPECT_EQ(third.out.substr(third.out.find('\n')), second.out.substr(second.out.find('\n')));
+}
+
+TEST(BenchAccuracy, AReferenceIsComputedOnce) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments = {"bench",    "accuracy",           "--short",  "--validate",
+                                                "--filter", "pendulum/1/relax/5", "--folder", folder.path()};
+    const Outcome first = drape(arguments);
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("reference motion of 4 particles"));
+    std::filesystem::remove(folder / "results.jsonl");
+    const Outcome second = drape(arguments);
+    EXPECT_THAT(second.err, AllOf(HasSubstr("1 cases measured"), Not(HasSubstr("reference motion"))));
+}
+
+TEST(BenchAccuracy, ABudgetLeavesOutWhatItCannotPay) {
+    const TemporaryFolder folder;
+    const Outcome outcome = drape(
+        {"bench", "accuracy", "--filter", "^swing/512/", "--budget", "0.001", "--folder", folder / "b"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("0 cases measured, 0 kept from before, 35 left out by --budget"));
+    EXPECT_THAT(outcome.out, HasSubstr("The budget of time left cases out."));
+}
+
+TEST(BenchAccuracy, RefusesWhatItCannotDo) {
+    const TemporaryFolder folder;
+    const auto refused = [&](std::vector<std::string> options, int code, const char* message) {
+        options.insert(options.begin(), {"bench", "accuracy", "--folder", folder / "b"});
+        const Outcome outcome = drape(options);
+        EXPECT_EQ(outcome.code, code) << message;
+        EXPECT_THAT(outcome.out, IsEmpty()) << message;
+        EXPECT_THAT(outcome.err, HasSubstr(message));
+        EXPECT_FALSE(std::filesystem::exists(folder / "b/results.jsonl")) << message;
+    };
+    refused({"--filter", "("}, 2, "--filter '('");
+    refused({"--filter", "no such case"}, 2, "matches no case");
+    refused({"--budget", "soon"}, 2, "--budget: expected minutes above 0, got 'soon'");
+    refused({"--budget", "-1"}, 2, "--budget");
+    refused({"--filter", "free fall/2/relax/1$", "--device", "no such device"}, 4, "no such device");
+    write_text(folder / "file", "");
+    const Outcome outcome = drape({"bench", "accuracy", "--folder", folder / "file"});
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_EQ(drape({"bench"}).code, 2);
+    const Outcome help = drape({"bench", "accuracy", "--help"});
+    EXPECT_THAT(help.out,
+                AllOf(HasSubstr("Usage: drape bench accuracy"), HasSubstr("Exit codes: 0 ok, 1 file")));
+}
+
+}  // namespace
+}  // namespace drape

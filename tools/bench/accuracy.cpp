@@ -1,0 +1,235 @@
+#include "bench/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <regex>
+
+#include "bench/measure.h"
+#include "bench/report.h"
+#include "bench/store.h"
+#include "drape.h"
+#include "output/atomic_file.h"
+#include "output/manifest.h"
+
+namespace drape::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct PlannedSweep {
+    const Problem* problem;
+    Sweep sweep;
+};
+
+std::vector<PlannedSweep> planned(const std::vector<Problem>& problems, const std::string& filter) {
+    std::regex expression;
+    try {
+        expression = std::regex(filter);
+    } catch (const std::regex_error& error) {
+        throw UsageError(fmt::format("--filter '{}': {}", filter, error.what()));
+    }
+    std::vector<PlannedSweep> plan;
+    for (const Problem& problem : problems)
+        for (const Sweep& sweep : problem.sweeps) {
+            Sweep chosen{sweep.size, {}, sweep.priority};
+            for (const Setting& setting : sweep.settings)
+                if (std::regex_search(case_name(problem, sweep.size, setting), expression))
+                    chosen.settings.push_back(setting);
+            if (!chosen.settings.empty()) plan.push_back({&problem, chosen});
+        }
+    if (plan.empty())
+        throw UsageError(
+            fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", filter));
+    std::ranges::stable_sort(plan, {}, [](const PlannedSweep& p) { return p.sweep.priority; });
+    return plan;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw OutputError(fmt::format("cannot make folder '{}': {}", folder.string(), error.message()));
+}
+
+std::string duration(double seconds) {
+    const auto total = static_cast<std::uint64_t>(std::max(0.0, std::ceil(seconds)));
+    return total >= 3600 ? fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60)
+                         : fmt::format("{}:{:02}", total / 60, total % 60);
+}
+
+/// Seconds of a case from its work and the rate of those done so far.
+class Forecast {
+  public:
+    void left(double work) { left_ += work; }
+    void left_out(double work) { left_ -= work; }
+    void done(double work, double seconds) {
+        work_ += work;
+        seconds_ += seconds;
+    }
+    double seconds(double work) const { return work * (work_ > 0 ? seconds_ / work_ : first_rate); }
+    double seconds_left() const { return seconds(left_); }
+
+  private:
+    static constexpr double first_rate = 5e-9;  // s per particle and pass, before anything is measured
+    double left_ = 0, work_ = 0, seconds_ = 0;
+};
+
+class AccuracyRun {
+  public:
+    AccuracyRun(const AccuracyRequest& request, const vulkan::Device& device, std::vector<PlannedSweep> plan)
+        : request_(request),
+          device_(device),
+          plan_(std::move(plan)),
+          store_(request.folder / "results.jsonl"),
+          references_(
+              request.folder / "references", [this](const std::string& what) { begin_reference(what); },
+              [this](double fraction) { show_reference(fraction); }) {
+        for (const PlannedSweep& p : plan_)
+            for (const Setting& setting : p.sweep.settings) {
+                forecast_.left(case_work(*p.problem, p.sweep.size, setting));
+                ++case_count_;
+            }
+    }
+
+    /// Throws Stopped.
+    void run(AccuracySummary& summary) {
+        for (const PlannedSweep& p : plan_) run_sweep(p, summary);
+        summary.computed_reference_count = references_.computed_count();
+    }
+
+    const std::vector<CaseResult>& results() const { return results_; }
+
+  private:
+    void run_sweep(const PlannedSweep& p, AccuracySummary& summary) {
+        bool at_floor = false;
+        for (const Setting& setting : p.sweep.settings) {
+            const double work = case_work(*p.problem, p.sweep.size, setting);
+            forecast_.left_out(work);
+            ++case_number_;
+            if (at_floor) continue;
+            const std::string key = case_key(device_.info(), *p.problem, p.sweep.size, setting);
+            if (std::optional<CaseResult> kept = store_.find(key)) {
+                ++summary.kept_count;
+                results_.push_back(std::move(*kept));
+            } else if (over_budget(forecast_.seconds(work))) {
+                ++summary.left_out_count;
+                continue;
+            } else {
+                measure(p, setting, work);
+                ++summary.measured_count;
+            }
+            at_floor = is_at_floor(*p.problem, results_.back());
+        }
+    }
+
+    void measure(const PlannedSweep& p, const Setting& setting, double work) {
+        if (stopped()) throw Stopped{};
+        const double start = now(), before = reference_seconds_;
+        results_.push_back(
+            run_case(device_, *p.problem, p.sweep.size, setting, references_, [this] { return stopped(); }));
+        store_.add(results_.back());
+        forecast_.done(work, now() - start - (reference_seconds_ - before));
+        const CaseResult& result = results_.back();
+        const auto error = result.metrics.find(p.problem->metric);
+        say(fmt::format("{}/{} {}: {:.3g} ms/frame, {}; {:.1f} s, ETA {}", case_number_, case_count_,
+                        result.name, case_milliseconds(result),
+                        error == result.metrics.end()
+                            ? std::string(result.diverged ? "diverged" : "no reference")
+                            : fmt::format("{} {:.2e}", p.problem->metric, error->second),
+                        result.seconds, duration(forecast_.seconds_left())));
+    }
+
+    static bool is_at_floor(const Problem& problem, const CaseResult& result) {
+        const auto error = result.metrics.find(problem.metric), own = result.metrics.find("reference_error");
+        const double floor = std::max(problem.floor, own == result.metrics.end() ? 0 : 1.5 * own->second);
+        return error != result.metrics.end() && error->second < floor;
+    }
+
+    bool over_budget(double seconds) const {
+        return request_.budget_minutes && now() - start_ + seconds > 60 * *request_.budget_minutes;
+    }
+
+    bool stopped() const { return request_.stop && request_.stop(); }
+
+    void say(const std::string& text) const {
+        if (!request_.quiet && request_.message) request_.message(text);
+    }
+
+    void begin_reference(const std::string& what) {
+        say(what);
+        reference_start_ = last_line_ = now();
+        reference_before_ = reference_seconds_;
+    }
+
+    void show_reference(double fraction) {
+        if (stopped()) throw Stopped{};
+        const double time = now(), spent = time - reference_start_;
+        reference_seconds_ = reference_before_ + spent;
+        if (time - last_line_ < 10 || fraction <= 0) return;
+        last_line_ = time;
+        say(fmt::format("  reference {:.0f} %, {} left", 100 * fraction, duration(spent / fraction - spent)));
+    }
+
+    const AccuracyRequest& request_;
+    const vulkan::Device& device_;
+    std::vector<PlannedSweep> plan_;
+    ResultStore store_;
+    References references_;
+    Forecast forecast_;
+    std::vector<CaseResult> results_;
+    std::size_t case_number_ = 0, case_count_ = 0;
+    double start_ = now(), reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0,
+           last_line_ = 0;
+};
+
+void write_files(const AccuracyRequest& request, const Report& report, const std::vector<Problem>& problems) {
+    if (!request.json.empty()) write_file(request.json, report_json(report));
+    if (!request.csv.empty()) write_file(request.csv, report_csv(report));
+    if (request.svg.empty()) return;
+    make_folder(request.svg);
+    for (const auto& [name, plot] : report_plots(report, problems))
+        write_file(fs::path(request.svg) / name, svg_text(plot));
+}
+
+}  // namespace
+
+AccuracySummary run_accuracy(const AccuracyRequest& request) {
+    const std::vector<Problem> problems = all_problems(request.is_short);
+    std::vector<PlannedSweep> plan = planned(problems, request.filter);
+    make_folder(request.folder);
+    const vulkan::Instance instance({.validation = request.validate});
+    const vulkan::Device device(instance, request.device);
+    AccuracySummary summary;
+    AccuracyRun run(request, device, std::move(plan));
+    try {
+        run.run(summary);
+    } catch (const Stopped&) {
+        summary.stopped = true;
+        return summary;
+    }
+    const vulkan::DeviceInfo& info = device.info();
+    Report report{program_version(),
+                  utc_timestamp(),
+                  info.name,
+                  info.driver + " " + info.driver_version,
+                  request.is_short,
+                  summary.left_out_count == 0,
+                  run.results(),
+                  {},
+                  {},
+                  {}};
+    evaluate(report);
+    write_files(request, report, problems);
+    summary.text = report_text(report, problems);
+    summary.validation_count = instance.validation_log().count();
+    return summary;
+}
+
+}  // namespace drape::bench

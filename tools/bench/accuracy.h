@@ -1,0 +1,38 @@
+// `drape bench accuracy`: error against work for every solver.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace drape::bench {
+
+struct AccuracyRequest {
+    std::string filter;     ///< regular expression that a case's name must contain; empty: all
+    bool is_short = false;  ///< few small cases
+    std::string device;     ///< selector; empty: the best there is
+    bool validate = false;  ///< core and synchronization validation
+    std::filesystem::path folder = "bench";  ///< finished cases and references, kept for the next run
+    std::string json, csv;                   ///< files; empty: none
+    std::string svg;                         ///< folder of plots; empty: none
+    std::optional<double> budget_minutes;    ///< start no case that would end later
+    bool quiet = false;
+    std::function<void(const std::string&)> message;  ///< progress, one line each
+    std::function<bool()> stop;                       ///< true: end soon; what is finished is kept
+};
+
+struct AccuracySummary {
+    std::string text;  ///< the table
+    bool stopped = false;
+    std::size_t measured_count = 0, kept_count = 0, left_out_count = 0;  ///< left out by the budget
+    std::size_t computed_reference_count = 0;
+    std::uint64_t validation_count = 0;  ///< messages
+};
+
+/// Runs the cases in order of importance, the coarse settings of a sweep first; a sweep ends when its error
+/// has reached the floor of what can be told. Files are written at the end, each whole. Throws UsageError,
+/// OutputError, vulkan::VulkanError.
+AccuracySummary run_accuracy(const AccuracyRequest& request);
+
+}  // namespace drape::bench

@@ -1,0 +1,29 @@
+#include "bench/bench_case.h"
+
+#include <fmt/format.h>
+
+namespace drape::bench {
+
+std::string method_name(SolverMethod method) {
+    switch (method) {
+        case SolverMethod::explicit_steps:
+            return "explicit";
+        case SolverMethod::line:
+            return "line";
+        default:
+            return "relax";
+    }
+}
+
+std::string setting_name(const Setting& setting) {
+    return setting.iterations == 1 ? fmt::format("{}", setting.substeps)
+                                   : fmt::format("{}x{}", setting.substeps, setting.iterations);
+}
+
+std::string family_name(const std::string& method, std::uint32_t substeps, std::uint32_t iterations) {
+    if (iterations == 1) return method;
+    return substeps == 1 ? method + ", 1 substep x iterations"
+                         : fmt::format("{}, {} iterations", method, iterations);
+}
+
+}  // namespace drape::bench

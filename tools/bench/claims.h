@@ -1,0 +1,49 @@
+// What the benchmark is to show, checked against its results: the tables of errors, and who is sooner at
+// equal error.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/bench_case.h"
+
+namespace drape::bench {
+
+/// An error with the limit that it must not exceed.
+struct LimitCheck {
+    std::string name;  ///< of the case
+    std::string metric;
+    double limit = 0;
+    double measured = 0;
+    bool met() const { return measured <= limit; }
+};
+
+/// Errors at equal passes of a double-precision prototype of the same solvers (position errors: at least 5e-5
+/// m), and the limits of the closed-form rows. Only of cases that are among the results.
+std::vector<LimitCheck> check_limits(std::span<const CaseResult> results);
+
+/// The measured setting of a family that meets a limit soonest; never interpolated.
+struct Soonest {
+    std::string problem;
+    std::uint32_t size = 0;
+    std::string metric;
+    double limit = 0;
+    std::string family;
+    std::string name;  ///< of the case; empty: no measured setting of the family meets the limit
+    double milliseconds = 0, passes = 0;  ///< per frame
+    double measured = 0;
+    /// The best `relax` setting's time and passes over these: above 1, this family is sooner. 0: one of the
+    /// two does not meet the limit.
+    double time_ratio = 0, passes_ratio = 0;
+};
+
+/// Of every family of the timed sheets, for 1 % stretch error and 1e-3 m position error. "relax" is the
+/// best-tuned substepped relaxation; the slides' form is a family of its own.
+std::vector<Soonest> find_soonest(std::span<const CaseResult> results);
+
+/// Device time, or wall time where the device has no timestamps; ms per frame.
+double case_milliseconds(const CaseResult& result);
+
+}  // namespace drape::bench

@@ -1,0 +1,227 @@
+#include "bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cloth/frame_inputs.h"
+#include "drape.h"
+#include "frame_loop.h"
+#include "output/manifest.h"
+#include "spirv_modules.h"
+
+namespace drape::bench {
+
+namespace {
+
+/// Raise when the same run would be measured differently, so that kept results are not mixed with new ones.
+constexpr int measuring_version = 1;
+
+constexpr int repetition_count = 3;
+constexpr double repetition_seconds = 1.0;   // about as long is measured at a time
+constexpr std::uint32_t warm_up_frames = 2;  // compile shaders, fill caches
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Setting& setting) {
+    SceneDescription scene = problem.scene(size, setting);
+    scene.solver.method = setting.method;
+    scene.solver.substeps = setting.substeps;
+    scene.solver.iterations = setting.iterations;
+    // The strain-rate damping is for tangled cloth; the references have none.
+    scene.solver.strain_damping = 0;
+    return scene;
+}
+
+/// Steps that read and write every particle; the others touch a few, or only look.
+double passes_of(const SimulationModel& model) {
+    double passes = 0;
+    for (const Step& step : model.frame_steps(model.cloths[0])) switch (step.kind) {
+            case StepKind::release:
+            case StepKind::pin:
+            case StepKind::control:
+            case StepKind::check:
+            case StepKind::advance:
+                break;
+            default:
+                ++passes;
+        }
+    return passes;
+}
+
+double simulate_ms(const std::vector<graph::Timing>& timings) {
+    double sum = 0;
+    for (const graph::Timing& timing : timings)
+        if (timing.name == "simulate") sum += timing.milliseconds;
+    return sum;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+struct RecordedRun {
+    std::vector<Sample> samples;
+    std::vector<double> device_ms;
+    bool diverged = false;
+    double wall_ms = 0;  ///< per frame
+};
+
+RecordedRun record(const vulkan::Device& device, const Problem& problem, const SimulationModel& model,
+                   const std::function<bool()>& stop) {
+    FrameLoopOptions options;
+    options.draw = false;
+    options.positions = options.statistics = true;
+    FrameLoop loop(device, model, options);
+    RecordedRun run;
+    const std::uint32_t last = model.scene.time.frame_count - 1;
+    const auto wanted = [&](std::uint32_t frame) {
+        return frame == last || frame % problem.record_every == 0;
+    };
+    const auto start = Clock::now();
+    const bool complete = loop.run(
+        last, wanted,
+        [&](const FinishedFrame& frame) {
+            run.diverged = run.diverged || frame.statistics[0].non_finite_count > 0;
+            Sample sample{frame.frame, {}, frame.statistics[0]};
+            for (std::size_t i = 0; i + 3 < frame.positions[0].size(); i += 4)
+                sample.position.push_back(
+                    {frame.positions[0][i], frame.positions[0][i + 1], frame.positions[0][i + 2]});
+            run.samples.push_back(std::move(sample));
+            if (frame.frame > warm_up_frames) run.device_ms.push_back(simulate_ms(frame.timings));
+        },
+        [&] { return run.diverged || stop(); });
+    if (!complete && !run.diverged) throw Stopped{};
+    run.wall_ms = 1000 * seconds_since(start) / std::max(last, 1u);
+    return run;
+}
+
+/// Repetitions without statistics and readbacks, of as many frames as a repetition's time allows.
+void measure_time(const vulkan::Device& device, const SimulationModel& model,
+                  const std::function<bool()>& stop, double estimate_ms, CaseResult& result) {
+    const double affordable = 1000 * repetition_seconds / std::max(estimate_ms, 1e-3);
+    const auto frames = static_cast<std::uint32_t>(
+        std::clamp(affordable, 5.0, static_cast<double>(std::max(model.scene.time.frame_count - 1, 5u))));
+    FrameLoopOptions options;
+    options.draw = false;
+    std::vector<double> all, medians, walls;
+    for (int repetition = 0; repetition < repetition_count; ++repetition) {
+        FrameLoop loop(device, model, options);
+        std::vector<double> device_ms;
+        Clock::time_point start{};
+        const bool complete = loop.run(
+            frames + warm_up_frames, [](std::uint32_t frame) { return frame > 0; },
+            [&](const FinishedFrame& frame) {
+                if (frame.frame == warm_up_frames) start = Clock::now();
+                if (frame.frame > warm_up_frames) device_ms.push_back(simulate_ms(frame.timings));
+            },
+            stop);
+        if (!complete) throw Stopped{};
+        walls.push_back(1000 * seconds_since(start) / frames);
+        medians.push_back(median(device_ms));
+        all.insert(all.end(), device_ms.begin(), device_ms.end());
+    }
+    result.device_ms = median(all);
+    result.device_ms_low = std::ranges::min(medians);
+    result.device_ms_high = std::ranges::max(medians);
+    result.wall_ms = std::ranges::min(walls);
+}
+
+template <class T>
+std::string hash_of(const std::vector<T>& values) {
+    return xxh3_128_hex(std::as_bytes(std::span(values)));
+}
+
+}  // namespace
+
+std::string case_name(const Problem& problem, std::uint32_t size, const Setting& setting) {
+    return fmt::format("{}/{}/{}/{}", problem.name, size, method_name(setting.method), setting_name(setting));
+}
+
+std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
+                     const Setting& setting) {
+    const SimulationModel model(scene_of(problem, size, setting));
+    const ClothModel& cloth = model.cloths[0];
+    std::vector<std::string> parts{program_version(),       fmt::format("{}", measuring_version),
+                                   device.uuid_text(),      device.driver,
+                                   device.driver_version,   case_name(problem, size, setting),
+                                   hash_of(cloth.position), hash_of(cloth.displacement)};
+    for (const SpringWork& work : cloth.springs)
+        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    for (const BendWork& work : cloth.bends)
+        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    parts.push_back(fmt::format("{} {} {} {}", cloth.force.damping_loss, cloth.force.gravity_step.y,
+                                cloth.explicit_step.stiffness.x, cloth.explicit_step.stiffness.z));
+    std::string steps;
+    for (const Step& step : model.frame_steps(cloth))
+        steps += static_cast<char>('a' + static_cast<int>(step.kind));
+    parts.push_back(steps);
+    parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count,
+                                model.scene.time.fps, problem.record_every));
+    for (const SpirvModule& module : spirv_modules())
+        parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    return run_key(parts);
+}
+
+double case_work(const Problem& problem, std::uint32_t size, const Setting& setting) {
+    const SceneDescription scene = scene_of(problem, size, setting);
+    const std::array<std::uint32_t, 2> grid = scene.cloths[0].grid;
+    // A gather or line pass does the work of several.
+    const double passes =
+        setting.method == SolverMethod::relax  ? setting.substeps * (1.0 + 8.0 * setting.iterations)
+        : setting.method == SolverMethod::line ? setting.substeps * (1.0 + 16.0 * setting.iterations)
+                                               : 3.0 * setting.substeps;
+    constexpr double dispatch_share = 5000;  // particles whose pass takes as long as an empty dispatch
+    const double frames = scene.time.frame_count + (problem.timed ? repetition_count * 10.0 : 0);
+    return passes * frames * (double(grid[0]) * grid[1] + dispatch_share);
+}
+
+CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size,
+                    const Setting& setting, References& references, const std::function<bool()>& stop) {
+    const auto start = Clock::now();
+    const SimulationModel model(scene_of(problem, size, setting));
+    CaseResult result;
+    result.name = case_name(problem, size, setting);
+    result.key = case_key(device.info(), problem, size, setting);
+    result.problem = problem.name;
+    result.size = size;
+    result.method = method_name(setting.method);
+    result.substeps = setting.substeps;
+    result.iterations = setting.iterations;
+    result.passes = passes_of(model);
+    const ClothModel& cloth = model.cloths[0];
+    result.stiffness_share = 1;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.used_stiffness[axis]))
+            result.stiffness_share = std::min(
+                result.stiffness_share, cloth.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
+
+    RecordedRun run = record(device, problem, model, stop);
+    result.device_ms = median(run.device_ms);
+    if (!run.device_ms.empty()) {
+        result.device_ms_low = std::ranges::min(run.device_ms);
+        result.device_ms_high = std::ranges::max(run.device_ms);
+    }
+    result.wall_ms = run.wall_ms;
+    result.diverged = run.diverged;
+    if (!run.diverged) {
+        if (problem.timed) measure_time(device, model, stop, run.wall_ms, result);
+        result.metrics = problem.evaluate({model.scene, std::move(run.samples)}, references);
+        for (const auto& [name, value] : result.metrics)
+            result.diverged = result.diverged || !std::isfinite(value);
+        if (result.diverged) result.metrics.clear();
+    }
+    result.seconds = seconds_since(start);
+    return result;
+}
+
+}  // namespace drape::bench

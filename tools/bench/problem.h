@@ -1,0 +1,78 @@
+// A row of the accuracy benchmark: what is simulated, by which settings, and how wrong the result is.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/bench_case.h"
+#include "bench/references.h"
+#include "cloth/cloth_statistics.h"
+
+namespace drape::bench {
+
+/// A frame of a run on the device.
+struct Sample {
+    std::uint32_t frame;
+    std::vector<Vec3> position;  ///< m, per particle
+    ClothStatistics statistics;
+};
+
+struct Recording {
+    const SceneDescription& scene;
+    std::vector<Sample> samples;  ///< frame 0 first, the last frame last
+};
+
+/// One size of a problem swept by one family of settings, the coarsest first.
+struct Sweep {
+    std::uint32_t size = 0;
+    std::vector<Setting> settings;
+    int priority = 0;  ///< of importance: lower runs first
+};
+
+struct Problem {
+    std::string name;    ///< "swing"
+    std::string title;   ///< for plots and tables
+    std::string metric;  ///< the error that sweeps, plots and the table go by
+    std::string unit;    ///< of it: "m", "1"
+    /// Below this the metric means nothing more: rounding, or the reference's own error.
+    double floor = 0;
+    bool timed = false;              ///< repetitions for the time; a plot of error against time
+    std::uint32_t record_every = 1;  ///< frames between samples; frame 0 and the last are always samples
+    std::function<SceneDescription(std::uint32_t size, const Setting&)> scene{};
+    std::function<Metrics(const Recording&, References&)> evaluate{};
+    std::vector<Sweep> sweeps{};
+};
+
+/// The order in which `metric` falls as a problem is refined, fitted over the cases of one family.
+struct OrderClaim {
+    enum class Variable { substeps, iterations, size };
+    enum class Kind {
+        errors,      ///< slope of log metric against log variable
+        differences  ///< of the metric's differences between neighbours, whose variable doubles: for values,
+                     ///< not errors
+    };
+    std::string problem;
+    std::string family;  ///< "relax", "explicit"
+    std::string metric;
+    Variable variable = Variable::substeps;
+    double expected = 0;  ///< slope; -2: second order in substeps
+    double tolerance = 0;
+    double floor = 0, ceiling = 1e300;  ///< values outside are not in the asymptotic range
+    std::uint32_t size = 0;             ///< of the problem; 0 when it is the variable
+    Kind kind = Kind::errors;
+    double least_variable = 0;  ///< smaller ones are not in the asymptotic range either
+};
+
+/// Every problem with its sweeps: the full benchmark's, or the short one's.
+std::vector<Problem> all_problems(bool is_short);
+/// What theory says about them.
+std::vector<OrderClaim> order_claims();
+
+// One function per group of rows; all_problems joins them.
+std::vector<Problem> flight_problems(bool is_short);  ///< falls, incline, momentum
+std::vector<Problem> chain_problems(
+    bool is_short);  ///< pendulum, chain modes, catenary, law of the column, cantilever
+std::vector<Problem> sheet_problems(bool is_short);  ///< swing, drum, drape, strip, hanging sheet, energy
+
+}  // namespace drape::bench

@@ -1,0 +1,213 @@
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/result_json.h"
+#include "output/json_text.h"
+
+namespace drape::bench {
+
+namespace {
+
+std::string variable_name(const OrderClaim& claim) {
+    switch (claim.variable) {
+        case OrderClaim::Variable::substeps:
+            return "substeps";
+        case OrderClaim::Variable::iterations:
+            return "iterations";
+        case OrderClaim::Variable::size:
+            break;
+    }
+    return "N";
+}
+
+std::string order_subject(const OrderClaim& claim) {
+    return fmt::format("{}{}, {}: {}{} against {}", claim.problem,
+                       claim.size ? fmt::format("/{}", claim.size) : "", claim.family,
+                       claim.kind == OrderClaim::Kind::differences ? "differences of " : "", claim.metric,
+                       variable_name(claim));
+}
+
+std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.3g}", value); }
+
+/// Sizes and settings of one problem, in the order they ran.
+std::string problem_table(const Problem& problem, const std::vector<CaseResult>& results) {
+    std::string text;
+    const bool motion = problem.timed;
+    for (const CaseResult& result : results) {
+        if (result.problem != problem.name) continue;
+        if (text.empty())
+            text = fmt::format("\n{} ({}, {})\n{:<34}{:>9}{:>11}{:>11}{:>12}{}\n", problem.title,
+                               problem.metric, problem.unit, "case", "passes", "device ms", "wall ms",
+                               "error", motion ? fmt::format("{:>12}{:>12}", "stretch", "stretch err") : "");
+        const auto metric = [&](const char* name) {
+            const auto found = result.metrics.find(name);
+            return found == result.metrics.end() ? std::string("-") : number(found->second);
+        };
+        text += fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}{:>12}", result.name, number(result.passes),
+                            result.device_ms, result.wall_ms,
+                            result.diverged ? "diverged" : metric(problem.metric.c_str()));
+        if (motion) text += fmt::format("{:>12}{:>12}", metric("stretch_rms"), metric("stretch_error"));
+        if (result.stiffness_share < 1) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string orders_text(const Report& report) {
+    if (report.orders.empty()) return {};
+    std::string text = "\nOrders of convergence (slope of the logarithms)\n";
+    for (const OrderFit& fit : report.orders)
+        text += fmt::format("{:<72}{:>8.2f}  expected {:g} +- {:g}: {}\n", order_subject(fit.claim),
+                            fit.slope, fit.claim.expected, fit.claim.tolerance, fit.met ? "met" : "NOT MET");
+    return text;
+}
+
+std::string limits_text(const Report& report) {
+    if (report.limits.empty()) return {};
+    std::string text = "\nLimits\n";
+    for (const LimitCheck& check : report.limits)
+        text += fmt::format("{:<34}{:<28}{:>10} of at most {:>9}: {}\n", check.name, check.metric,
+                            number(check.measured), number(check.limit), check.met() ? "met" : "NOT MET");
+    return text;
+}
+
+std::string soonest_text(const Report& report) {
+    if (report.soonest.empty()) return {};
+    std::string text =
+        "\nSoonest measured setting that meets an error; times sooner, times fewer passes than relax's "
+        "best\n";
+    std::string before;
+    for (const Soonest& s : report.soonest) {
+        const std::string head = fmt::format("{} {}, {} at most {:g}", s.problem, s.size, s.metric, s.limit);
+        if (head != before) text += head + "\n";
+        before = head;
+        if (s.name.empty()) {
+            text += fmt::format("  {:<32}no measured setting\n", s.family);
+            continue;
+        }
+        const auto ratio = [](double value) {
+            return value > 0 ? fmt::format("{:.2f}x", value) : std::string("-");
+        };
+        text += fmt::format("  {:<32}{:<26}{:>10.3f} ms{:>8} passes{:>12}{:>9}{:>9}\n", s.family,
+                            s.name.substr(s.name.find('/') + 1), s.milliseconds, number(s.passes),
+                            number(s.measured), ratio(s.time_ratio), ratio(s.passes_ratio));
+    }
+    return text;
+}
+
+Json::Value json_of(const OrderFit& fit) {
+    Json::Value value(Json::objectValue);
+    value["problem"] = fit.claim.problem;
+    value["family"] = fit.claim.family;
+    value["metric"] = fit.claim.metric;
+    value["variable"] = variable_name(fit.claim);
+    if (fit.claim.size) value["size"] = fit.claim.size;
+    value["of_differences"] = fit.claim.kind == OrderClaim::Kind::differences;
+    value["slope"] = fit.slope;
+    value["expected"] = fit.claim.expected;
+    value["tolerance"] = fit.claim.tolerance;
+    value["met"] = fit.met;
+    value["points"] = Json::Value(Json::arrayValue);
+    for (const auto& [x, y] : fit.points) {
+        Json::Value point(Json::arrayValue);
+        point.append(x);
+        point.append(y);
+        value["points"].append(point);
+    }
+    return value;
+}
+
+Json::Value json_of(const LimitCheck& check) {
+    Json::Value value(Json::objectValue);
+    value["case"] = check.name;
+    value["metric"] = check.metric;
+    value["limit"] = check.limit;
+    value["measured"] = check.measured;
+    value["met"] = check.met();
+    return value;
+}
+
+Json::Value json_of(const Soonest& soonest) {
+    Json::Value value(Json::objectValue);
+    value["problem"] = soonest.problem;
+    value["size"] = soonest.size;
+    value["metric"] = soonest.metric;
+    value["limit"] = soonest.limit;
+    value["family"] = soonest.family;
+    value["meets"] = !soonest.name.empty();
+    if (soonest.name.empty()) return value;
+    value["case"] = soonest.name;
+    value["ms_per_frame"] = soonest.milliseconds;
+    value["passes_per_frame"] = soonest.passes;
+    value["measured"] = soonest.measured;
+    if (soonest.passes_ratio > 0) value["relax_passes_over_these"] = soonest.passes_ratio;
+    if (soonest.time_ratio > 0) value["relax_time_over_this"] = soonest.time_ratio;
+    return value;
+}
+
+template <class T>
+Json::Value json_list(const std::vector<T>& items) {
+    Json::Value list(Json::arrayValue);
+    for (const T& item : items) list.append(json_of(item));
+    return list;
+}
+
+}  // namespace
+
+void evaluate(Report& report) {
+    report.orders = fit_orders(order_claims(), report.results);
+    report.limits = check_limits(report.results);
+    report.soonest = find_soonest(report.results);
+}
+
+std::string report_text(const Report& report, const std::vector<Problem>& problems) {
+    std::string text = fmt::format("drape {} on {} ({}), {}\n", report.program_version, report.device,
+                                   report.driver, report.created);
+    if (!report.complete) text += "The budget of time left cases out.\n";
+    for (const Problem& problem : problems) text += problem_table(problem, report.results);
+    return text + orders_text(report) + limits_text(report) + soonest_text(report);
+}
+
+std::string report_json(const Report& report) {
+    Json::Value value(Json::objectValue);
+    value["format"] = "drape bench accuracy 1";
+    value["program_version"] = report.program_version;
+    value["created"] = report.created;
+    value["device"] = report.device;
+    value["driver"] = report.driver;
+    value["short"] = report.is_short;
+    value["complete"] = report.complete;
+    value["results"] = json_list(report.results);
+    value["orders"] = json_list(report.orders);
+    value["limits"] = json_list(report.limits);
+    value["soonest"] = json_list(report.soonest);
+    return json_text(value);
+}
+
+std::string report_csv(const Report& report) {
+    std::set<std::string> metrics;
+    for (const CaseResult& result : report.results)
+        for (const auto& [name, value] : result.metrics) metrics.insert(name);
+    std::string text =
+        "case,problem,size,method,substeps,iterations,passes_per_frame,stiffness_share,"
+        "device_ms_per_frame,device_ms_low,device_ms_high,wall_ms_per_frame,diverged";
+    for (const std::string& name : metrics) text += "," + name;
+    text += "\n";
+    for (const CaseResult& r : report.results) {
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, r.method,
+                            r.substeps, r.iterations, r.passes, r.stiffness_share, r.device_ms,
+                            r.device_ms_low, r.device_ms_high, r.wall_ms, r.diverged ? 1 : 0);
+        for (const std::string& name : metrics) {
+            const auto metric = r.metrics.find(name);
+            text += metric == r.metrics.end() ? "," : fmt::format(",{}", metric->second);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace drape::bench

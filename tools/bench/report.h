@@ -1,0 +1,37 @@
+// The benchmark's results for people and programs: a table, JSON, CSV, plots.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/claims.h"
+#include "bench/fit.h"
+#include "output/plot.h"
+
+namespace drape::bench {
+
+struct Report {
+    std::string program_version, created;  ///< UTC
+    std::string device, driver;            ///< driver with its version
+    bool is_short = false;
+    bool complete = true;  ///< false: the budget of time left cases out
+    std::vector<CaseResult> results;
+    std::vector<OrderFit> orders;
+    std::vector<LimitCheck> limits;
+    std::vector<Soonest> soonest;
+};
+
+/// Orders, limits and ratios of the results that the report holds.
+void evaluate(Report& report);
+
+std::string report_text(const Report& report, const std::vector<Problem>& problems);
+std::string report_json(const Report& report);
+/// A row per case; a column per metric, empty where a case has none.
+std::string report_csv(const Report& report);
+/// File names and plots: per timed problem and size the errors against time and against passes; for the
+/// others the error against substeps or size. Only of what has two points or more.
+std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report,
+                                                          const std::vector<Problem>& problems);
+
+}  // namespace drape::bench
