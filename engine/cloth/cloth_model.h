@@ -69,7 +69,8 @@ struct ClothModel {
 
     // Initial images, one texel per particle, row by row.
     std::vector<glsl::vec4> position;      ///< xyz m; w: relative inverse mass, 0 = pinned or without a cell
-    std::vector<glsl::vec4> displacement;  ///< xyz: x(0) - x(-h), the half-kick start; line in second order: h v(0); 0 where pinned
+    std::vector<glsl::vec4> displacement;  ///< xyz: x(0) - x(-h), the half-kick start; line in second order: h v(0);
+                                           ///< 0 where pinned
     std::vector<float> free_weight;        ///< w without pins
 
     bool masked = false;     ///< holes: stiffness and cell images exist

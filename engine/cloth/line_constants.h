@@ -12,8 +12,8 @@ namespace drape {
 
 /// Smallest compliance m_inner/(k h^2) of a spring in a line. A taut line without compliance between two held particles
 /// has a singular system: all its multipliers may grow by one number. From 1e-4 on rounding moves no particle visibly;
-/// but where rows and diagonals contradict each other (rigid cloth pulled 0.1 % too long) they push each other about, by
-/// 1e-4 m in a sheet of a metre, and at 1e-3 by 5e-7 m. A sheet of 256 rows hanging on 20 substeps at 60 Hz is
+/// but where rows and diagonals contradict each other (rigid cloth pulled 0.1 % too long) they push each other about,
+/// by 1e-4 m in a sheet of a metre, and at 1e-3 by 5e-7 m. A sheet of 256 rows hanging on 20 substeps at 60 Hz is
 /// stretched by 2e-4 at its top.
 inline constexpr double least_line_compliance = 1e-3;
 
@@ -40,8 +40,8 @@ std::vector<LineWork> line_passes(const StiffnessConstants& stiffness, const Lin
 /// Stiffness (N/m) that a line's spring of constant `stiffness` has, given the least compliance.
 double line_stiffness(double stiffness, const LineSettings& settings);
 
-/// Compliance m/(k h^2) of a spring or bending element of constant k (N/m) in the method's own units: BDF2 multiplies it
-/// by (9/4) (1 + (2/3) c h).
+/// Compliance m/(k h^2) of a spring or bending element of constant k (N/m) in the method's own units: BDF2 multiplies
+/// it by (9/4) (1 + (2/3) c h).
 double method_compliance(double constant, const LineSettings& settings);
 
 /// `euler`: the constants of a backward Euler step.

@@ -228,7 +228,8 @@ void Twin::tether(const ClothModel& model, TwinCloth& state) {
             if (anchor < 0) return;
             const auto a = static_cast<std::size_t>(anchor);
             if (state.position[a].w != 0.0f) return;
-            const vec3 edge = spring_edge(xyz(state.position[a]), xyz(state.position[i]), xyz(state.displacement[a]), moved);
+            const vec3 edge =
+                spring_edge(xyz(state.position[a]), xyz(state.position[i]), xyz(state.displacement[a]), moved);
             moved = moved_by(moved, tether_correction(edge, length), 1.0f);
         };
         apply(model.tethers[i].anchor_a, model.tethers[i].length_a);

@@ -87,7 +87,7 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     for (std::size_t e = 0; e < springs.size(); ++e) {
         const vec3 after = e + 1 < springs.size() ? springs[e + 1].normal : vec3{0, 0, 0};
         const float stiffness = line.share(e);
-        largest = larger_violation(largest, springs[e], stiffness, line.push.rest_length);
+        largest = larger_excess(largest, springs[e], stiffness);
         previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), stiffness,
                                     compliance, tensions[e]);
         eliminated.push_back(previous);
@@ -131,7 +131,7 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
         }
     }
     if (!model.second_order) return;
-    const std::uint32_t bits = floatBitsToUint(largest);
+    const std::uint32_t bits = floatBitsToUint(line_violation(largest, push.rest_length));
     state.line_control[control_violation] = std::max(state.line_control[control_violation], bits);
 }
 

@@ -1,8 +1,8 @@
 // BDF2 in displacement form (solvers.md, "Line solve with BDF2"), with a backward Euler step where there is no history
 // worth trusting, and the control that decides which of the two a substep is.
 // State beside the position X: d = displacement of the substep, d_before = that of the substep before, and `excess` =
-// u - d, where u is h times the velocity at the substep's end and d h times its mean: after BDF2 (d - d_before)/2, after
-// backward Euler 0. Small numbers are stored and added, so no digits are lost to d.
+// u - d, where u is h times the velocity at the substep's end and d h times its mean: after BDF2 (d - d_before)/2,
+// after backward Euler 0. Small numbers are stored and added, so no digits are lost to d.
 #ifndef DRAPE_BDF2_H
 #define DRAPE_BDF2_H
 
@@ -44,8 +44,8 @@ struct LineControl {
 };
 
 /// The control of the next substep. The first one is backward Euler, since the history of a cloth at rest does not know
-/// the forces that hold it; and so are those after a spring of |C|/L > line_violation_limit was met. Non-negative floats
-/// order as their bits do, and NaN lies above them all.
+/// the forces that hold it; and so are those after a spring of |C|/L > line_violation_limit was met. Non-negative
+/// floats order as their bits do, and NaN lies above them all.
 SHARED LineControl next_control(LineControl last) {
     uint hold = last.hold > 0u ? last.hold - 1u : 0u;
     if (last.violation > floatBitsToUint(line_violation_limit)) hold = line_hold_count;

@@ -37,11 +37,17 @@ SHARED bool pulls(LineSpring spring, float stiffness) {
     return stiffness > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
 }
 
-/// |C|/L, what the solve is asked to take back; `largest` or more.
-SHARED float larger_violation(float largest, LineSpring spring, float stiffness, float rest_length) {
+/// |C| (m), what the solve is asked to take back; `largest` or more.
+SHARED float larger_excess(float largest, LineSpring spring, float stiffness) {
     if (!pulls(spring, stiffness)) return largest;
-    precise float violation = abs(spring.excess) / rest_length;
-    return violation > largest ? violation : largest;
+    float excess = abs(spring.excess);
+    return excess > largest ? excess : largest;
+}
+
+/// |C|/L of the line's worst spring, given its |C|.
+SHARED float line_violation(float largest_excess, float rest_length) {
+    precise float violation = largest_excess / rest_length;
+    return violation;
 }
 
 /// Forward elimination of row e of the system

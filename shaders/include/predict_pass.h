@@ -1,6 +1,6 @@
 // Body of the prediction passes of the line solver in second order: finishes the last substep (X += d, after the first
-// substep of a frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the control
-// says. WINDY: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+// substep of a frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the
+// control says. WINDY: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;
 layout(push_constant) uniform Push { PredictPush push; };

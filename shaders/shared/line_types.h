@@ -43,8 +43,8 @@ const int control_order = 0, control_previous_order = 1, control_violation = 2, 
           control_texel_count = 4;
 /// A spring that a substep meets wrong by more than its own length before its line is solved tells that BDF2
 /// extrapolates nonsense here; the next substeps are then backward Euler. Measured on a sheet of 64^2 held at two
-/// corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to 30 J);
-/// where it holds (20 substeps) 5 % of the substeps switch, and half the limit would switch 20 %, without gain.
+/// corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to
+/// 30 J); where it holds (20 substeps) 5 % of the substeps switch, and half the limit would switch 20 %, without gain.
 const float line_violation_limit = 1.0f;
 const uint line_hold_count = 8u;
 

@@ -1,4 +1,5 @@
-// The line solver on the device equals its C++ twin bit for bit (lavapipe), over more than 200 substeps, in both orders.
+// The line solver on the device equals its C++ twin bit for bit (lavapipe), over more than 200 substeps, in both
+// orders.
 #include "twin_comparison.h"
 
 namespace drape {
