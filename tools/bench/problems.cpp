@@ -17,6 +17,7 @@ std::vector<OrderClaim> order_claims() {
         {"pendulum", "relax", "energy_lost_per_period", substeps, -1, 0.25, 1e-6, 0.3, 1},
         {"pendulum", "explicit", "position_rms", substeps, -2, 0.25, 3e-6, 2e-4, 1},
         {"pendulum", "line", "position_rms", substeps, -2, 0.25, 3e-6, 2e-2, 1},
+        {"free fall", "line", "position_relative", substeps, -2, 0.5, 1e-7, 1, 2},
         {"swing energy", "relax", "energy_error", substeps, -1, 0.35, 1e-4, 0.6, 32},
         {"column law", "relax", "stretch_mean", substeps, -2, 0.05, 0, 1, 64},
         {"column law", "relax", "stretch_mean", size, 2, 0.05, 0, 1},

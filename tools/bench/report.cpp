@@ -51,7 +51,7 @@ std::string problem_table(const Problem& problem, const std::vector<CaseResult>&
                             result.device_ms, result.wall_ms,
                             result.diverged ? "diverged" : metric(problem.metric.c_str()));
         if (motion) text += fmt::format("{:>12}{:>12}", metric("stretch_rms"), metric("stretch_error"));
-        if (result.stiffness_share < 1) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
+        if (result.stiffness_share < 0.995) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
         text += "\n";
     }
     return text;
