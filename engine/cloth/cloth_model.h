@@ -41,6 +41,12 @@ struct BendWork {
     glsl::BendPush push;
 };
 
+/// The twist of one colour of the cells with its constants.
+struct TwistWork {
+    TwistPass pass;
+    glsl::TwistPush push;
+};
+
 /// A pin that moves or lets go; pins at rest for ever are just w = 0.
 struct DynamicPin {
     MotionPath path;
@@ -79,6 +85,7 @@ struct ClothModel {
 
     std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
     std::vector<BendWork> bends;      ///< relax, line: likewise, once per substep before the springs
+    std::vector<TwistWork> twists;    ///< likewise, after the bends
     std::vector<LineWork> lines;      ///< line: in order of solution
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins

@@ -35,4 +35,11 @@ std::vector<BendPass> bend_passes(glsl::ivec2 grid) {
     return passes;
 }
 
+std::vector<TwistPass> twist_passes(glsl::ivec2 grid) {
+    std::vector<TwistPass> passes;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) passes.push_back({{x, y}, {(grid.x - x) / 2, (grid.y - y) / 2}});
+    return passes;
+}
+
 }  // namespace drape

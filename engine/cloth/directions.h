@@ -1,5 +1,5 @@
 // The spring directions as a table, and the parity passes that relax them (physics.md 1: constraints are
-// coloured, not particles); the same for bending elements. A new direction is one row here.
+// coloured, not particles); the same for bending elements and twisting cells. A new direction is one row here.
 #pragma once
 
 #include <array>
@@ -67,5 +67,15 @@ BendPass bend_pass(int axis, int colour, glsl::ivec2 grid);
 
 /// The six passes in the order of relaxation, empty ones included.
 std::vector<BendPass> bend_passes(glsl::ivec2 grid);
+
+/// One dispatch of the plain schedule: the twist of every second cell along both axes.
+struct TwistPass {
+    glsl::ivec2 first;          ///< its first cell: 0 or 1 along columns, rows
+    glsl::ivec2 element_count;  ///< cells along columns, rows; either may be 0
+    bool empty() const { return element_count.x == 0 || element_count.y == 0; }
+};
+
+/// The four passes in the order of relaxation, empty ones included.
+std::vector<TwistPass> twist_passes(glsl::ivec2 grid);
 
 }  // namespace drape

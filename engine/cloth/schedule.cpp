@@ -28,9 +28,16 @@ void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t sub
     if (windy) add(StepKind::wind);
     add(StepKind::force);
     if (cloth.has_motion) add(StepKind::pin);
-    // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
-    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, bend);
+    add_bend_steps(cloth, substep, steps);
     add_iterations(StepKind::spring, static_cast<std::uint32_t>(cloth.springs.size()), substep, steps);
+}
+
+void SimulationModel::add_bend_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
+    // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
+    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend)
+        steps.push_back({StepKind::bend, substep, 0, bend});
+    for (std::uint32_t twist = 0; twist < cloth.twists.size(); ++twist)
+        steps.push_back({StepKind::twist, substep, 0, twist});
 }
 
 void SimulationModel::add_line_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
@@ -44,7 +51,7 @@ void SimulationModel::add_line_steps(const ClothModel& cloth, std::uint32_t subs
         add(StepKind::force);
     }
     if (cloth.has_motion) add(StepKind::pin);
-    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) add(StepKind::bend, bend);
+    add_bend_steps(cloth, substep, steps);
     add_iterations(StepKind::line, static_cast<std::uint32_t>(cloth.lines.size()), substep, steps);
 }
 

@@ -12,14 +12,15 @@
 namespace drape {
 
 enum class StepKind {
-    release, wind, control, predict, force, explicit_step, pin, bend, spring, line, tether, collide, check, advance
+    release, wind, control, predict, force, explicit_step, pin, bend, twist, spring, line, tether,
+    collide, check, advance
 };
 
 struct Step {
     StepKind kind;
     std::uint32_t substep;
     std::uint32_t iteration;  ///< spring, line, collide and check
-    std::uint32_t work;       ///< spring, bend, line: index into ClothModel::springs, bends, lines
+    std::uint32_t work;       ///< spring, bend, twist, line: index into ClothModel::springs, bends, twists, lines
     bool last = false;        ///< spring, line: of the frame's last iteration, after which its tension is the frame's
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
@@ -58,6 +59,7 @@ struct SimulationModel {
     void add_iterations(StepKind kind, std::uint32_t work_count, std::uint32_t substep, std::vector<Step>& steps) const;
     /// Ends a substep: tethers, and once more the contacts that they may have pulled particles into.
     void add_tethers(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
+    void add_bend_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     void add_line_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
     void add_explicit_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const;
 };

@@ -1,11 +1,12 @@
-// Relaxation of bending, one colour of one axis per pass.
+// Relaxation of bending: one colour of one axis per pass, and of the cells' twist one colour per pass.
 #pragma once
 
 #include "passes/pass_kit.h"
 
 namespace drape {
 
-/// Reads position [, stiffness], reads and writes displacement.
+/// Both read position [, stiffness], read and write displacement.
 void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_twist(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

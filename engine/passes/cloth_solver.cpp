@@ -155,6 +155,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::explicit_step: return add_explicit_step(graph, pipelines_, state, step);
         case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
         case StepKind::bend: return add_bend(graph, pipelines_, state, step);
+        case StepKind::twist: return add_twist(graph, pipelines_, state, step);
         case StepKind::spring: return add_spring(graph, pipelines_, state, step);
         case StepKind::line: return add_line(graph, pipelines_, state, step);
         case StepKind::tether: return add_tether(graph, pipelines_, state, step);

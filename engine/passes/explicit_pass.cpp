@@ -45,7 +45,7 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
     const bool wind = state.wind_force.valid();
     const glsl::ExplicitPush& constants = model.explicit_step;
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = constants.stiffness.z > 0 ? 1 : 0,
-                        has_bend = constants.bend.x > 0 || constants.bend.y > 0 ? 1 : 0;
+                        has_bend = constants.twist > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(interfaces[model.masked][wind], {{0, advances}, {1, has_shear}, {2, has_bend}});
     graph.add_pass(

@@ -41,6 +41,7 @@ constexpr vulkan::MemberLayout explicit_push_members[] = {
     {"stiffness", offsetof(ExplicitPush, stiffness)},
     {"bend", offsetof(ExplicitPush, bend)},
     {"strain_damping", offsetof(ExplicitPush, strain_damping)},
+    {"twist", offsetof(ExplicitPush, twist)},
 };
 constexpr vulkan::MemberLayout bend_push_members[] = {
     {"grid", offsetof(BendPush, grid)},
@@ -78,6 +79,11 @@ constexpr vulkan::MemberLayout particle_tethers_members[] = {
     {"anchor_b", offsetof(ParticleTethers, anchor_b)},
     {"length_a", offsetof(ParticleTethers, length_a)},
     {"length_b", offsetof(ParticleTethers, length_b)},
+};
+constexpr vulkan::MemberLayout twist_push_members[] = {
+    {"element_count", offsetof(TwistPush, element_count)},
+    {"first", offsetof(TwistPush, first)},
+    {"compliance", offsetof(TwistPush, compliance)},
 };
 constexpr vulkan::MemberLayout wind_push_members[] = {
     {"grid", offsetof(WindPush, grid)},
@@ -181,6 +187,7 @@ const vulkan::StructLayout bend_push{"BendPush", sizeof(BendPush), bend_push_mem
 const vulkan::StructLayout line_push{"LinePush", sizeof(LinePush), line_push_members};
 const vulkan::StructLayout predict_push{"PredictPush", sizeof(PredictPush), predict_push_members};
 const vulkan::StructLayout particle_tethers{"ParticleTethers", sizeof(ParticleTethers), particle_tethers_members};
+const vulkan::StructLayout twist_push{"TwistPush", sizeof(TwistPush), twist_push_members};
 const vulkan::StructLayout wind_push{"WindPush", sizeof(WindPush), wind_push_members};
 const vulkan::StructLayout collision_push{"CollisionPush", sizeof(CollisionPush), collision_push_members};
 const vulkan::StructLayout pin_push{"PinPush", sizeof(PinPush), pin_push_members};

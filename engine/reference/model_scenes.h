@@ -71,7 +71,7 @@ inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverM
     // Relaxation in steps of m/(b h^2) = 60; explicit steps a little shorter than their limit.
     const double steps_per_second = method == SolverMethod::relax
                                         ? std::sqrt(60 * bend / mass)
-                                        : std::sqrt(std::max(16 * bend, 4 * 1.54 * stretch) / mass);
+                                        : std::sqrt(std::max(48 * bend, 4 * 1.54 * stretch) / mass);
     const auto substeps = static_cast<std::uint32_t>(std::ceil(steps_per_second / 1000));
     SceneDescription scene = sheet(segments + 2, 2, cell * (segments + 1), cell, substeps);
     scene.time.fps = 1000;

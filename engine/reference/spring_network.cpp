@@ -47,7 +47,7 @@ SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_in
     place(cloth, grid);
     hold_pins(cloth, grid);
     add_springs(cloth, grid);
-    add_bending(cloth, grid, options.bend_twist);
+    add_bending(cloth, grid);
     const std::vector<std::uint32_t> corners = grid.triangle_indices();
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
         triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
@@ -111,7 +111,7 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
     }
 }
 
-void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid, bool twist) {
+void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
     const double rigidity = cloth.stiffness.bend;
     if (rigidity == 0) return;
     const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
@@ -128,7 +128,7 @@ void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid, bool twist
                 add(p - 1, p, p + 1, bending_share(cells[0], cells[1], cells[2], cells[3]), dx, dy);
             if (row > 0 && row + 1 < grid.rows())
                 add(p - down, p, p + down, bending_share(cells[0], cells[2], cells[1], cells[3]), dy, dx);
-            if (twist && cells[3])
+            if (cells[3])
                 bending.push_back({{p, p + 1, p + down, p + down + 1}, {1, -1, -1, 1}, 2 * rigidity / (dx * dy)});
         }
 }

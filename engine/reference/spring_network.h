@@ -26,8 +26,10 @@ struct NetworkSpring {
 
 /// Energy stiffness/2 |sum_k coefficient_k x_(particle_k)|^2, coefficients summing to zero. Along an axis of spacing h
 /// (perpendicular spacing p) the coefficients are 1 -2 1 (0) and the stiffness is B w p/h^3, w = 1 inside, 1/2 along a
-/// border: then sum E = B/2 integral of curvature^2, and a narrow strip is the elastica of rigidity B per width. It is
-/// the quadratic bending of isometric surfaces (Bergou et al. 2006) reduced to a regular grid.
+/// border; on the corners 00 10 01 11 of a cell 1 -1 -1 1 and 2 B/(dx dy). Then sum E = B/2 integral of
+/// kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0 (the axes alone would be half as stiff along 45
+/// degrees), and a narrow strip is the elastica of rigidity B per width. It is the quadratic bending of isometric
+/// surfaces (Bergou et al. 2006) reduced to a regular grid.
 struct BendingElement {
     std::array<std::uint32_t, 4> particle;
     std::array<double, 4> coefficient;  ///< 0 where unused
@@ -49,9 +51,6 @@ struct NetworkState {
 
 struct NetworkOptions {
     bool ignore_colliders = false;  ///< accept a scene with colliders and leave them out
-    /// Adds B |x00 - x10 - x01 + x11|^2/(dx dy) per cell, the twist 2 kappa_xy^2 of the plate. Without it (the axes
-    /// alone) the sheet's bending rigidity along 45 degrees is B/2; with it B.
-    bool bend_twist = false;
 };
 
 /// Strain |r|/rest_length - 1 of the springs of one family.
@@ -124,7 +123,7 @@ struct SpringNetwork {
     void place(const Cloth& cloth, const Grid& grid);
     void hold_pins(const Cloth& cloth, const Grid& grid);
     void add_springs(const Cloth& cloth, const Grid& grid);
-    void add_bending(const Cloth& cloth, const Grid& grid, bool twist);
+    void add_bending(const Cloth& cloth, const Grid& grid);
 };
 
 }  // namespace drape

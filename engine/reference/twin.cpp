@@ -63,6 +63,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::explicit_step: return explicit_step(model, state, step.substep > 0);
         case StepKind::pin: return pin(model, state, inputs.pins[cloth], step.substep);
         case StepKind::bend: return bend(model, state, step);
+        case StepKind::twist: return twist(model, state, step);
         case StepKind::spring: return spring(model, state, step);
         case StepKind::line: return line(model, state, step);
         case StepKind::tether: return tether(model, state);
@@ -160,35 +161,6 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             state.displacement[first] = texel(moved_by(moved_first, result.correction, -weight_first));
             state.displacement[second] = texel(moved_by(moved_second, result.correction, weight_second));
             tensions[first] = result.tension;
-        }
-}
-
-void Twin::bend(const ClothModel& model, TwinCloth& state, const Step& step) {
-    const BendPush& push = model.bends[step.work].push;
-    const auto share = [&](ivec2 owner) {
-        return model.masked ? component(model.stiffness[at(model.grid, owner)], push.channel)
-                            : border_stiffness(owner, push.axis, push.grid);
-    };
-    for (int y = 0; y < push.element_count.y; ++y)
-        for (int x = 0; x < push.element_count.x; ++x) {
-            const ivec2 middle = bend_middle({x, y}, push.axis, push.colour);
-            const ivec2 first{middle.x - push.axis.x, middle.y - push.axis.y};
-            const std::size_t i[3] = {at(model.grid, first), at(model.grid, middle),
-                                      at(model.grid, {middle.x + push.axis.x, middle.y + push.axis.y})};
-            vec3 start[3], moved[3];
-            float weight[3];
-            for (std::size_t k = 0; k < 3; ++k) {
-                start[k] = xyz(state.position[i[k]]);
-                moved[k] = xyz(state.displacement[i[k]]);
-                weight[k] = state.position[i[k]].w;
-            }
-            const vec3 difference = second_difference(spring_edge(start[1], start[0], moved[1], moved[0]),
-                                                      spring_edge(start[1], start[2], moved[1], moved[2]));
-            const vec3 correction = project_bend(difference, bend_weight(weight[0], weight[1], weight[2]),
-                                                 bend_share(share(first), share(middle)), push.compliance);
-            state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
-            state.displacement[i[1]] = texel(moved_by(moved[1], correction, -2.0f * weight[1]));
-            state.displacement[i[2]] = texel(moved_by(moved[2], correction, weight[2]));
         }
 }
 

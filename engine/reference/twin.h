@@ -52,6 +52,7 @@ class Twin {
              std::uint32_t substep);
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);
     void bend(const ClothModel& model, TwinCloth& state, const Step& step);
+    void twist(const ClothModel& model, TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
     void advance(TwinCloth& state);

@@ -50,6 +50,22 @@ struct Before {
         const float shared = bend_share(share(first, offset, axis), share(middle, offset, axis));
         return add_bend(sum, second_difference(edge(middle, first), edge(middle, third)), factor * shared);
     }
+    vec3 with_cell(vec3 sum, ivec2 corner, float factor) const {
+        const ivec2 right{corner.x + 1, corner.y}, below{corner.x, corner.y + 1}, across{corner.x + 1, corner.y + 1};
+        if (!inside(corner, model.grid.size()) || !inside(across, model.grid.size())) return sum;
+        const float whole = model.masked ? twist_share(model.stiffness[index(corner)], model.stiffness[index(right)],
+                                                       model.stiffness[index(below)])
+                                         : 1.0f;
+        return add_bend(sum, twist_difference(edge(corner, right), edge(below, across)), factor * whole);
+    }
+    vec3 with_twist(vec3 sum, ivec2 here) const {
+        const float twist = model.explicit_step.twist;
+        if (twist == 0.0f) return sum;
+        sum = with_cell(sum, {here.x - 1, here.y - 1}, -twist);
+        sum = with_cell(sum, {here.x, here.y - 1}, twist);
+        sum = with_cell(sum, {here.x - 1, here.y}, twist);
+        return with_cell(sum, here, -twist);
+    }
     vec3 with_bending(vec3 sum, ivec2 here) const {
         for (int axis = 0; axis < 2; ++axis) {
             const float bend = axis == 0 ? model.explicit_step.bend.x : model.explicit_step.bend.y;
@@ -59,7 +75,7 @@ struct Before {
             sum = with_element(sum, here, axis, 2.0f * bend);
             sum = with_element(sum, {here.x + offset.x, here.y + offset.y}, axis, -bend);
         }
-        return sum;
+        return with_twist(sum, here);
     }
 };
 
@@ -86,7 +102,8 @@ void Twin::explicit_step(const ClothModel& model, TwinCloth& state, bool advance
             if (position.w == 0.0f) continue;
             const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
             const vec3 increment =
-                explicit_increment(displacement, xyz(push.gravity_step), applied, before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
+                explicit_increment(displacement, xyz(push.gravity_step), applied,
+                                   before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
                                    push.force_step, push.damping_loss);
             const CompensatedSum stepped = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
             displacement_out[i] = texel(stepped.value);

@@ -91,6 +91,41 @@ vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend)
     return sum;
 }
 
+/// Pull of one cell's twist: `factor` = -twist on the corners 00 and 11, twist on 10 and 01. All four corners compute
+/// the same difference, so that their pulls are opposite to the bit.
+vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle lower_left, Particle lower_right,
+                 float factor) {
+    vec3 difference =
+        twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
+#ifdef MASKED
+    precise float scaled = factor * twist_share(upper_left.shares, upper_right.shares, lower_left.shares);
+    return add_bend(sum, difference, scaled);
+#else
+    return add_bend(sum, difference, factor);
+#endif
+}
+
+/// The up to four cells around this particle, row by row.
+vec3 gather_twist(vec3 sum, Particle center) {
+    ivec2 texel = center.texel;
+    bool has_left = texel.x > 0, has_right = texel.x + 1 < push.grid.x;
+    bool has_up = texel.y > 0, has_down = texel.y + 1 < push.grid.y;
+    Particle left = center, right = center, up = center, down = center;
+    if (has_left) left = particle_at(texel + ivec2(-1, 0));
+    if (has_right) right = particle_at(texel + ivec2(1, 0));
+    if (has_up) up = particle_at(texel + ivec2(0, -1));
+    if (has_down) down = particle_at(texel + ivec2(0, 1));
+    if (has_up && has_left)
+        sum = gather_cell(sum, particle_at(texel + ivec2(-1, -1)), up, left, center, -push.twist);
+    if (has_up && has_right)
+        sum = gather_cell(sum, up, particle_at(texel + ivec2(1, -1)), center, right, push.twist);
+    if (has_down && has_left)
+        sum = gather_cell(sum, left, center, particle_at(texel + ivec2(-1, 1)), down, push.twist);
+    if (has_down && has_right)
+        sum = gather_cell(sum, center, right, down, particle_at(texel + ivec2(1, 1)), -push.twist);
+    return sum;
+}
+
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
@@ -124,6 +159,7 @@ void main() {
     if (has_bend) {
         pull = gather_bend(pull, center, ivec2(1, 0), 0, push.bend.x);
         pull = gather_bend(pull, center, ivec2(0, 1), 1, push.bend.y);
+        pull = gather_twist(pull, center);
     }
     vec3 force = vec3(0.0f, 0.0f, 0.0f);
 #ifdef WINDY

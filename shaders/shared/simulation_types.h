@@ -42,6 +42,7 @@ struct ExplicitPush {
     vec4 stiffness;        // phi k h^2 / m_inner, dimensionless, softened where the step would not be stable
     vec2 bend;             // phi b h^2 / m_inner: elements along columns (a row's), along rows
     float strain_damping;  // kappa: strain-rate damping is kappa k h
+    float twist;           // phi t h^2 / m_inner
 };
 
 /// One colour of the bending elements of one axis (engine/cloth/directions.h).
@@ -52,6 +53,13 @@ struct BendPush {
     int colour;           // 0, 1, 2
     int channel;          // of the stiffness image: 0 row, 1 column
     float compliance;     // m_inner / (b h^2), dimensionless, > 0
+};
+
+/// The twist of one colour of the cells (engine/cloth/directions.h).
+struct TwistPush {
+    ivec2 element_count;  // cells of this pass along columns, rows
+    ivec2 first;          // its first cell
+    float compliance;     // m_inner / (t h^2), dimensionless, > 0
 };
 
 struct WindPush {

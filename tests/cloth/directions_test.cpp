@@ -84,6 +84,26 @@ TEST_P(DirectionTable, HoldsEveryBendingElementOnceAndNoParticleTwiceInAPass) {
     for (const auto& [element, count] : seen) EXPECT_EQ(count, 1);
 }
 
+TEST_P(DirectionTable, HoldsEveryCellsTwistOnceAndNoParticleTwiceInAPass) {
+    const glsl::ivec2 grid = GetParam();
+    std::map<std::pair<int, int>, int> seen;  // upper left corners
+    for (const TwistPass& pass : twist_passes(grid)) {
+        std::set<std::pair<int, int>> particles;
+        for (int y = 0; y < pass.element_count.y; ++y)
+            for (int x = 0; x < pass.element_count.x; ++x) {
+                const glsl::ivec2 corner = glsl::twist_corner({x, y}, pass.first);
+                for (int k = 0; k < 4; ++k) {
+                    const glsl::ivec2 p{corner.x + k % 2, corner.y + k / 2};
+                    ASSERT_TRUE(p.x >= 0 && p.y >= 0 && p.x < grid.x && p.y < grid.y);
+                    ASSERT_TRUE(particles.insert({p.x, p.y}).second) << "particle " << p.x << "," << p.y << " twice";
+                }
+                ++seen[{corner.x, corner.y}];
+            }
+    }
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>((grid.x - 1) * (grid.y - 1)));
+    for (const auto& [cell, count] : seen) EXPECT_EQ(count, 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Grids, DirectionTable,
                          testing::Values(glsl::ivec2{2, 2}, glsl::ivec2{2, 7}, glsl::ivec2{8, 2}, glsl::ivec2{3, 3},
                                          glsl::ivec2{9, 5}, glsl::ivec2{8, 8}, glsl::ivec2{16, 9},

@@ -24,6 +24,7 @@ TEST(StiffnessConstantsTest, FollowTheCells) {
     EXPECT_DOUBLE_EQ(constants.rest_length[3], std::sqrt(5e-4));
     EXPECT_DOUBLE_EQ(constants.bend[0], 1e-4 * 0.01 / 8e-6);
     EXPECT_DOUBLE_EQ(constants.bend[1], 1e-4 * 0.02 / 1e-6);
+    EXPECT_DOUBLE_EQ(constants.twist, 2e-4 / 2e-4);
 }
 
 TEST(ExplicitStiffnessTest, SmallStepsUseAllOfIt) {
@@ -94,14 +95,21 @@ TEST(BendStiffnessTest, RelaxationTakesOffWhatItsSweepAddsAndSaysWhatItFollows) 
     cloth.stiffness.bend = rigidity(60);
     const ClothModel model(scene, 0);
     ASSERT_EQ(model.bends.size(), 6u);
+    ASSERT_EQ(model.twists.size(), 4u);
     EXPECT_FLOAT_EQ(model.bends[0].push.compliance, 57);
+    EXPECT_FLOAT_EQ(model.twists[0].push.compliance, 28);  // twice as stiff as an axis: 60/2 - 2
     EXPECT_EQ(model.used_bend, cloth.stiffness.bend);
     EXPECT_EQ(note(), "none");
-    cloth.stiffness.bend = rigidity(0.75);  // a quarter of what a sweep can do: twice as many substeps
-    EXPECT_NEAR(ClothModel(scene, 0).used_bend, rigidity(3), 1e-12);
+    cloth.stiffness.bend = rigidity(1);  // four times what a sweep can do on the twist: twice as many substeps
+    const ClothModel softened(scene, 0);
+    EXPECT_NEAR(softened.used_bend, rigidity(4), 1e-12);
+    EXPECT_FLOAT_EQ(softened.bends[0].push.compliance, 1);  // the axes follow no more than the twist
+    EXPECT_GT(softened.twists[0].push.compliance, 0);
+    EXPECT_LT(softened.twists[0].push.compliance, 1e-6f);
     EXPECT_NE(note().find("40 substeps would follow all of it"), std::string::npos) << note();
     cloth.stiffness.bend = 0;
     EXPECT_TRUE(ClothModel(scene, 0).bends.empty());
+    EXPECT_TRUE(ClothModel(scene, 0).twists.empty());
 }
 
 TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {
@@ -110,10 +118,11 @@ TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {
         for (const double h : {1e-5, 1e-4, 1e-3}) {
             const StiffnessConstants wanted = stiffness_constants({false, 1000, 100, bend}, square);
             const ExplicitStiffness used = explicit_stiffness(wanted, square, mass, h, 0.2);
-            const double q = 4 * (used.bend[0] + used.bend[1]), s = used.spring[0] + used.spring[2];
+            const double q = 4 * (used.bend[0] + used.bend[1] + used.twist), s = used.spring[0] + used.spring[2];
             EXPECT_LE(q, 0.3 * (1 + 1e-12));
             EXPECT_LE(1.4 * s + 0.5 * q, 0.45 * (1 + 1e-12));
             EXPECT_NEAR(used.bend[0], wanted.bend[0] * h * h / mass * used.bend_share, 1e-12);
+            EXPECT_NEAR(used.twist, 2 * used.bend[0], 1e-12);  // square cells: softened alike
         }
 }
 

@@ -65,7 +65,7 @@ TEST(TwinExplicitTest, Bending) {
 TEST(TwinExplicitTest, SoftenedBendingWithHoles) {
     SceneDescription scene = everything_explicit();
     scene.cloths[0].stiffness.bend = 0.1;
-    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}, {{25, 15}, {26, 16}}};
     compare(scene);
 }
 

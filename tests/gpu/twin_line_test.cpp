@@ -90,7 +90,7 @@ TEST(TwinLineTest, BendingHolesAndNoWind) {
     SceneDescription scene = free_lines();
     scene.wind = {};
     scene.cloths[0].stiffness.bend = 1e-4;
-    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}, {{25, 15}, {26, 16}}};
     compare(scene);
 }
 

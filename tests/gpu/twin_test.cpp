@@ -52,7 +52,7 @@ TEST(TwinTest, Bending) {
 TEST(TwinTest, BendingWithHoles) {
     SceneDescription scene = everything();
     scene.cloths[0].stiffness.bend = 1e-3;
-    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}};
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{0, 20}, {6, 29}}, {{25, 15}, {26, 16}}};
     compare(scene);
 }
 

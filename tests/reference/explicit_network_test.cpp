@@ -49,7 +49,7 @@ TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForces) {
     scene.solver.method = SolverMethod::explicit_steps;
     Cloth& cloth = scene.cloths[0];
     cloth.pins = {test::pin_box(3, 0, 5, 1)};
-    cloth.holes = {{{2, 3}, {5, 6}}, {{9, 7}, {13, 10}}};
+    cloth.holes = {{{2, 3}, {5, 6}}, {{9, 7}, {13, 10}}, {{8, 3}, {9, 4}}};  // the last is one cell
     for (const Stiffness& stiffness : {Stiffness{false, 80, 0, 0}, Stiffness{false, 80, 30, 0},
                                        Stiffness{false, 0, 0, 1e-2}, Stiffness{false, 80, 30, 1e-2}}) {
         cloth.stiffness = stiffness;

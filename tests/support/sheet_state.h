@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reference/twin.h"
@@ -67,6 +68,20 @@ void for_bends(const ClothModel& model, const Visit& visit) {
             }
 }
 
+/// Calls visit(corners 00 10 01 11) for every cell that twists: a whole one.
+template <class Visit>
+void for_twists(const ClothModel& model, const Visit& visit) {
+    const glsl::ivec2 size = model.grid.size();
+    for (int y = 0; y + 1 < size.y; ++y)
+        for (int x = 0; x + 1 < size.x; ++x) {
+            if (model.grid.cell(x, y) != (upper_triangle | lower_triangle)) continue;
+            const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+            const std::uint32_t first = model.grid.particle(column, row);
+            visit(std::array<std::size_t, 4>{first, first + 1, first + model.grid.columns(),
+                                             first + model.grid.columns() + 1});
+        }
+}
+
 struct Energy {
     double kinetic = 0, gravity = 0, elastic = 0, bending = 0;
     double total() const { return kinetic + gravity + elastic + bending; }
@@ -90,12 +105,19 @@ inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const T
         energy.elastic += 0.5 * share * model.used_stiffness[direction] * stretch * stretch;
     });
     const double wanted = scene.scene.cloths[cloth].stiffness.bend;
+    const double used = wanted > 0 ? model.used_bend / wanted : 0;
     for_bends(model, [&](std::size_t first, std::size_t middle, std::size_t third, std::size_t axis, double share) {
         const Vec3 a = position_of(state, first), b = position_of(state, middle), c = position_of(state, third);
         const double difference = std::hypot(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1], a[2] - 2 * b[2] + c[2]);
-        if (wanted > 0)
-            energy.bending += 0.5 * share * model.stiffness_constant.bend[axis] * (model.used_bend / wanted) *
-                              difference * difference;
+        energy.bending += 0.5 * share * model.stiffness_constant.bend[axis] * used * difference * difference;
+    });
+    for_twists(model, [&](const std::array<std::size_t, 4>& corner) {
+        Vec3 twist{};
+        for (std::size_t n = 0; n < 4; ++n)
+            for (std::size_t k = 0; k < 3; ++k)
+                twist[k] += (n == 0 || n == 3 ? 1 : -1) * position_of(state, corner[n])[k];
+        const double squared = twist[0] * twist[0] + twist[1] * twist[1] + twist[2] * twist[2];
+        energy.bending += 0.5 * model.stiffness_constant.twist * used * squared;
     });
     return energy;
 }

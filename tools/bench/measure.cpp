@@ -159,6 +159,8 @@ std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, s
         parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
     for (const BendWork& work : cloth.bends)
         parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    for (const TwistWork& work : cloth.twists)
+        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
     parts.push_back(fmt::format("{} {} {} {}", cloth.force.damping_loss, cloth.force.gravity_step.y,
                                 cloth.explicit_step.stiffness.x, cloth.explicit_step.stiffness.z));
     std::string steps;

@@ -1,0 +1,69 @@
+// Relaxation of bending in the twin.
+#include "reference/kernels.h"
+#include "reference/texels.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+void Twin::bend(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const BendPush& push = model.bends[step.work].push;
+    const auto share = [&](ivec2 owner) {
+        return model.masked ? component(model.stiffness[at(model.grid, owner)], push.channel)
+                            : border_stiffness(owner, push.axis, push.grid);
+    };
+    for (int y = 0; y < push.element_count.y; ++y)
+        for (int x = 0; x < push.element_count.x; ++x) {
+            const ivec2 middle = bend_middle({x, y}, push.axis, push.colour);
+            const ivec2 first{middle.x - push.axis.x, middle.y - push.axis.y};
+            const std::size_t i[3] = {at(model.grid, first), at(model.grid, middle),
+                                      at(model.grid, {middle.x + push.axis.x, middle.y + push.axis.y})};
+            vec3 start[3], moved[3];
+            float weight[3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                start[k] = xyz(state.position[i[k]]);
+                moved[k] = xyz(state.displacement[i[k]]);
+                weight[k] = state.position[i[k]].w;
+            }
+            const vec3 difference = second_difference(spring_edge(start[1], start[0], moved[1], moved[0]),
+                                                      spring_edge(start[1], start[2], moved[1], moved[2]));
+            const vec3 correction = project_bend(difference, bend_weight(weight[0], weight[1], weight[2]),
+                                                 bend_share(share(first), share(middle)), push.compliance);
+            state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
+            state.displacement[i[1]] = texel(moved_by(moved[1], correction, -2.0f * weight[1]));
+            state.displacement[i[2]] = texel(moved_by(moved[2], correction, weight[2]));
+        }
+}
+
+void Twin::twist(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const TwistPush& push = model.twists[step.work].push;
+    for (int y = 0; y < push.element_count.y; ++y)
+        for (int x = 0; x < push.element_count.x; ++x) {
+            const ivec2 corner = twist_corner({x, y}, push.first);
+            const std::size_t i[4] = {at(model.grid, corner), at(model.grid, {corner.x + 1, corner.y}),
+                                      at(model.grid, {corner.x, corner.y + 1}),
+                                      at(model.grid, {corner.x + 1, corner.y + 1})};
+            vec3 start[4], moved[4];
+            float weight[4];
+            for (std::size_t k = 0; k < 4; ++k) {
+                start[k] = xyz(state.position[i[k]]);
+                moved[k] = xyz(state.displacement[i[k]]);
+                weight[k] = state.position[i[k]].w;
+            }
+            const float share = model.masked ? twist_share(model.stiffness[i[0]], model.stiffness[i[1]],
+                                                           model.stiffness[i[2]])
+                                             : 1.0f;
+            const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
+                                                     spring_edge(start[2], start[3], moved[2], moved[3]));
+            const vec3 correction =
+                project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]), share,
+                             push.compliance);
+            state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
+            state.displacement[i[1]] = texel(moved_by(moved[1], correction, -weight[1]));
+            state.displacement[i[2]] = texel(moved_by(moved[2], correction, -weight[2]));
+            state.displacement[i[3]] = texel(moved_by(moved[3], correction, weight[3]));
+        }
+}
+
+}  // namespace drape

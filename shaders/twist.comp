@@ -1,0 +1,7 @@
+// Relaxes the twist of one colour of the cells.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/bend.h"
+#include "include/spring.h"
+#include "include/twist_pass.h"
