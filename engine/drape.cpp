@@ -187,7 +187,7 @@ class Sink {
 
 Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const SimulationModel& model,
                       const vulkan::Device& device, const FrameLoop& loop, const FrameRange& range) {
-    const SceneDescription& scene = loaded.description;
+    const SceneDescription& scene = model.scene;
     const vulkan::DeviceInfo& info = device.info();
     Manifest manifest;
     manifest.program_version = program_version();
@@ -196,12 +196,19 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
     if (request.draw)
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
-    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations, scene.solver.tethers};
+    const bool chosen = model.asked_method == SolverMethod::automatic;
+    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations, scene.solver.tethers,
+                       chosen ? "auto" : "",
+                       model.choice.reason, scene.solver.tolerance, {}};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
     manifest.created = utc_timestamp();
     manifest.command_line = request.command_line;
     return manifest;
+}
+
+ModelOptions model_options(const SceneRequest& request, const vulkan::Device& device) {
+    return {.skip = request.skip, .device = device.info().type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu};
 }
 
 FrameLoopOptions loop_options(const SceneDescription& scene, bool draw, bool positions) {
@@ -229,6 +236,8 @@ std::vector<std::string> notes(const vulkan::Device& device, const SimulationMod
                         info.driver, info.driver_version, info.api_version, info.uuid_text()),
             fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", model.cloths.size(),
                         model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps, model.scene.solver.iterations),
+            fmt::format("solver: {}{}", model.method_name(),
+                        model.asked_method == SolverMethod::automatic ? ": " + model.choice.reason : ""),
             fmt::format("plan: {} in a frame that is written, {} in one that is only simulated; `drape graph` "
                         "lists them, and what was skipped",
                         plan_text(FrameKind::simulate_and_output), plan_text(FrameKind::simulate)),
@@ -312,7 +321,7 @@ RunSummary run_scene(const RunRequest& request) {
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();
-    const SimulationModel model(scene.description, {.skip = request.scene.skip});
+    const SimulationModel model(scene.description, model_options(request.scene, device));
     Manifest manifest;
     {
         Sink* cut_sink = nullptr;
@@ -335,6 +344,7 @@ RunSummary run_scene(const RunRequest& request) {
                            write_frames(loop, sink, missing, last, request, summary);
         manifest.cuts = sink.cuts();
         manifest.statistics = sink.statistics().frames();
+        manifest.solver.stretch_error = sink.statistics().worst_stretch_error();
         // Arrays of a stopped run would look complete; its pictures each are.
         if (summary.complete || request.draw) manifest.files = sink.finish();
         for (const auto& [frame, kept] : missing.kept) manifest.files.push_back(kept.file);
@@ -351,7 +361,7 @@ std::string describe_graph(const SceneRequest& request, bool draw, const std::st
     const SceneDescription scene = load_scene(request);
     const vulkan::Instance instance({.validation = request.validate});
     const vulkan::Device device(instance, request.device);
-    const SimulationModel model(scene, {.skip = request.skip});
+    const SimulationModel model(scene, model_options(request, device));
     const FrameLoop loop(device, model, loop_options(scene, draw, !draw));
     return graph::dump(loop.graph(FrameKind::simulate_and_output), loop.plan(FrameKind::simulate_and_output), format);
 }

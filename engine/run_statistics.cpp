@@ -86,13 +86,13 @@ std::optional<std::string> divergence(const SimulationModel& model, std::uint32_
 std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
                                             const std::vector<ClothStatistics>& cloths) {
     const SolverSettings& solver = model.scene.solver;
-    if (!(solver.tolerance > 0)) return std::nullopt;
+    if (!(model.asked_tolerance > 0)) return std::nullopt;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const double error = cloths[cloth].stretch_error_rms;
-        if (error <= solver.tolerance) continue;
+        if (error <= model.asked_tolerance) continue;
         return fmt::format("the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
                            "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
-                           frame, model.cloths[cloth].name, error, solver.tolerance, model.method_name(),
+                           frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method_name(),
                            solver.substeps, solver.iterations);
     }
     return std::nullopt;
@@ -101,6 +101,13 @@ std::optional<std::string> missed_tolerance(const SimulationModel& model, std::u
 std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
     const auto now = energy(values), first = energy(frames_.begin()->second);
     return now && first ? std::optional(*now - *first) : std::nullopt;
+}
+
+std::optional<double> RunStatistics::worst_stretch_error() const {
+    std::optional<double> largest;
+    for (const auto& [frame, values] : frames_)
+        if (const auto error = worst(values, "/stretch_error_rms")) largest = std::max(largest.value_or(*error), *error);
+    return largest;
 }
 
 std::string RunStatistics::note(std::uint32_t frame) const {

@@ -37,6 +37,9 @@ class RunStatistics {
     /// moving pins do.
     std::vector<Manifest::FrameStatistics> frames() const;
 
+    /// The largest RMS stretch error of any frame and cloth.
+    std::optional<double> worst_stretch_error() const;
+
   private:
     std::optional<double> energy_drift(const FrameValues& values) const;
     std::map<std::uint32_t, FrameValues> frames_;

@@ -9,6 +9,7 @@
 
 #include "cloth/directions.h"
 #include "cloth/grid.h"
+#include "cloth/solver_choice.h"
 #include "cloth/line_constants.h"
 #include "cloth/stiffness_constants.h"
 #include "cloth/tethers.h"
@@ -27,6 +28,7 @@ struct ModelOptions {
     /// false: keep the exact skips' work (empty parities, masks of whole cloths, tensions of single
     /// iterations) to prove that skipping changes no bit.
     bool skip = true;
+    DeviceKind device = DeviceKind::cpu;  ///< what method `auto` chooses for
 };
 
 /// One parity pass with its constants.

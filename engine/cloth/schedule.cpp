@@ -3,7 +3,12 @@
 namespace drape {
 
 SimulationModel::SimulationModel(const SceneDescription& description, const ModelOptions& options)
-    : scene(description), windy(description.wind.blows()) {
+    : scene(description),
+      asked_method(description.solver.method),
+      asked_tolerance(description.solver.tolerance),
+      choice(choose_solver(description, options.device)),
+      windy(description.wind.blows()) {
+    scene.solver = choice.settings;
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
     const Colliders& c = scene.colliders;
     collider_count = static_cast<int>(c.planes.size() + c.spheres.size() + c.boxes.size() + c.ellipsoids.size());
@@ -20,6 +25,11 @@ std::string SimulationModel::method_name() const {
 bool SimulationModel::adaptive() const {
     const SolverSettings& solver = scene.solver;
     return solver.tolerance > 0 && solver.iterations > 1 && solver.method != SolverMethod::explicit_steps;
+}
+
+float SimulationModel::iteration_limit() const {
+    const double limit = 0.99 * scene.solver.tolerance;
+    return static_cast<float>(limit * limit);
 }
 
 void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {

@@ -30,17 +30,23 @@ struct Step {
 struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
 
-    SceneDescription scene;
+    SceneDescription scene;    ///< its solver settings are those in use: `auto` is resolved
+    SolverMethod asked_method; ///< as the scene file has it
+    double asked_tolerance;    ///< that a frame may not miss; 0: none
+    SolverChoice choice;
     std::vector<ClothModel> cloths;
     bool windy;
     int collider_count;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return collider_count > 1 ? 32 : 1; }
 
-    /// The method in use as a scene spells it; `auto` is resolved.
+    /// The method in use as a scene spells it.
     std::string method_name() const;
     /// Whether iterations end when the tolerance is met.
     bool adaptive() const;
+    /// Squared RMS stretch error below which they end: a hundredth under the tolerance, so that what the frame's
+    /// statistics sum in another order is within it.
+    float iteration_limit() const;
     /// Steps of one frame of one cloth; at the end X += d. When adaptive, a check follows every iteration but a
     /// substep's last.
     /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by direction

@@ -135,6 +135,21 @@ std::string utc_timestamp(std::chrono::system_clock::time_point time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
+Json::Value solver_json(const Manifest::Solver& solver) {
+    Json::Value json;
+    json["method"] = solver.method;
+    json["substeps"] = solver.substeps;
+    json["iterations"] = solver.iterations;
+    json["tethers"] = solver.tethers;
+    if (!solver.asked.empty()) {
+        json["asked"] = solver.asked;
+        json["choice"] = solver.choice;
+    }
+    if (solver.tolerance > 0) json["tolerance"] = solver.tolerance;
+    if (solver.stretch_error) json["stretch_error_rms"] = *solver.stretch_error;
+    return json;
+}
+
 std::string manifest_json(const Manifest& manifest) {
     Json::Value json;
     json["format"] = std::string(manifest_format);
@@ -149,10 +164,7 @@ std::string manifest_json(const Manifest& manifest) {
         json["picture"]["samples"] = manifest.picture->samples;
     }
     json["run_key"] = manifest.run_key;
-    json["solver"]["method"] = manifest.solver.method;
-    json["solver"]["substeps"] = manifest.solver.substeps;
-    json["solver"]["iterations"] = manifest.solver.iterations;
-    json["solver"]["tethers"] = manifest.solver.tethers;
+    json["solver"] = solver_json(manifest.solver);
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);

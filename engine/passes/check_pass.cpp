@@ -62,7 +62,7 @@ void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     const vulkan::ComputePipeline& pipeline = pipelines.get(decision);
     const SolverSettings& solver = model.scene.solver;
     const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)),
-                                   static_cast<float>(solver.tolerance * solver.tolerance),
+                                   model.iteration_limit(),
                                    step.substep == 0 && step.iteration == 0 ? 1 : 0, static_cast<int>(solver.substeps)};
     const StepDispatch dispatch(state, step, pipeline, 1, 1);
     graph.add_pass(

@@ -19,6 +19,7 @@ inline SceneDescription sheet(std::uint32_t columns, std::uint32_t rows, double 
     cloth.grid = {columns, rows};
     cloth.size = {width, height};
     scene.cloths.push_back(cloth);
+    scene.solver.method = SolverMethod::relax;
     scene.solver.substeps = substeps;
     scene.solver.iterations = iterations;
     return scene;

@@ -63,8 +63,7 @@ ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
 
 void Twin::check(const ClothModel& model, TwinCloth& state, const Step& step) {
     if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_.scene.solver.substeps;
-    const double tolerance = model_.scene.solver.tolerance;
-    state.iterates = needs_iteration(residual(model, state), static_cast<float>(tolerance * tolerance));
+    state.iterates = needs_iteration(residual(model, state), model_.iteration_limit());
     if (state.iterates) ++state.iteration_count;
 }
 

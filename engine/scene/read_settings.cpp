@@ -33,11 +33,16 @@ void read_solver(SceneNode node, SolverSettings& solver) {
                                                                      {"line", SolverMethod::line},
                                                                      {"auto", SolverMethod::automatic}};
     method.read_choice<SolverMethod>(solver.method, methods);
-    node.member("substeps").read(solver.substeps, 1, 4096);
-    const SceneNode iterations = node.member("iterations");
+    const bool is_automatic = solver.method == SolverMethod::automatic;
     const bool is_explicit = solver.method == SolverMethod::explicit_steps;
-    if (iterations.read(solver.iterations, 1, 1024) && is_explicit && solver.iterations > 1)
-        iterations.warn("iterations is ignored by method explicit: a micro-step solves nothing");
+    const SceneNode substeps = node.member("substeps"), iterations = node.member("iterations");
+    if (substeps.read(solver.substeps, 1, 4096) && substeps && is_automatic)
+        substeps.warn("substeps is ignored by method auto, which chooses: name a method to set it");
+    if (iterations.read(solver.iterations, 1, 1024) && iterations) {
+        if (is_automatic) iterations.warn("iterations is ignored by method auto, which chooses: name a method to set it");
+        if (is_explicit && solver.iterations > 1)
+            iterations.warn("iterations is ignored by method explicit: a micro-step solves nothing");
+    }
     constexpr std::pair<std::string_view, CollideWhen> moments[] = {{"iteration", CollideWhen::iteration},
                                                                     {"substep", CollideWhen::substep}};
     node.member("collide").read_choice<CollideWhen>(solver.collide, moments);
@@ -45,7 +50,7 @@ void read_solver(SceneNode node, SolverSettings& solver) {
     const std::string_view name = solver.method == SolverMethod::line ? "line" : "relax";
     node.member("tethers").read(solver.tethers);
     const SceneNode strain_damping = node.member("strain_damping");
-    if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit)
+    if (strain_damping.read(solver.strain_damping, unit_interval) && strain_damping && !is_explicit && !is_automatic)
         strain_damping.warn(fmt::format("strain_damping is ignored by method {}", name));
 }
 

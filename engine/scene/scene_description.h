@@ -165,7 +165,7 @@ enum class SolverMethod { automatic, relax, explicit_steps, line };
 enum class CollideWhen { iteration, substep };
 
 struct SolverSettings {
-    SolverMethod method = SolverMethod::automatic;  ///< `auto` means relax until more solvers exist
+    SolverMethod method = SolverMethod::automatic;  ///< `auto`: solver_choice.h
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     /// Largest RMS stretch error of a frame (cloth_statistics.h), 0 = no promise. Ends iterations once it is met.

@@ -23,7 +23,7 @@ std::string small_scene(int frame_count) {
     "pins": [{{"corner": "top_left"}}, {{"corner": "top_right"}}]
   }}],
   "colliders": {{"planes": [{{"normal": [0, 1, 0], "offset": 0}}]}},
-  "solver": {{"substeps": 4}},
+  "solver": {{"method": "relax", "substeps": 4}},
   "image": {{"size": [64, 48], "samples": 1}}
 }}
 )",

@@ -87,7 +87,7 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
         expected.insert(expected.end(), {StepKind::wind, StepKind::explicit_step, StepKind::collide});
     expected.push_back(StepKind::advance);
     EXPECT_EQ(kinds, expected);
-    scene.solver.method = SolverMethod::automatic;
+    scene.solver.method = SolverMethod::relax;
     EXPECT_EQ(SimulationModel(scene).method_name(), "relax");
 }
 

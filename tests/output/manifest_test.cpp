@@ -26,7 +26,7 @@ Manifest example() {
     manifest.frames = {0, 239, 2, 120, 60};
     manifest.run_key = "00112233445566778899aabbccddeeff";
     manifest.picture = Manifest::Picture{1280, 720, 4};
-    manifest.solver = {"relax", 20, 1, true};
+    manifest.solver = {"line", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
     manifest.validation = {true, 0};
     manifest.skipped = {{"collision", "the scene has no collider"}};
     manifest.files = {{"frame_0000.png", 12345678901, "00ff"}, {"frame_0002.png", 1, "11ff"}};
@@ -69,7 +69,16 @@ constexpr const char* golden = R"json({
     "path": "scenes/flag.json"
   },
   "skipped": [{"reason": "the scene has no collider", "what": "collision"}],
-  "solver": {"iterations": 1, "method": "relax", "substeps": 20, "tethers": true},
+  "solver": {
+    "asked": "auto",
+    "choice": "the laws expect it",
+    "iterations": 8,
+    "method": "line",
+    "stretch_error_rms": 0.0075,
+    "substeps": 20,
+    "tethers": true,
+    "tolerance": 0.01
+  },
   "statistics": [
     {"frame": 0, "kinetic_energy": 0, "max_stretch": 1.0625},
     {"frame": 2, "kinetic_energy": 1e-300, "max_stretch": 0.1}

@@ -162,14 +162,18 @@ TEST(SceneWarnings, SettingsThatDoNothing) {
     const std::vector<std::string> explicit_ignores{
         "s:1:65: /solver/iterations: iterations is ignored by method explicit: a micro-step solves nothing"};
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "explicit", "iterations": 3}})"), explicit_ignores);
-    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"strain_damping": 0.1}})"),
-              std::vector<std::string>{"s:1:47: /solver/strain_damping: strain_damping is ignored by method relax"});
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "relax", "strain_damping": 0.1}})"),
+              std::vector<std::string>{"s:1:66: /solver/strain_damping: strain_damping is ignored by method relax"});
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "line", "strain_damping": 0.1}})"),
               std::vector<std::string>{"s:1:65: /solver/strain_damping: strain_damping is ignored by method line"});
     EXPECT_EQ(
         warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
         std::vector<std::string>{
             "s:1:35: /wind/gust: the gust does nothing: it blows along the wind's velocity, which is zero"});
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "auto", "substeps": 9, "iterations": 2}})"),
+              (std::vector<std::string>{
+                  "s:1:59: /solver/substeps: substeps is ignored by method auto, which chooses: name a method to set it",
+                  "s:1:76: /solver/iterations: iterations is ignored by method auto, which chooses: name a method to set it"}));
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}]})").empty());
 }
 

@@ -1,0 +1,41 @@
+// What `auto` stands for: the method and the settings that reach a tolerance with the least work, from the laws of each
+// method's stretch error and what its passes cost. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene_description.h"
+
+namespace drape {
+
+/// The stretch error that `auto` aims at where the scene states none.
+inline constexpr double default_tolerance = 0.01;
+
+/// What passes cost. On a CPU every store counts; on a GPU small dispatches cost what the next one waits.
+enum class DeviceKind { cpu, gpu };
+
+/// One method with the fewest substeps that its law allows.
+struct SolverCandidate {
+    SolverMethod method;
+    std::uint32_t substeps;
+    double predicted_ms;  ///< per frame, all cloths; for comparing, not for planning
+    bool reaches;         ///< whether the law promises the tolerance within the limits of the settings
+};
+
+struct SolverChoice {
+    SolverSettings settings;                  ///< no longer automatic
+    std::vector<SolverCandidate> candidates;  ///< the chosen one first; none when the scene names its method
+    std::string reason;                       ///< one sentence with the laws' numbers
+};
+
+/// The settings that a scene of method `auto` runs with; of any other method, its own.
+///
+/// The laws, for a cloth that hangs L metres and n links of length l below its pins (half its size without pins) under
+/// acceleration g (wind included), with substep h; F = 1.7 for a calm cloth that hangs by an edge, else 5:
+///   relax     error = F 0.59 n g h^2/(2 l)
+///   explicit  error = F 0.41 g L/c_s^2, c_s the wave speed that the clamped micro-step follows
+///   line      converges from h sqrt(g L)/l = 1 (calm) or 0.3 down; iterations do the rest
+SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device);
+
+}  // namespace drape

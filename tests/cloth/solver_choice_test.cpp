@@ -1,0 +1,94 @@
+// What `auto` chooses, and that it says why.
+#include "cloth/solver_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cloth/schedule.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+SceneDescription automatic(std::uint32_t links, double tolerance = 0) {
+    SceneDescription scene = test::sheet(links + 1, links + 1, 1, 1, 3, 7);
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.solver.method = SolverMethod::automatic;
+    scene.solver.tolerance = tolerance;
+    return scene;
+}
+
+const SolverCandidate& of(const SolverChoice& choice, SolverMethod method) {
+    return *std::ranges::find(choice.candidates, method, &SolverCandidate::method);
+}
+
+TEST(SolverChoiceTest, ASceneThatNamesItsMethodKeepsItsSettings) {
+    SceneDescription scene = automatic(64, 0.02);
+    scene.solver.method = SolverMethod::explicit_steps;
+    const SolverChoice choice = choose_solver(scene, DeviceKind::cpu);
+    EXPECT_EQ(choice.settings, scene.solver);
+    EXPECT_TRUE(choice.candidates.empty());
+}
+
+TEST(SolverChoiceTest, TheModelRunsWhatWasChosenAndKnowsWhatWasAsked) {
+    const SceneDescription scene = automatic(64);
+    const SimulationModel model(scene);
+    EXPECT_EQ(model.asked_method, SolverMethod::automatic);
+    EXPECT_EQ(model.asked_tolerance, 0);
+    EXPECT_EQ(model.scene.solver.tolerance, default_tolerance);
+    EXPECT_EQ(model.scene.solver.method, model.choice.candidates.front().method);
+    EXPECT_EQ(model.scene.solver.substeps, model.choice.candidates.front().substeps);
+    EXPECT_EQ(model.cloths[0].substep_length, 1.0 / (60.0 * model.scene.solver.substeps));
+    for (const char* name : {"line", "explicit", "relax"}) EXPECT_NE(model.choice.reason.find(name), std::string::npos);
+}
+
+TEST(SolverChoiceTest, TheCheapestThatReachesComesFirst) {
+    const SolverChoice choice = choose_solver(automatic(128), DeviceKind::cpu);
+    ASSERT_EQ(choice.candidates.size(), 3u);
+    for (std::size_t k = 1; k < 3; ++k)
+        EXPECT_LE(choice.candidates[k - 1].predicted_ms, choice.candidates[k].predicted_ms);
+}
+
+TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
+    const auto substeps = [](std::uint32_t links, double tolerance, SolverMethod method) {
+        return double(of(choose_solver(automatic(links, tolerance), DeviceKind::cpu), method).substeps);
+    };
+    // All three: in proportion to the links; relaxation and explicit steps by the root of the tolerance.
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
+        EXPECT_NEAR(substeps(256, 1e-4, method) / substeps(64, 1e-4, method), 4, 0.2);
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
+        EXPECT_NEAR(substeps(128, 1e-5, method) / substeps(128, 1e-3, method), 10, 0.3);
+    // Measured on the hanging and swinging sheet of 64 links (README): 1 % from about 20 relaxed substeps on.
+    EXPECT_NEAR(substeps(64, 0.01, SolverMethod::relax), 25, 6);
+}
+
+TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
+    const SceneDescription calm = automatic(64);
+    SceneDescription windy = calm, colliding = calm;
+    windy.wind.velocity = {8, 0, 0};
+    colliding.colliders.spheres.emplace_back();
+    const std::uint32_t before = choose_solver(calm, DeviceKind::cpu).settings.substeps;
+    EXPECT_GT(choose_solver(windy, DeviceKind::cpu).settings.substeps, before);
+    EXPECT_GT(choose_solver(colliding, DeviceKind::cpu).settings.substeps, before);
+}
+
+TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {
+    const SolverChoice choice = choose_solver(automatic(1024, 1e-9), DeviceKind::cpu);
+    for (const SolverCandidate& candidate : choice.candidates) {
+        EXPECT_FALSE(candidate.reaches);
+        EXPECT_LE(candidate.substeps, 4096u);
+    }
+    EXPECT_NE(choice.reason.find("does not"), std::string::npos);
+}
+
+TEST(SolverChoiceTest, ExplicitStepsThatWouldSoftenTheBendingAreNotChosen) {
+    SceneDescription scene = automatic(16);
+    scene.cloths[0].stiffness.bend = 1;
+    EXPECT_FALSE(of(choose_solver(scene, DeviceKind::gpu), SolverMethod::explicit_steps).reaches);
+    scene.cloths[0].stiffness.bend = 1e-9;
+    EXPECT_TRUE(of(choose_solver(scene, DeviceKind::gpu), SolverMethod::explicit_steps).reaches);
+}
+
+}  // namespace
+}  // namespace drape
