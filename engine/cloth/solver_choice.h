@@ -35,7 +35,7 @@ struct SolverChoice {
 /// acceleration g (wind included), with substep h; F = 1.7 for a calm cloth that hangs by an edge, else 5:
 ///   relax     error = F 0.59 n g h^2/(2 l)
 ///   explicit  error = F 0.41 g L/c_s^2, c_s the wave speed that the clamped micro-step follows
-///   line      converges from h sqrt(g L)/l = 1 (calm) or 0.3 down; iterations do the rest
+///   line      cheapest at h sqrt(g L)/l = 1.3 when held by an edge, 0.45 or less otherwise; iterations do the rest
 SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device);
 
 }  // namespace drape

@@ -38,6 +38,31 @@ TEST(ClaimsTest, TheSoonestIsAMeasuredSettingAndNeverBetweenTwo) {
     EXPECT_EQ(found(soonest, "relax, 1 substep x iterations", "stretch_error").time_ratio, 0);
 }
 
+TEST(ClaimsTest, AutoIsComparedWithTheSoonestThatKeepsTheTolerance) {
+    const auto random = [](const char* method, std::uint32_t scene, std::uint32_t substeps, double ms, double error) {
+        CaseResult result;
+        result.problem = "random";
+        result.size = scene;
+        result.method = method;
+        result.substeps = substeps;
+        result.iterations = 1;
+        result.name = std::string(method) + "/" + std::to_string(substeps);
+        result.device_ms = ms;
+        result.metrics["worst_stretch_error"] = error;
+        return result;
+    };
+    const std::vector<CaseResult> results = {random("auto", 3, 1, 3, 0.009), random("line", 3, 4, 2, 0.01),
+                                             random("line", 3, 2, 1, 0.011), random("relax", 3, 80, 9, 0.001),
+                                             random("line", 4, 2, 0.1, 0.001), random("auto", 5, 1, 4, 0.02)};
+    const std::vector<AutoRatio> ratios = auto_ratios(results);
+    ASSERT_EQ(ratios.size(), 2u);
+    EXPECT_EQ(ratios[0].best, "line/4");
+    EXPECT_EQ(ratios[0].ratio(), 1.5);
+    EXPECT_TRUE(ratios[0].met());
+    EXPECT_FALSE(ratios[1].met());
+    EXPECT_TRUE(ratios[1].best.empty());
+}
+
 TEST(ClaimsTest, ADivergedCaseMeetsNothing) {
     CaseResult result = swing_result(SolverMethod::relax, 20, 2, 0, 0);
     result.diverged = true;

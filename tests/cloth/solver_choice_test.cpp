@@ -68,9 +68,15 @@ TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
     SceneDescription windy = calm, colliding = calm;
     windy.wind.velocity = {8, 0, 0};
     colliding.colliders.spheres.emplace_back();
-    const std::uint32_t before = choose_solver(calm, DeviceKind::cpu).settings.substeps;
-    EXPECT_GT(choose_solver(windy, DeviceKind::cpu).settings.substeps, before);
-    EXPECT_GT(choose_solver(colliding, DeviceKind::cpu).settings.substeps, before);
+    const auto substeps = [](const SceneDescription& scene, SolverMethod method) {
+        return of(choose_solver(scene, DeviceKind::cpu), method).substeps;
+    };
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
+        EXPECT_GT(substeps(colliding, method), substeps(calm, method));
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
+        EXPECT_GT(substeps(windy, method), substeps(calm, method));
+    // Lines from a held edge carry the cloth whatever blows at it.
+    EXPECT_EQ(substeps(windy, SolverMethod::line), substeps(calm, SolverMethod::line));
 }
 
 TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {

@@ -224,6 +224,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
                   run.results(),
                   {},
                   {},
+                  {},
                   {}};
     evaluate(report);
     write_files(request, report, problems);

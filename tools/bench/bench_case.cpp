@@ -10,12 +10,15 @@ std::string method_name(SolverMethod method) {
             return "explicit";
         case SolverMethod::line:
             return "line";
+        case SolverMethod::automatic:
+            return "auto";
         default:
             return "relax";
     }
 }
 
 std::string setting_name(const Setting& setting) {
+    if (setting.method == SolverMethod::automatic) return "chosen";
     return setting.iterations == 1 ? fmt::format("{}", setting.substeps)
                                    : fmt::format("{}x{}", setting.substeps, setting.iterations);
 }

@@ -123,6 +123,24 @@ std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
     return checks;
 }
 
+std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
+    std::vector<AutoRatio> ratios;
+    for (const CaseResult& chosen : results) {
+        if (chosen.method != "auto" || chosen.diverged) continue;
+        AutoRatio ratio{chosen.problem, chosen.size, chosen.metrics.at("worst_stretch_error"), case_milliseconds(chosen),
+                        {}, INFINITY};
+        for (const CaseResult& other : results) {
+            if (other.problem != chosen.problem || other.size != chosen.size || other.method == "auto") continue;
+            if (other.diverged || other.metrics.at("worst_stretch_error") > AutoRatio::auto_tolerance) continue;
+            if (case_milliseconds(other) >= ratio.best_milliseconds) continue;
+            ratio.best = other.name;
+            ratio.best_milliseconds = case_milliseconds(other);
+        }
+        ratios.push_back(ratio);
+    }
+    return ratios;
+}
+
 std::vector<Soonest> find_soonest(std::span<const CaseResult> results) {
     std::map<std::tuple<std::string, std::uint32_t>, Group> groups;
     for (const CaseResult& result : results)

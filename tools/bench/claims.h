@@ -43,6 +43,22 @@ struct Soonest {
 /// best-tuned substepped relaxation; the slides' form is a family of its own.
 std::vector<Soonest> find_soonest(std::span<const CaseResult> results);
 
+/// What `auto` took, over the soonest measured setting of any method that keeps its tolerance.
+struct AutoRatio {
+    std::string problem;
+    std::uint32_t size = 0;
+    double worst_error = 0;      ///< of auto
+    double milliseconds = 0;     ///< of auto, per frame
+    std::string best;            ///< the soonest's case; empty: no other setting keeps the tolerance
+    double best_milliseconds = 0;
+    bool met() const { return worst_error <= auto_tolerance; }
+    double ratio() const { return best.empty() ? 0 : milliseconds / best_milliseconds; }
+    static constexpr double auto_tolerance = 0.01;
+};
+
+/// Of every scene that auto was measured on.
+std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results);
+
 /// Device time, or wall time where the device has no timestamps; ms per frame.
 double case_milliseconds(const CaseResult& result);
 

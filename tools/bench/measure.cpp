@@ -34,8 +34,7 @@ SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Sett
     scene.solver.method = setting.method;
     scene.solver.substeps = setting.substeps;
     scene.solver.iterations = setting.iterations;
-    // The strain-rate damping is for tangled cloth; the references have none.
-    scene.solver.strain_damping = 0;
+    scene.solver.strain_damping = problem.strain_damping;
     return scene;
 }
 
@@ -167,6 +166,7 @@ std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, s
     for (const Step& step : model.frame_steps(cloth))
         steps += static_cast<char>('a' + static_cast<int>(step.kind));
     parts.push_back(steps);
+    parts.push_back(fmt::format("tolerance {} damping {}", model.scene.solver.tolerance, problem.strain_damping));
     parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count,
                                 model.scene.time.fps, problem.record_every));
     for (const SpirvModule& module : spirv_modules())

@@ -4,7 +4,8 @@ namespace drape::bench {
 
 std::vector<Problem> all_problems(bool is_short) {
     std::vector<Problem> problems;
-    for (auto group : {flight_problems(is_short), chain_problems(is_short), sheet_problems(is_short)})
+    for (auto group : {flight_problems(is_short), chain_problems(is_short), sheet_problems(is_short),
+                       random_problems(is_short)})
         problems.insert(problems.end(), group.begin(), group.end());
     return problems;
 }

@@ -99,6 +99,30 @@ std::string soonest_text(const Report& report) {
     return text;
 }
 
+std::string auto_text(const Report& report) {
+    if (report.auto_ratios.empty()) return {};
+    std::string text = "\nWhat auto took, over the soonest measured setting that keeps its tolerance of 1 %\n";
+    for (const AutoRatio& a : report.auto_ratios)
+        text += fmt::format("  {:<12}error {:>9}: {:<9}{:>9.3f} ms{:>8.2f}x  {}\n", fmt::format("{} {}", a.problem, a.size),
+                            number(a.worst_error), a.met() ? "kept" : "NOT KEPT", a.milliseconds, a.ratio(),
+                            a.best.empty() ? "no other setting keeps it" : a.best);
+    return text;
+}
+
+Json::Value json_of(const AutoRatio& ratio) {
+    Json::Value value(Json::objectValue);
+    value["problem"] = ratio.problem;
+    value["size"] = ratio.size;
+    value["worst_stretch_error"] = ratio.worst_error;
+    value["kept"] = ratio.met();
+    value["ms_per_frame"] = ratio.milliseconds;
+    if (ratio.best.empty()) return value;
+    value["soonest"] = ratio.best;
+    value["soonest_ms_per_frame"] = ratio.best_milliseconds;
+    value["ratio"] = ratio.ratio();
+    return value;
+}
+
 Json::Value json_of(const OrderFit& fit) {
     Json::Value value(Json::objectValue);
     value["problem"] = fit.claim.problem;
@@ -162,6 +186,7 @@ void evaluate(Report& report) {
     report.orders = fit_orders(order_claims(), report.results);
     report.limits = check_limits(report.results);
     report.soonest = find_soonest(report.results);
+    report.auto_ratios = auto_ratios(report.results);
 }
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems) {
@@ -169,7 +194,7 @@ std::string report_text(const Report& report, const std::vector<Problem>& proble
                                    report.driver, report.created);
     if (!report.complete) text += "The budget of time left cases out.\n";
     for (const Problem& problem : problems) text += problem_table(problem, report.results);
-    return text + orders_text(report) + limits_text(report) + soonest_text(report);
+    return text + orders_text(report) + limits_text(report) + soonest_text(report) + auto_text(report);
 }
 
 std::string report_json(const Report& report) {
@@ -185,6 +210,7 @@ std::string report_json(const Report& report) {
     value["orders"] = json_list(report.orders);
     value["limits"] = json_list(report.limits);
     value["soonest"] = json_list(report.soonest);
+    value["auto"] = json_list(report.auto_ratios);
     return json_text(value);
 }
 

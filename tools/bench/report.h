@@ -20,6 +20,7 @@ struct Report {
     std::vector<OrderFit> orders;
     std::vector<LimitCheck> limits;
     std::vector<Soonest> soonest;
+    std::vector<AutoRatio> auto_ratios;
 };
 
 /// Orders, limits and ratios of the results that the report holds.
