@@ -26,7 +26,8 @@ std::vector<OrderClaim> order_claims() {
         {"cantilever 1", "explicit", "ratio", size, -2, 0.25, 0, 1e300, 0, differences},
         {"cantilever 100", "explicit", "ratio", size, -2, 0.25, 0, 1e300, 0, differences},
         {"swing", "relax", "stretch_error", substeps, -2, 0.3, 3e-4, 0.2, 128},
-        {"swing", "explicit", "stretch_error", substeps, -2, 0.6, 3e-6, 0.2, 128}};
+        // The clamp softens by (P_full/P)^2 - 1: of second order while that is far above 0.
+        {"swing", "explicit", "stretch_error", substeps, -2, 0.6, 2e-3, 0.2, 128}};
     // The third mode of eight links is no hanging chain's.
     for (const auto& [metric, least] :
          {std::pair{"frequency_1", 8.0}, {"frequency_2", 8.0}, {"frequency_3", 16.0}})
