@@ -99,6 +99,7 @@ Metrics worst_stretch(const Recording& run, References&) {
 }  // namespace
 
 std::vector<Problem> random_problems(bool is_short) {
+    if (is_short) return {};  // three minutes have no room for twelve settings of a scene
     Problem problem{.name = "random",
                     .title = "Scenes drawn from a seed, tolerance 1 %",
                     .metric = "worst_stretch_error",
@@ -106,7 +107,7 @@ std::vector<Problem> random_problems(bool is_short) {
     problem.strain_damping = SolverSettings{}.strain_damping;
     problem.scene = [](std::uint32_t number, const Setting&) { return random_scene(number); };
     problem.evaluate = worst_stretch;
-    for (std::uint32_t number = 1; number <= (is_short ? 2u : 20u); ++number) {
+    for (std::uint32_t number = 1; number <= 20; ++number) {
         std::vector<Setting> line, relax;
         for (const std::uint32_t substeps : {2u, 4u, 7u, 12u, 20u})
             line.push_back({SolverMethod::line, substeps, 32});
