@@ -47,7 +47,8 @@ FrameRange frame_range(const RunRequest& request, const SceneDescription& scene,
         range.end = last;
     }
     if (range.start > range.end)
-        throw UsageError(fmt::format("no frame to write: --start {} is after the last frame {}", range.start, range.end));
+        throw UsageError(
+            fmt::format("no frame to write: --start {} is after the last frame {}", range.start, range.end));
     return range;
 }
 
@@ -73,8 +74,8 @@ std::optional<std::string> read_text(const std::string& path) {
 LoadedScene load(const SceneRequest& request) {
     // Read once: what is hashed is what is run, also when the file changes meanwhile or is a pipe.
     const std::optional<std::string> text = read_text(request.path);
-    SceneResult result = text ? read_scene_text(*text, request.path, request.overrides)
-                              : read_scene(request.path, request.overrides);
+    SceneResult result =
+        text ? read_scene_text(*text, request.path, request.overrides) : read_scene(request.path, request.overrides);
     if (!result.scene) throw SceneFailure(std::move(result));
     LoadedScene loaded{std::move(*result.scene), {}, {}};
     for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
@@ -113,8 +114,8 @@ class Sink {
         for (const ClothModel& cloth : model.cloths) {
             const std::string name =
                 model.cloths.size() == 1 ? "positions.npy" : fmt::format("positions_{}.npy", cloth.name);
-            arrays_.push_back(std::make_unique<NpyWriter>(folder, name, range.count(), cloth.grid.rows(),
-                                                          cloth.grid.columns()));
+            arrays_.push_back(
+                std::make_unique<NpyWriter>(folder, name, range.count(), cloth.grid.rows(), cloth.grid.columns()));
         }
     }
 
@@ -197,9 +198,8 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     if (request.draw)
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
     const bool chosen = model.asked_method == SolverMethod::automatic;
-    manifest.solver = {model.method_name(), scene.solver.substeps, scene.solver.iterations, scene.solver.tethers,
-                       chosen ? "auto" : "",
-                       model.choice.reason, scene.solver.tolerance, {}};
+    manifest.solver = {model.method_name(),  scene.solver.substeps, scene.solver.iterations, scene.solver.tethers,
+                       chosen ? "auto" : "", model.choice.reason,   scene.solver.tolerance,  {}};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
     manifest.created = utc_timestamp();
@@ -235,7 +235,8 @@ std::vector<std::string> notes(const vulkan::Device& device, const SimulationMod
     return {fmt::format("device {}: {} ({}), driver {} {}, Vulkan {}, UUID {}", info.index, info.name, info.type,
                         info.driver, info.driver_version, info.api_version, info.uuid_text()),
             fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", model.cloths.size(),
-                        model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps, model.scene.solver.iterations),
+                        model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps,
+                        model.scene.solver.iterations),
             fmt::format("solver: {}{}", model.method_name(),
                         model.asked_method == SolverMethod::automatic ? ": " + model.choice.reason : ""),
             fmt::format("plan: {} in a frame that is written, {} in one that is only simulated; `drape graph` "
@@ -338,10 +339,9 @@ RunSummary run_scene(const RunRequest& request) {
         for (const auto& [frame, kept] : missing.kept) sink.statistics().add(frame, kept.values);
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
-        const std::uint32_t last =
-            to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
-        summary.complete = (missing.frames.empty() && !to_the_end) ||
-                           write_frames(loop, sink, missing, last, request, summary);
+        const std::uint32_t last = to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
+        summary.complete =
+            (missing.frames.empty() && !to_the_end) || write_frames(loop, sink, missing, last, request, summary);
         manifest.cuts = sink.cuts();
         manifest.statistics = sink.statistics().frames();
         manifest.solver.stretch_error = sink.statistics().worst_stretch_error();

@@ -40,8 +40,8 @@ void FrameLoop::build_graphs() {
     frames_ = {};
     const bool cut = std::ranges::any_of(topologies_, [](const CutTopology& t) { return !t.vertices().empty(); });
     if (options_.draw && (!raster_ || cut != draws_cut_)) {
-        raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height,
-                                               options_.samples, RasterOptions{.cut = cut});
+        raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height, options_.samples,
+                                               RasterOptions{.cut = cut});
         draws_cut_ = cut;
     }
     for (std::size_t kind = 0; kind < kind_count(); ++kind) build(static_cast<FrameKind>(kind));
@@ -58,8 +58,8 @@ void FrameLoop::allocate_and_record() {
 
 void FrameLoop::record() {
     for (std::size_t kind = 0; kind < kind_count(); ++kind)
-        frames_[kind].recorded = std::make_unique<graph::RecordedPlan>(
-            frames_[kind].graph, frames_[kind].plan, *pool_, options_.timestamps, options_.barrier_filter);
+        frames_[kind].recorded = std::make_unique<graph::RecordedPlan>(frames_[kind].graph, frames_[kind].plan, *pool_,
+                                                                       options_.timestamps, options_.barrier_filter);
 }
 
 FrameLoop::~FrameLoop() {
@@ -175,8 +175,7 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
     if (done.output && options_.positions)
         for (const ClothModel& cloth : model_.cloths) {
             const std::span<std::byte> bytes = pool_->buffer(position_readback_name(cloth), slot).mapped();
-            result.positions.push_back(
-                {reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
+            result.positions.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
         }
     if (done.output && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);

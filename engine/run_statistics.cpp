@@ -90,10 +90,11 @@ std::optional<std::string> missed_tolerance(const SimulationModel& model, std::u
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const double error = cloths[cloth].stretch_error_rms;
         if (error <= model.asked_tolerance) continue;
-        return fmt::format("the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
-                           "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
-                           frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method_name(),
-                           solver.substeps, solver.iterations);
+        return fmt::format(
+            "the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
+            "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
+            frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method_name(), solver.substeps,
+            solver.iterations);
     }
     return std::nullopt;
 }
@@ -106,7 +107,8 @@ std::optional<double> RunStatistics::energy_drift(const FrameValues& values) con
 std::optional<double> RunStatistics::worst_stretch_error() const {
     std::optional<double> largest;
     for (const auto& [frame, values] : frames_)
-        if (const auto error = worst(values, "/stretch_error_rms")) largest = std::max(largest.value_or(*error), *error);
+        if (const auto error = worst(values, "/stretch_error_rms"))
+            largest = std::max(largest.value_or(*error), *error);
     return largest;
 }
 
@@ -118,7 +120,8 @@ std::string RunStatistics::note(std::uint32_t frame) const {
     if (const auto error = worst(values, "/stretch_error_rms"))
         parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
     if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
-    if (const auto depth = worst(values, "/penetration_m")) parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));
+    if (const auto depth = worst(values, "/penetration_m"))
+        parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -31,17 +31,15 @@ void catch_signals() {
 
 void print_error(const std::string& text) { print_message("drape: " + text); }
 
-std::string frame_count_text(std::uint64_t count) {
-    return fmt::format("{} frame{}", count, count == 1 ? "" : "s");
-}
+std::string frame_count_text(std::uint64_t count) { return fmt::format("{} frame{}", count, count == 1 ? "" : "s"); }
 
 ExitCode report_stop(const RunRequest& request, const RunSummary& summary) {
     const bool terminated = signal_number == SIGTERM;
     print_error(fmt::format(
         "stopped by {}: {}; no manifest was written{}", terminated ? "SIGTERM" : "SIGINT",
-        request.draw ? fmt::format("{} in {}", frame_count_text(summary.frame_count + summary.kept_count),
-                                   request.output)
-                     : "the arrays, incomplete, were dropped",
+        request.draw
+            ? fmt::format("{} in {}", frame_count_text(summary.frame_count + summary.kept_count), request.output)
+            : "the arrays, incomplete, were dropped",
         request.draw ? "; --resume draws the missing ones" : ""));
     return terminated ? ExitCode::terminated : ExitCode::interrupted;
 }
@@ -140,8 +138,8 @@ ExitCode devices(bool json) {
     std::string text;
     for (const vulkan::DeviceInfo& info : instance.devices()) {
         list.append(json_device(info));
-        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name,
-                            info.type, info.driver, info.driver_version, info.api_version, info.uuid_text(),
+        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name, info.type,
+                            info.driver, info.driver_version, info.api_version, info.uuid_text(),
                             info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n");
     }
     print_data(json ? json_text(list) : text);

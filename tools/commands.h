@@ -16,8 +16,7 @@ ExitCode run(RunRequest request);
 ExitCode graph(const SceneRequest& request, bool draw, const std::string& format);
 
 /// Checks scene files; every error of every file on stderr, or as JSON on stdout.
-ExitCode check(const std::vector<std::string>& paths, const std::vector<std::string>& overrides, bool json,
-               bool quiet);
+ExitCode check(const std::vector<std::string>& paths, const std::vector<std::string>& overrides, bool json, bool quiet);
 
 ExitCode schema();
 

@@ -88,8 +88,7 @@ struct CommandLine {
 std::string footer(const char* text) { return std::string(text) + exit_codes; }
 
 void add_runs(CLI::App& app, CommandLine& line) {
-    CLI::App* command =
-        app.add_subcommand("render", "Simulate a scene and draw it: PNG files and manifest.json");
+    CLI::App* command = app.add_subcommand("render", "Simulate a scene and draw it: PNG files and manifest.json");
     command->footer(footer(render_examples));
     drape::cli::add_run_options(*command, line.render);
     drape::cli::add_image_options(*command, line.render.scene);
@@ -118,17 +117,15 @@ void add_graph(CLI::App& app, CommandLine& line) {
     drape::cli::add_scene_options(*command, line.graph_scene);
     drape::cli::add_image_options(*command, line.graph_scene);
     const auto check_format = [](const std::string& text) {
-        return text == "text" || text == "json" || text == "dot"
-                   ? std::string()
-                   : "expected text, json or dot, got '" + text + "'";
+        return text == "text" || text == "json" || text == "dot" ? std::string()
+                                                                 : "expected text, json or dot, got '" + text + "'";
     };
     command->add_option("--format", line.graph_format, "text, json or dot (for Graphviz); default: text")
         ->type_name("FORMAT")
         ->check(check_format, "");
     command->add_flag("--simulate", line.graph_simulate, "As `drape simulate` runs it: nothing is drawn");
-    command->callback([&line] {
-        line.code = drape::cli::graph(line.graph_scene, !line.graph_simulate, line.graph_format);
-    });
+    command->callback(
+        [&line] { line.code = drape::cli::graph(line.graph_scene, !line.graph_simulate, line.graph_format); });
 }
 
 void add_checks(CLI::App& app, CommandLine& line) {
@@ -139,12 +136,10 @@ void add_checks(CLI::App& app, CommandLine& line) {
     command->add_flag("--json", line.check_json, "Errors and warnings as JSON on stdout");
     command->add_flag("-q,--quiet", line.check_quiet, "Say nothing about good files");
     command->callback([&line] {
-        line.code =
-            drape::cli::check(line.check_paths, line.check_overrides, line.check_json, line.check_quiet);
+        line.code = drape::cli::check(line.check_paths, line.check_overrides, line.check_json, line.check_quiet);
     });
 
-    command =
-        app.add_subcommand("schema", "Print the JSON Schema (draft-07) of scene files, with every default");
+    command = app.add_subcommand("schema", "Print the JSON Schema (draft-07) of scene files, with every default");
     command->footer(footer("\nExample:\n  drape schema > scene.schema.json\n"));
     command->callback([&line] { line.code = drape::cli::schema(); });
 
@@ -212,8 +207,7 @@ int main(int argc, char** argv) {
     CommandLine line;
     line.render.command_line = line.simulate.command_line = {argv, argv + argc};
     try {
-        CLI::App app{"drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.",
-                     "drape"};
+        CLI::App app{"drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.", "drape"};
         app.set_version_flag("--version", std::string("drape ") + drape::program_version());
         app.require_subcommand(1);
         app.footer(footer(main_examples));

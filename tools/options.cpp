@@ -15,21 +15,18 @@ constexpr std::uint32_t largest_side = 16384;
 std::optional<std::uint32_t> parse_whole(std::string_view text, std::uint32_t least, std::uint32_t most) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || value < least || value > most)
-        return std::nullopt;
+    if (error != std::errc{} || end != text.data() + text.size() || value < least || value > most) return std::nullopt;
     return value;
 }
 
 /// An option with a whole number; the message says what was expected.
-CLI::Option* add_whole(CLI::App& command, const std::string& names, const std::string& long_name,
-                       std::uint32_t least, const std::function<void(std::uint32_t)>& set,
-                       const std::string& help) {
+CLI::Option* add_whole(CLI::App& command, const std::string& names, const std::string& long_name, std::uint32_t least,
+                       const std::function<void(std::uint32_t)>& set, const std::string& help) {
     const auto parse = [=](const std::string& text) {
         const auto value = parse_whole(text, least, UINT32_MAX);
         if (!value)
             throw CLI::ValidationError(
-                long_name,
-                fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text));
+                long_name, fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text));
         set(*value);
     };
     return command.add_option_function<std::string>(names, parse, help);
@@ -76,9 +73,7 @@ void add_validate_option(CLI::App& command, bool& validate) {
 }
 
 void add_scene_options(CLI::App& command, SceneRequest& scene) {
-    command
-        .add_option("SCENE", scene.path,
-                    "Scene file: JSON, with // comments (`drape schema` prints its schema)")
+    command.add_option("SCENE", scene.path, "Scene file: JSON, with // comments (`drape schema` prints its schema)")
         ->required()
         ->type_name("");
     add_override_option(command, scene.overrides);
@@ -141,8 +136,7 @@ void add_run_options(CLI::App& command, RunRequest& request) {
                          : "Run again in the folder of an unfinished run of the same scene, program,\n"
                            "device and driver: arrays appear only when complete")
         ->excludes(overwrite);
-    CLI::Option* quiet =
-        command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
+    CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")
         ->excludes(quiet);
 }

@@ -22,8 +22,7 @@ double damping_mean(double damping, double h) { return damping > 0 ? -std::expm1
 /// d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
 double start_displacement(double velocity, double acceleration, double damping, double h) {
     const double ch = damping * h;
-    if (ch < 1e-5)
-        return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
+    if (ch < 1e-5) return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
     const double growth = std::expm1(ch) / damping;
     return velocity * growth + acceleration / damping * (h - growth);
 }
@@ -79,7 +78,8 @@ void ClothModel::set_tethers(const SceneDescription& scene, const Cloth& cloth) 
     if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
     tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, scene.gravity));
     if (!scene.cutters.empty())
-        skipped.push_back({name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});
+        skipped.push_back(
+            {name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});
 }
 
 void ClothModel::drop_tethers() { std::ranges::fill(tethers, glsl::ParticleTethers{-1, -1, 0, 0}); }
@@ -158,7 +158,8 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
         const SpringDirection& direction = spring_directions[static_cast<std::size_t>(pass.direction)];
         const auto index = static_cast<std::size_t>(pass.direction);
         const double constant = stiffness_constant.spring[index], rest = stiffness_constant.rest_length[index];
-        const std::string what = fmt::format("{}/spring {} {}", name, direction.name, pass.parity == 0 ? "even" : "odd");
+        const std::string what =
+            fmt::format("{}/spring {} {}", name, direction.name, pass.parity == 0 ? "even" : "odd");
         if (constant == 0) {
             skipped.push_back({what, "zero stiffness"});
             continue;
@@ -170,16 +171,17 @@ void ClothModel::add_springs(const Cloth& cloth, std::uint32_t iterations, const
         const bool compliant = !cloth.stiffness.rigid;
         carries_tension[pass.direction] = compliant && (iterations > 1 || !options.skip);
         const float compliance = compliant ? static_cast<float>(inner_mass / (constant * h2)) : 0.0f;
-        springs.push_back({pass, {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
-                                  static_cast<float>(rest), compliance, pass.direction, 1}});
+        springs.push_back({pass,
+                           {grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
+                            static_cast<float>(rest), compliance, pass.direction, 1}});
     }
     note_tension(cloth);
 }
 
 void ClothModel::note_tension(const Cloth& cloth) {
     if (std::ranges::none_of(carries_tension, std::identity()))
-        skipped.push_back({name + "/tension between iterations", cloth.stiffness.rigid ? "rigid springs need none"
-                                                                        : "one iteration per substep needs none"});
+        skipped.push_back({name + "/tension between iterations",
+                           cloth.stiffness.rigid ? "rigid springs need none" : "one iteration per substep needs none"});
 }
 
 LineSettings ClothModel::line_settings(const Cloth& cloth) const {
@@ -204,10 +206,11 @@ void ClothModel::set_lines(const SceneDescription& scene, const Cloth& cloth, co
         carries_tension[line.direction] = line.compliant && (scene.solver.iterations > 1 || !options.skip);
     note_tension(cloth);
     if (softened)
-        skipped.push_back({name + "/full stiffness",
-                           fmt::format("line solves follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on "
-                                       "diagonals at {} substeps", used_stiffness[0], used_stiffness[1],
-                                       used_stiffness[2], scene.solver.substeps)});
+        skipped.push_back(
+            {name + "/full stiffness",
+             fmt::format("line solves follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on "
+                         "diagonals at {} substeps",
+                         used_stiffness[0], used_stiffness[1], used_stiffness[2], scene.solver.substeps)});
 }
 
 void ClothModel::add_bends(std::uint32_t substeps, const LineSettings& settings) {
@@ -223,9 +226,10 @@ void ClothModel::add_bends(std::uint32_t substeps, const LineSettings& settings)
     for (const BendPass& pass : bend_passes(grid.size())) {
         const double constant = stiffness_constant.bend[static_cast<std::size_t>(pass.axis)];
         if (constant == 0 || pass.empty()) continue;
-        bends.push_back({pass, {grid.size(), pass.element_count, bend_axes[static_cast<std::size_t>(pass.axis)].offset,
-                                pass.colour, pass.axis,
-                                compliance(method_compliance(constant, settings), bend_sweep_compliance)}});
+        bends.push_back(
+            {pass,
+             {grid.size(), pass.element_count, bend_axes[static_cast<std::size_t>(pass.axis)].offset, pass.colour,
+              pass.axis, compliance(method_compliance(constant, settings), bend_sweep_compliance)}});
     }
     for (const TwistPass& pass : twist_passes(grid.size()))
         if (!pass.empty())
@@ -234,12 +238,13 @@ void ClothModel::add_bends(std::uint32_t substeps, const LineSettings& settings)
     used_bend *= share;
     skipped.push_back({name + "/full bending",
                        fmt::format("one sweep per substep follows {:.3g} N m at {} substeps; {:.0f} substeps would "
-                                   "follow all of it", used_bend, substeps, std::ceil(substeps / std::sqrt(share)))});
+                                   "follow all of it",
+                                   used_bend, substeps, std::ceil(substeps / std::sqrt(share)))});
 }
 
 void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth) {
-    explicit_stiffness = drape::explicit_stiffness(stiffness_constant, spacing, inner_mass, substep_length,
-                                                   scene.solver.strain_damping);
+    explicit_stiffness =
+        drape::explicit_stiffness(stiffness_constant, spacing, inner_mass, substep_length, scene.solver.strain_damping);
     const ExplicitStiffness& used = explicit_stiffness;
     used_stiffness = {used.columns_share * stiffness_constant.spring[0], used.rows_share * stiffness_constant.spring[1],
                       used.shear_share * stiffness_constant.spring[2], used.shear_share * stiffness_constant.spring[3]};
@@ -247,26 +252,32 @@ void ClothModel::set_explicit(const SceneDescription& scene, const Cloth& cloth)
     const double mean = damping_mean(cloth.damping, substep_length);
     for (double& value : scaled) value *= mean;
     used_bend = used.bend_share * cloth.stiffness.bend;
-    explicit_step = {grid.size(), force.damping_loss, force.force_step, force.gravity_step,
-                     texel(stiffness_constant.rest_length), texel(scaled),
+    explicit_step = {grid.size(),
+                     force.damping_loss,
+                     force.force_step,
+                     force.gravity_step,
+                     texel(stiffness_constant.rest_length),
+                     texel(scaled),
                      {static_cast<float>(mean * used.bend[0]), static_cast<float>(mean * used.bend[1])},
-                     static_cast<float>(scene.solver.strain_damping), static_cast<float>(mean * used.twist)};
-    tension = {grid.size(),
-               {static_cast<float>(stiffness_constant.rest_length[0]), static_cast<float>(stiffness_constant.rest_length[1])},
-               {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
-               explicit_step.strain_damping, 0};
+                     static_cast<float>(scene.solver.strain_damping),
+                     static_cast<float>(mean * used.twist)};
+    tension = {
+        grid.size(),
+        {static_cast<float>(stiffness_constant.rest_length[0]), static_cast<float>(stiffness_constant.rest_length[1])},
+        {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
+        explicit_step.strain_damping,
+        0};
     if (stiffness_constant.spring[2] == 0) skipped.push_back({name + "/shear springs", "zero stiffness"});
     if (!used.softened()) return;
     const std::uint32_t substeps = scene.solver.substeps;
-    const std::string remedy =
-        cloth.stiffness.rigid
-            ? std::string("rigid springs are as stiff as the substeps allow")
-            : fmt::format("{:.0f} substeps would follow all of it", std::ceil(used.full_substeps_factor * substeps));
-    skipped.push_back({name + "/full stiffness",
-                       fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows, {:.3g} on "
-                                   "diagonals and {:.3g} N m of bending at {} substeps; {}",
-                                   used_stiffness[0], used_stiffness[1], used_stiffness[2], used_bend, substeps,
-                                   remedy)});
+    const std::string remedy = cloth.stiffness.rigid ? std::string("rigid springs are as stiff as the substeps allow")
+                                                     : fmt::format("{:.0f} substeps would follow all of it",
+                                                                   std::ceil(used.full_substeps_factor * substeps));
+    skipped.push_back(
+        {name + "/full stiffness",
+         fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows, {:.3g} on "
+                     "diagonals and {:.3g} N m of bending at {} substeps; {}",
+                     used_stiffness[0], used_stiffness[1], used_stiffness[2], used_bend, substeps, remedy)});
 }
 
 void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth) {
@@ -276,7 +287,8 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     force = {grid.size(), static_cast<float>(-std::expm1(-cloth.damping * h)), static_cast<float>(step / inner_mass),
              texel(gravity_step, 0)};
     const auto rest_length = [&](std::size_t direction) {
-        return static_cast<float>(stiffness_constant.spring[direction] > 0 ? stiffness_constant.rest_length[direction] : 0);
+        return static_cast<float>(stiffness_constant.spring[direction] > 0 ? stiffness_constant.rest_length[direction]
+                                                                           : 0);
     };
     residual = {grid.size(), {rest_length(0), rest_length(1)}};
     const Wind& w = scene.wind;

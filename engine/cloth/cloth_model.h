@@ -9,8 +9,8 @@
 
 #include "cloth/directions.h"
 #include "cloth/grid.h"
-#include "cloth/solver_choice.h"
 #include "cloth/line_constants.h"
+#include "cloth/solver_choice.h"
 #include "cloth/stiffness_constants.h"
 #include "cloth/tethers.h"
 #include "scene/scene_description.h"
@@ -66,14 +66,14 @@ struct ClothModel {
 
     std::string name;
     Grid grid;
-    double spacing[2];      ///< m along columns, rows
-    double inner_mass;      ///< kg of a particle with four cells
-    double substep_length;  ///< s
+    double spacing[2];                      ///< m along columns, rows
+    double inner_mass;                      ///< kg of a particle with four cells
+    double substep_length;                  ///< s
     StiffnessConstants stiffness_constant;  ///< what the scene asks for
     bool second_order = false;              ///< line: BDF2; without it (colliders) backward Euler
     double used_bend = 0;                   ///< N m that the solver applies
-    std::array<double, 4> used_stiffness;   ///< N/m that the solver applies per direction, away from borders; relax: infinite
-                                          ///< when rigid
+    std::array<double, 4> used_stiffness;   ///< N/m that the solver applies per direction, away from borders; relax:
+                                            ///< infinite when rigid
 
     // Initial images, one texel per particle, row by row.
     std::vector<glsl::vec4> position;      ///< xyz m; w: relative inverse mass, 0 = pinned or without a cell
@@ -81,9 +81,10 @@ struct ClothModel {
                                            ///< 0 where pinned
     std::vector<float> free_weight;        ///< w without pins
 
-    bool masked = false;     ///< holes: stiffness and cell images exist
+    bool masked = false;                ///< holes: stiffness and cell images exist
     std::vector<glsl::vec4> stiffness;  ///< when masked: share per direction, by first particle
-    bool carries_tension[4] = {};  ///< relax, line: direction's tension goes from iteration to iteration: compliant, iterated
+    bool carries_tension[4] =
+        {};  ///< relax, line: direction's tension goes from iteration to iteration: compliant, iterated
 
     std::vector<SpringWork> springs;  ///< relax: in order of relaxation, needless ones left out
     std::vector<BendWork> bends;      ///< relax, line: likewise, once per substep before the springs
@@ -94,15 +95,15 @@ struct ClothModel {
     bool has_release = false, has_motion = false;
     std::vector<glsl::ParticleTethers> tethers;  ///< with tethers and pins: of every particle
 
-    bool gathers = false;               ///< explicit: particles gather what their springs do
-    glsl::ForcePush force;              ///< relax, and line in first order
-    glsl::PredictPush predict{};          ///< line in second order
-    glsl::ExplicitPush explicit_step{};   ///< explicit
+    bool gathers = false;                    ///< explicit: particles gather what their springs do
+    glsl::ForcePush force;                   ///< relax, and line in first order
+    glsl::PredictPush predict{};             ///< line in second order
+    glsl::ExplicitPush explicit_step{};      ///< explicit
     ExplicitStiffness explicit_stiffness{};  ///< explicit: what the step uses of the stiffness
-    glsl::TensionPush tension{};          ///< explicit
-    glsl::WindPush wind;            ///< substep is set per substep
-    glsl::CollisionPush collision;  ///< first is set per substep
-    glsl::ResidualPush residual;    ///< of the check between iterations
+    glsl::TensionPush tension{};             ///< explicit
+    glsl::WindPush wind;                     ///< substep is set per substep
+    glsl::CollisionPush collision;           ///< first is set per substep
+    glsl::ResidualPush residual;             ///< of the check between iterations
     std::vector<SkippedWork> skipped;
 
   private:

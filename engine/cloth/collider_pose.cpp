@@ -11,8 +11,7 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
     std::array<double, 9> result{};
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 3; ++column)
-            for (std::size_t k = 0; k < 3; ++k)
-                result[3 * row + column] += a[3 * row + k] * b[3 * k + column];
+            for (std::size_t k = 0; k < 3; ++k) result[3 * row + column] += a[3 * row + k] * b[3 * k + column];
     return result;
 }
 
@@ -40,8 +39,7 @@ ColliderPose collider_pose(const EllipsoidCollider& ellipsoid, double time) {
     return pose_about(ellipsoid.center, ellipsoid, time);
 }
 ColliderPose collider_pose(const PlaneCollider& plane, double time) {
-    const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset,
-                    plane.normal[2] * plane.offset};
+    const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset, plane.normal[2] * plane.offset};
     return pose_about(foot, plane, time);
 }
 

@@ -143,7 +143,8 @@ void CutTopology::add_parts(const ClothModel& model, const Triangle& cut) {
     const std::size_t alone = cut.cut[0] < 0 ? 2 : cut.cut[1] < 0 ? 0 : 1;
     const std::uint32_t v = cut.corner[alone], next = cut.corner[(alone + 1) % 3], last = cut.corner[(alone + 2) % 3];
     const float to_next = cut.cut[alone], from_last = cut.cut[(alone + 2) % 3];
-    indices_.insert(indices_.end(), {v, edge_vertex(model, v, next, to_next), edge_vertex(model, v, last, 1 - from_last)});
+    indices_.insert(indices_.end(),
+                    {v, edge_vertex(model, v, next, to_next), edge_vertex(model, v, last, 1 - from_last)});
     const std::uint32_t at_next = edge_vertex(model, next, v, 1 - to_next);
     const std::uint32_t at_last = edge_vertex(model, last, v, from_last);
     indices_.insert(indices_.end(), {at_next, next, last, at_next, last, at_last});
@@ -192,7 +193,8 @@ std::uint32_t CutTopology::add_vertex(const ClothModel& model, std::uint32_t anc
     const auto column_share = [&](std::uint32_t owner) { return model.stiffness[owner].y; };
     const auto base = material(model, anchor);
     double rest_u = at[0] - base[0], rest_v = at[1] - base[1];
-    glsl::CutVertex vertex{{anchor, anchor, anchor, 0}, {}, {}, {static_cast<float>(at[0]), static_cast<float>(at[1]), 0, 0}};
+    glsl::CutVertex vertex{
+        {anchor, anchor, anchor, 0}, {}, {}, {static_cast<float>(at[0]), static_cast<float>(at[1]), 0, 0}};
     const std::uint32_t column = anchor % columns_, row = anchor / columns_;
     const bool right = column + 1 < columns_ && row_share(anchor) != 0, left = column > 0 && row_share(anchor - 1) != 0;
     if (right || left) {
@@ -208,7 +210,9 @@ std::uint32_t CutTopology::add_vertex(const ClothModel& model, std::uint32_t anc
         rest_v = 0;
     }
     // What no own neighbour spans keeps its direction of the rest pose (the piece may be a single particle).
-    const auto component = [&](std::size_t k) { return static_cast<float>(rest_u * world_u_[k] + rest_v * world_v_[k]); };
+    const auto component = [&](std::size_t k) {
+        return static_cast<float>(rest_u * world_u_[k] + rest_v * world_v_[k]);
+    };
     vertex.offset = {component(0), component(1), component(2), 0};
     vertices_.push_back(vertex);
     return static_cast<std::uint32_t>(model.grid.particle_count() + vertices_.size() - 1);

@@ -29,7 +29,9 @@ glsl::vec4 texel(const Vec3& v, float w) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), w};
 }
 
-glsl::CutterTriangle active(const Vec3& a, const Vec3& b, const Vec3& c) { return {texel(a, 1), texel(b, 0), texel(c, 0)}; }
+glsl::CutterTriangle active(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return {texel(a, 1), texel(b, 0), texel(c, 0)};
+}
 
 bool overlaps(const Cutter& cutter, double frame_start, double frame_end) {
     return cutter.begin <= frame_end && cutter.end >= frame_start;

@@ -10,8 +10,8 @@ SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid) {
     const int columns = grid.x - std::abs(row.offset.x);
     const int rows = grid.y - std::abs(row.offset.y);
     const auto half = [parity](int count) { return (count - parity + 1) / 2; };
-    return {direction, parity,
-            {row.parity_axis == 0 ? half(columns) : columns, row.parity_axis == 1 ? half(rows) : rows}};
+    return {
+        direction, parity, {row.parity_axis == 0 ? half(columns) : columns, row.parity_axis == 1 ? half(rows) : rows}};
 }
 
 std::vector<SpringPass> spring_passes(glsl::ivec2 grid) {

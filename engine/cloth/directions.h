@@ -33,8 +33,8 @@ inline constexpr std::size_t stretch_direction_count = 2;
 
 /// One dispatch of the plain schedule: every second spring of one direction.
 struct SpringPass {
-    int direction;  ///< row of spring_directions = channel
-    int parity;     ///< 0 even, 1 odd
+    int direction;           ///< row of spring_directions = channel
+    int parity;              ///< 0 even, 1 odd
     glsl::ivec2 pair_count;  ///< springs along columns, rows; either may be 0
     bool empty() const { return pair_count.x == 0 || pair_count.y == 0; }
 };

@@ -18,8 +18,13 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
 template <class Shape>
 glsl::Collider collider_record(const Shape& shape, double before, double now, const glsl::vec4& size) {
     const ColliderPose pose = collider_pose(shape, now);
-    glsl::Collider record{row(pose.rotation, 0, pose.center[0]), row(pose.rotation, 1, pose.center[1]),
-                          row(pose.rotation, 2, pose.center[2]), {}, {}, {}, size};
+    glsl::Collider record{row(pose.rotation, 0, pose.center[0]),
+                          row(pose.rotation, 1, pose.center[1]),
+                          row(pose.rotation, 2, pose.center[2]),
+                          {},
+                          {},
+                          {},
+                          size};
     if (shape.path.moves()) {
         const ColliderPose last = collider_pose(shape, before);
         ColliderPose change;
@@ -53,7 +58,8 @@ void add_colliders(FrameInputs& inputs, const Colliders& colliders, const std::a
                 collider_record(sphere, before, now, shape_texel({sphere.radius, 0, 0}, sphere.friction)));
     if (wanted[2])
         for (const BoxCollider& box : colliders.boxes)
-            inputs.colliders[2].push_back(collider_record(box, before, now, shape_texel(box.half_extents, box.friction)));
+            inputs.colliders[2].push_back(
+                collider_record(box, before, now, shape_texel(box.half_extents, box.friction)));
     if (wanted[3])
         for (const EllipsoidCollider& ellipsoid : colliders.ellipsoids)
             inputs.colliders[3].push_back(
@@ -120,9 +126,7 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
 glsl::ivec4 first_colliders(const SceneDescription& scene, std::uint32_t substep) {
     const std::array<bool, collider_kind_count> moving = moving_kinds(scene.colliders);
     const auto counts = collider_counts(scene.colliders);
-    const auto first = [&](std::size_t kind) {
-        return moving[kind] ? static_cast<int>(counts[kind] * substep) : 0;
-    };
+    const auto first = [&](std::size_t kind) { return moving[kind] ? static_cast<int>(counts[kind] * substep) : 0; };
     return {first(0), first(1), first(2), first(3)};
 }
 

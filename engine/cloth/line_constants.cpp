@@ -24,7 +24,8 @@ LineWork line_work(int direction, const StiffnessConstants& stiffness, const Lin
     const auto limited = [](double compliance) { return std::max(compliance, least_line_compliance); };
     const auto followed = [&](double compliance) { return static_cast<float>(compliance / limited(compliance)); };
     const int seam = is_row || step.x == 0 ? -1 : step.x > 0 ? grid.x - 1 : 0;
-    return {direction, !settings.rigid,
+    return {direction,
+            !settings.rigid,
             {grid, step, is_row ? grid.y : grid.x, is_row ? grid.x : grid.y, seam, direction,
              static_cast<float>(stiffness.rest_length[index]), static_cast<float>(limited(euler)),
              static_cast<float>(limited(bdf2)), followed(euler), followed(bdf2), 1, 0}};

@@ -45,7 +45,6 @@ double line_stiffness(double stiffness, const LineSettings& settings);
 double method_compliance(double constant, const LineSettings& settings);
 
 /// `euler`: the constants of a backward Euler step.
-glsl::PredictPush predict_constants(const glsl::ForcePush& euler, const LineSettings& settings,
-                                    const Vec3& gravity);
+glsl::PredictPush predict_constants(const glsl::ForcePush& euler, const LineSettings& settings, const Vec3& gravity);
 
 }  // namespace drape

@@ -16,9 +16,12 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
 
 std::string SimulationModel::method_name() const {
     switch (scene.solver.method) {
-        case SolverMethod::explicit_steps: return "explicit";
-        case SolverMethod::line: return "line";
-        default: return "relax";
+        case SolverMethod::explicit_steps:
+            return "explicit";
+        case SolverMethod::line:
+            return "line";
+        default:
+            return "relax";
     }
 }
 
@@ -44,8 +47,7 @@ void SimulationModel::add_relax_steps(const ClothModel& cloth, std::uint32_t sub
 
 void SimulationModel::add_bend_steps(const ClothModel& cloth, std::uint32_t substep, std::vector<Step>& steps) const {
     // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
-    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend)
-        steps.push_back({StepKind::bend, substep, 0, bend});
+    for (std::uint32_t bend = 0; bend < cloth.bends.size(); ++bend) steps.push_back({StepKind::bend, substep, 0, bend});
     for (std::uint32_t twist = 0; twist < cloth.twists.size(); ++twist)
         steps.push_back({StepKind::twist, substep, 0, twist});
 }
@@ -129,7 +131,8 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
         absent("spheres", c.spheres.empty());
         absent("boxes", c.boxes.empty());
         absent("ellipsoids", c.ellipsoids.empty());
-        if (collider_count == 1) all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
+        if (collider_count == 1)
+            all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
     }
     for (const ClothModel& cloth : cloths) all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
     return all;

@@ -12,8 +12,21 @@
 namespace drape {
 
 enum class StepKind {
-    release, wind, control, predict, force, explicit_step, pin, bend, twist, spring, line, tether,
-    collide, check, advance
+    release,
+    wind,
+    control,
+    predict,
+    force,
+    explicit_step,
+    pin,
+    bend,
+    twist,
+    spring,
+    line,
+    tether,
+    collide,
+    check,
+    advance
 };
 
 struct Step {
@@ -30,9 +43,9 @@ struct Step {
 struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
 
-    SceneDescription scene;    ///< its solver settings are those in use: `auto` is resolved
-    SolverMethod asked_method; ///< as the scene file has it
-    double asked_tolerance;    ///< that a frame may not miss; 0: none
+    SceneDescription scene;     ///< its solver settings are those in use: `auto` is resolved
+    SolverMethod asked_method;  ///< as the scene file has it
+    double asked_tolerance;     ///< that a frame may not miss; 0: none
     SolverChoice choice;
     std::vector<ClothModel> cloths;
     bool windy;
@@ -49,12 +62,11 @@ struct SimulationModel {
     float iteration_limit() const;
     /// Steps of one frame of one cloth; at the end X += d. When adaptive, a check follows every iteration but a
     /// substep's last.
-    /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by direction
-    /// and parity by parity, and collisions.
-    /// explicit: per substep release, wind, micro-step, pin motion, collisions.
-    /// line: per substep release, wind, control and prediction (with colliders: force), pin motion, bending, then per
-    /// iteration the lines of both diagonals, the rows and the columns, and collisions.
-    /// With tethers each substep ends with them, and with collisions again.
+    /// relax: per substep release, wind, force, pin motion, bending, then per iteration the springs direction by
+    /// direction and parity by parity, and collisions. explicit: per substep release, wind, micro-step, pin motion,
+    /// collisions. line: per substep release, wind, control and prediction (with colliders: force), pin motion,
+    /// bending, then per iteration the lines of both diagonals, the rows and the columns, and collisions. With tethers
+    /// each substep ends with them, and with collisions again.
     std::vector<Step> frame_steps(const ClothModel& cloth) const;
     /// What no cloth of this scene needs, and what each cloth does not need.
     std::vector<SkippedWork> skipped() const;

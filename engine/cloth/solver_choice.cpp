@@ -73,7 +73,8 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     hang.length = hanging_length(cloth);
     hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const double wind_speed = length(scene.wind.velocity) + scene.wind.gust.amplitude;
-    const double pressure = 0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * square(wind_speed);
+    const double pressure =
+        0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * square(wind_speed);
     hang.gravity = length(scene.gravity);
     hang.acceleration = hang.gravity + (scene.wind.blows() ? wind_share * pressure / cloth.areal_density : 0);
     const int axis = axis_from_held_edge(cloth);
@@ -93,8 +94,8 @@ using Law = double (*)(const Hang& hang, double frame, double tolerance);
 
 /// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (physics.md 2.1).
 double relax_substeps(const Hang& hang, double frame, double tolerance) {
-    const double law = 0.83 / std::sqrt(2.0) * (hang.length / hang.spacing) * hang.acceleration * square(frame) /
-                       (2 * hang.spacing);
+    const double law =
+        0.83 / std::sqrt(2.0) * (hang.length / hang.spacing) * hang.acceleration * square(frame) / (2 * hang.spacing);
     return std::sqrt(motion_factor(hang) * law / tolerance);
 }
 
@@ -107,8 +108,9 @@ double explicit_substeps(const Hang& hang, double frame, double tolerance) {
 }
 
 /// h sqrt(g L)/l at which a substep is cheapest, sweeps and the further iterations that the tolerance asks for taken
-/// together: 1.3 for a cloth held by an edge, whose lines carry it alone; 0.45 where crossing directions fight (two corners,
-/// a ball), less from 64 links on, since iterations carry news by one line only. Measured on ten scenes of `bench accuracy
+/// together: 1.3 for a cloth held by an edge, whose lines carry it alone; 0.45 where crossing directions fight (two
+/// corners, a ball), less from 64 links on, since iterations carry news by one line only. Measured on ten scenes of
+/// `bench accuracy
 /// --filter random` (seed 1000); solvers.md has 0.67 for a single sweep to 0.04 %.
 double line_substeps(const Hang& hang, double frame, double tolerance) {
     const double share = std::min(1.0, tolerance / default_tolerance);
@@ -119,8 +121,8 @@ double line_substeps(const Hang& hang, double frame, double tolerance) {
     return frame * std::sqrt(hang.gravity * hang.length) / (hang.spacing * limit);
 }
 
-/// Milliseconds of one substep of one cloth. CPU: per dispatch and per particle, measured on lavapipe with 2 cores. GPU:
-/// dispatches wait for each other, and a line solve walks along its line; estimates, no measurement.
+/// Milliseconds of one substep of one cloth. CPU: per dispatch and per particle, measured on lavapipe with 2 cores.
+/// GPU: dispatches wait for each other, and a line solve walks along its line; estimates, no measurement.
 double substep_ms(const Hang& hang, DeviceKind device, double dispatches, double particle_ns, bool walks) {
     const auto count = static_cast<double>(hang.particle_count);
     if (device == DeviceKind::cpu) return dispatches * 0.07 + count * particle_ns * 1e-6;
@@ -155,8 +157,9 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     double substeps = 1;
     for (const Cloth& cloth : scene.cloths)
         substeps = std::max(substeps, method.law(hang_of(scene, cloth), frame, tolerance));
-    SolverCandidate result{method.method, static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), most_substeps)),
-                           0, substeps <= most_substeps};
+    SolverCandidate result{method.method,
+                           static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), most_substeps)), 0,
+                           substeps <= most_substeps};
     for (const Cloth& cloth : scene.cloths) {
         const Hang hang = hang_of(scene, cloth);
         result.predicted_ms +=
@@ -170,13 +173,14 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
 std::string reason_for(const std::vector<SolverCandidate>& candidates, double tolerance) {
     const auto text = [](const SolverCandidate& candidate) {
         const auto method = std::ranges::find(methods, candidate.method, &Method::method);
-        return candidate.reaches ? fmt::format("{} {} substeps, {:.3g} ms", method->name, candidate.substeps,
-                                               candidate.predicted_ms)
-                                 : fmt::format("{} does not", method->name);
+        return candidate.reaches
+                   ? fmt::format("{} {} substeps, {:.3g} ms", method->name, candidate.substeps, candidate.predicted_ms)
+                   : fmt::format("{} does not", method->name);
     };
     std::vector<std::string> all;
     for (const SolverCandidate& each : candidates) all.push_back(text(each));
-    return fmt::format("to keep a stretch error of {:.3g} the laws expect, per frame: {}", tolerance, fmt::join(all, "; "));
+    return fmt::format("to keep a stretch error of {:.3g} the laws expect, per frame: {}", tolerance,
+                       fmt::join(all, "; "));
 }
 
 }  // namespace

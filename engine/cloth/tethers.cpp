@@ -68,8 +68,7 @@ Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBo
                 if (to_x < 0 || to_y < 0 || to_x >= size.x || to_y >= size.y) continue;
                 if (!(shares(sign > 0 ? x : to_x, sign > 0 ? y : to_y)[direction] > 0)) continue;
                 reach(grid.particle(static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y)),
-                      field[particle].particle,
-                      distance + std::hypot(offset.x * spacing[0], offset.y * spacing[1]));
+                      field[particle].particle, distance + std::hypot(offset.x * spacing[0], offset.y * spacing[1]));
             }
     }
     return field;

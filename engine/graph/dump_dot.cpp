@@ -47,12 +47,12 @@ class DotWriter {
         for (const Fold& fold : folds) {
             if (fold.body.empty()) {
                 const Pass& pass = graph_.passes()[plan_.passes[fold.position].pass];
-                text_ += fmt::format("{}{} [label={}, tooltip={}];\n", indent, node(fold.position),
-                                     quoted(pass.label), quoted(pass.stage));
+                text_ += fmt::format("{}{} [label={}, tooltip={}];\n", indent, node(fold.position), quoted(pass.label),
+                                     quoted(pass.stage));
                 continue;
             }
-            text_ += fmt::format("{}subgraph cluster{} {{\n{}  label=\"x {}\";\n", indent, cluster_count_++,
-                                 indent, fold.count);
+            text_ += fmt::format("{}subgraph cluster{} {{\n{}  label=\"x {}\";\n", indent, cluster_count_++, indent,
+                                 fold.count);
             write_folds(fold.body, depth + 1);
             text_ += indent + "}\n";
         }
@@ -94,9 +94,8 @@ class DotWriter {
         }
         for (const std::uint32_t r : shown_) {
             const Resource& resource = graph_.resources()[r];
-            text_ +=
-                fmt::format("  resource{} [shape=ellipse, label={}];\n", r,
-                            quoted(fmt::format("{} ({})", resource.name, lifetime_name(resource.lifetime))));
+            text_ += fmt::format("  resource{} [shape=ellipse, label={}];\n", r,
+                                 quoted(fmt::format("{} ({})", resource.name, lifetime_name(resource.lifetime))));
         }
     }
 

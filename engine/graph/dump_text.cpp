@@ -44,8 +44,7 @@ using PassTable = Table<6>;
 
 class PassLister {
   public:
-    PassLister(const Graph& graph, const Plan& plan)
-        : graph_(graph), plan_(plan), folding_(fold_passes(graph, plan)) {
+    PassLister(const Graph& graph, const Plan& plan) : graph_(graph), plan_(plan), folding_(fold_passes(graph, plan)) {
         barriers_.resize(plan.passes.size(), {SIZE_MAX, 0});
         for (std::size_t p = 0; p < plan.passes.size(); ++p) {
             auto& [least, most] = barriers_[folding_.representative[p]];
@@ -97,8 +96,7 @@ std::string describe(const Resource& resource) {
     if (!resource.is_image) return "buffer";
     const ImageDeclaration& image = resource.image;
     std::string text = fmt::format("image {} {}x{}", format_name(image.format), image.width, image.height);
-    if (image.samples != VK_SAMPLE_COUNT_1_BIT)
-        text += fmt::format(" {} samples", static_cast<int>(image.samples));
+    if (image.samples != VK_SAMPLE_COUNT_1_BIT) text += fmt::format(" {} samples", static_cast<int>(image.samples));
     return text;
 }
 
@@ -110,8 +108,8 @@ std::string list_resources(const Graph& graph, const Plan& plan) {
         const Resource& resource = graph.resources()[r];
         const Lifespan& lifespan = plan.lifespans[r];
         if (!lifespan.used()) {
-            unmade += fmt::format("  {} ({}, {}): no pass that runs uses it\n", resource.name,
-                                  describe(resource), size_text(resource.byte_count()));
+            unmade += fmt::format("  {} ({}, {}): no pass that runs uses it\n", resource.name, describe(resource),
+                                  size_text(resource.byte_count()));
             continue;
         }
         const std::uint32_t copies = copy_count(resource);
@@ -128,9 +126,8 @@ std::string list_resources(const Graph& graph, const Plan& plan) {
 }  // namespace
 
 std::string dump_text(const Graph& graph, const Plan& plan) {
-    std::string text =
-        fmt::format("passes: {} of {}, {} barriers ({} after the last pass)\n", plan.passes.size(),
-                    graph.passes().size(), barrier_count(plan), plan.final_barriers.size());
+    std::string text = fmt::format("passes: {} of {}, {} barriers ({} after the last pass)\n", plan.passes.size(),
+                                   graph.passes().size(), barrier_count(plan), plan.final_barriers.size());
     text += PassLister(graph, plan).text();
     text += list_resources(graph, plan);
     text += "skipped:\n";

@@ -115,8 +115,8 @@ class Recorder {
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 };
 
-RecordedPlan::RecordedPlan(const Graph& graph, const Plan& plan, const ResourcePool& pool,
-                           TimestampMode timestamps, const BarrierFilter& keep)
+RecordedPlan::RecordedPlan(const Graph& graph, const Plan& plan, const ResourcePool& pool, TimestampMode timestamps,
+                           const BarrierFilter& keep)
     : RecordedPlan(pool.device(), Empty{}) {
     set_brackets(graph, plan, timestamps);
     make_pools();
@@ -154,15 +154,14 @@ void RecordedPlan::make_pools() {
     allocation.commandPool = pool_;
     allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocation.commandBufferCount = static_cast<std::uint32_t>(commands_.size());
-    vulkan::check(vkAllocateCommandBuffers(device_.handle(), &allocation, commands_.data()),
-                  "vkAllocateCommandBuffers", "plan");
+    vulkan::check(vkAllocateCommandBuffers(device_.handle(), &allocation, commands_.data()), "vkAllocateCommandBuffers",
+                  "plan");
     if (brackets_.empty()) return;
     auto queries = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = static_cast<std::uint32_t>(brackets_.size() + 1);
     for (VkQueryPool& slot : queries_) {
-        vulkan::create_handle(vkCreateQueryPool, device_.handle(), queries, slot, "vkCreateQueryPool",
-                              "plan");
+        vulkan::create_handle(vkCreateQueryPool, device_.handle(), queries, slot, "vkCreateQueryPool", "plan");
     }
     // So that asking before the first submit is allowed, and answers "not ready".
     device_.run_once([&](VkCommandBuffer commands) {

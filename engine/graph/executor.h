@@ -90,8 +90,7 @@ class PassContext {
     void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
     void dispatch_indirect(Handle arguments, std::uint64_t offset);
     const Use& use_of(Handle handle) const;
-    const Use& use_at(const vulkan::Pipeline& pipeline,
-                      const vulkan::DescriptorDeclaration& descriptor) const;
+    const Use& use_at(const vulkan::Pipeline& pipeline, const vulkan::DescriptorDeclaration& descriptor) const;
     void check_bindings(const vulkan::Pipeline& pipeline, std::size_t push_constant_size) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;

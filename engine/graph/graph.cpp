@@ -11,26 +11,22 @@ namespace drape::graph {
 namespace {
 
 bool is_depth(VkFormat format) {
-    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT ||
-           format == VK_FORMAT_X8_D24_UNORM_PACK32 || format == VK_FORMAT_D24_UNORM_S8_UINT ||
-           format == VK_FORMAT_D32_SFLOAT_S8_UINT;
+    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
+           format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
 bool is_attachment(Access access) {
     return access == Access::color_write || access == Access::depth_write || access == Access::resolve_write;
 }
 
-bool is_transfer(Access access) {
-    return access == Access::transfer_read || access == Access::transfer_write;
-}
+bool is_transfer(Access access) { return access == Access::transfer_read || access == Access::transfer_write; }
 
 [[noreturn]] void refuse(const Pass& pass, std::string_view resource, std::string_view mistake) {
     throw GraphError(fmt::format("pass '{}', resource '{}': {}", pass.name, resource, mistake));
 }
 
 /// The handle must name a resource of this graph at its newest version.
-const Resource& newest(const std::vector<Resource>& resources, const Pass& pass, Handle handle,
-                       std::string_view verb) {
+const Resource& newest(const std::vector<Resource>& resources, const Pass& pass, Handle handle, std::string_view verb) {
     if (!handle.valid()) {
         throw GraphError(fmt::format("pass '{}' {}s a handle that names no resource", pass.name, verb));
     }
@@ -41,20 +37,19 @@ const Resource& newest(const std::vector<Resource>& resources, const Pass& pass,
     const Resource& resource = resources[handle.resource];
     if (handle.version > resource.version) {
         refuse(pass, resource.name,
-               fmt::format("{} of unknown version {}, the newest is {}: of another graph?", verb,
-                           handle.version, resource.version));
+               fmt::format("{} of unknown version {}, the newest is {}: of another graph?", verb, handle.version,
+                           resource.version));
     }
     // Before the versions are compared: the handle this pass's own write returned is the newest.
     for (const Use& use : pass.uses) {
         if (use.handle.resource != handle.resource || !is_write(use.access)) continue;
         refuse(pass, resource.name,
-               verb == "read" ? "read after this pass wrote it: declare the read first"
-                              : "written twice in one pass");
+               verb == "read" ? "read after this pass wrote it: declare the read first" : "written twice in one pass");
     }
     if (handle.version < resource.version) {
-        refuse(pass, resource.name,
-               fmt::format("{} of a stale handle: version {}, the newest is {}", verb, handle.version,
-                           resource.version));
+        refuse(
+            pass, resource.name,
+            fmt::format("{} of a stale handle: version {}, the newest is {}", verb, handle.version, resource.version));
     }
     return resource;
 }
@@ -69,8 +64,7 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
         const bool depth = is_depth(resource.image.format);
         const bool multisampled = resource.image.samples != VK_SAMPLE_COUNT_1_BIT;
         if (access == Access::depth_write && !depth) unfit("the format is no depth format");
-        if (access != Access::depth_write && !is_transfer(access) && depth)
-            unfit("the format is a depth format");
+        if (access != Access::depth_write && !is_transfer(access) && depth) unfit("the format is a depth format");
         if (access == Access::resolve_write && multisampled) unfit("a resolve target has one sample");
         if (!is_attachment(access) && !is_transfer(access) && multisampled) {
             unfit("a multisampled image is no storage image");
@@ -99,12 +93,11 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
             refuse(pass, resource.name, fmt::format("{} declared twice", access_name(use.access)));
         }
         if (!use.binding || other.binding != use.binding) continue;
-        const bool shared_read =
-            other.handle == use.handle && !is_write(other.access) && !is_write(use.access);
+        const bool shared_read = other.handle == use.handle && !is_write(other.access) && !is_write(use.access);
         if (shared_read) continue;
         refuse(pass, resource.name,
-               fmt::format("binding {} is already taken by {} of '{}'", *use.binding,
-                           access_name(other.access), resources[other.handle.resource].name));
+               fmt::format("binding {} is already taken by {} of '{}'", *use.binding, access_name(other.access),
+                           resources[other.handle.resource].name));
     }
 }
 
@@ -132,14 +125,14 @@ bool is_write(Access access) {
 
 std::string_view access_name(Access access) {
     static constexpr std::array<std::string_view, 12> names = {
-        "compute_read", "compute_write", "vertex_read",   "fragment_read",  "index_read",     "indirect_read",
+        "compute_read", "compute_write", "vertex_read",   "fragment_read", "index_read",     "indirect_read",
         "color_write",  "depth_write",   "resolve_write", "transfer_read", "transfer_write", "host_read"};
     return names.at(static_cast<std::size_t>(access));
 }
 
 std::string_view lifetime_name(Lifetime lifetime) {
-    static constexpr std::array<std::string_view, 5> names = {"transient", "persistent", "constant",
-                                                              "host_input", "host_output"};
+    static constexpr std::array<std::string_view, 5> names = {"transient", "persistent", "constant", "host_input",
+                                                              "host_output"};
     return names.at(static_cast<std::size_t>(lifetime));
 }
 
@@ -173,9 +166,8 @@ Handle PassSetup::write(Handle handle, Access access, std::optional<std::uint32_
         refuse(pass_, resource.name, fmt::format("write() with {}, which only reads", access_name(access)));
     }
     if (resource.lifetime == Lifetime::constant || resource.lifetime == Lifetime::host_input) {
-        refuse(
-            pass_, resource.name,
-            fmt::format("write to a {} resource, which no pass may write", lifetime_name(resource.lifetime)));
+        refuse(pass_, resource.name,
+               fmt::format("write to a {} resource, which no pass may write", lifetime_name(resource.lifetime)));
     }
     const Use use{{handle.resource, handle.version + 1}, access, binding};
     check_kind(pass_, resource, access);
@@ -189,12 +181,12 @@ Handle PassSetup::write(Handle handle, Access access, std::optional<std::uint32_
 Handle Graph::image(const ImageDeclaration& declaration) {
     check_name(resources_, declaration.name);
     if (declaration.width == 0 || declaration.height == 0) {
-        throw GraphError(fmt::format("image '{}': {} x {} texels is empty", declaration.name,
-                                     declaration.width, declaration.height));
+        throw GraphError(fmt::format("image '{}': {} x {} texels is empty", declaration.name, declaration.width,
+                                     declaration.height));
     }
     if (declaration.lifetime == Lifetime::host_input || declaration.lifetime == Lifetime::host_output) {
-        throw GraphError(fmt::format("image '{}': {} is for buffers", declaration.name,
-                                     lifetime_name(declaration.lifetime)));
+        throw GraphError(
+            fmt::format("image '{}': {} is for buffers", declaration.name, lifetime_name(declaration.lifetime)));
     }
     Resource resource;
     resource.name = declaration.name;
@@ -240,8 +232,6 @@ void Graph::add_pass(PassName name, const std::function<void(PassSetup&)>& setup
     passes_.push_back(std::move(pass));
 }
 
-void Graph::skip(std::string what, std::string reason) {
-    skipped_.push_back({std::move(what), std::move(reason)});
-}
+void Graph::skip(std::string what, std::string reason) { skipped_.push_back({std::move(what), std::move(reason)}); }
 
 }  // namespace drape::graph

@@ -29,9 +29,8 @@ const Use& PassContext::use_of(Handle handle) const {
                         "pass's set-up ran?)",
                         pass_.name));
     }
-    throw GraphError(
-        fmt::format("pass '{}', resource '{}': access to version {}, which the pass did not declare",
-                    pass_.name, graph_.resources()[handle.resource].name, handle.version));
+    throw GraphError(fmt::format("pass '{}', resource '{}': access to version {}, which the pass did not declare",
+                                 pass_.name, graph_.resources()[handle.resource].name, handle.version));
 }
 
 const vulkan::Image& PassContext::image(Handle handle) const {
@@ -50,9 +49,8 @@ const Use& PassContext::use_at(const vulkan::Pipeline& pipeline,
     const auto at = [&](const Use& use) { return use.binding == descriptor.binding; };
     const auto found = std::find_if(pass_.uses.begin(), pass_.uses.end(), at);
     if (found != pass_.uses.end()) return *found;
-    throw GraphError(
-        fmt::format("pass '{}': pipeline '{}' has binding {} ('{}'), which the pass did not declare",
-                    pass_.name, pipeline.name(), descriptor.binding, descriptor.name));
+    throw GraphError(fmt::format("pass '{}': pipeline '{}' has binding {} ('{}'), which the pass did not declare",
+                                 pass_.name, pipeline.name(), descriptor.binding, descriptor.name));
 }
 
 void PassContext::check_bindings(const vulkan::Pipeline& pipeline, std::size_t push_constant_size) const {
@@ -67,21 +65,18 @@ void PassContext::check_bindings(const vulkan::Pipeline& pipeline, std::size_t p
         const auto descriptor =
             std::find_if(descriptors.begin(), descriptors.end(),
                          [&](const vulkan::DescriptorDeclaration& d) { return d.binding == *use.binding; });
-        if (descriptor == descriptors.end())
-            refuse(resource, *use.binding, "declared, but the pipeline has none");
+        if (descriptor == descriptors.end()) refuse(resource, *use.binding, "declared, but the pipeline has none");
         const bool in_compute = use.access == Access::compute_read || use.access == Access::compute_write;
         if (in_compute != (pipeline.bind_point() == VK_PIPELINE_BIND_POINT_COMPUTE)) {
             refuse(resource, *use.binding, fmt::format("declared as {}", access_name(use.access)));
         }
         if (resource.is_image != (descriptor->kind == DescriptorKind::storage_image)) {
-            refuse(resource, *use.binding,
-                   resource.is_image ? "an image, not a buffer" : "a buffer, not an image");
+            refuse(resource, *use.binding, resource.is_image ? "an image, not a buffer" : "a buffer, not an image");
         }
         if (resource.is_image && resource.image.format != descriptor->format) {
-            refuse(
-                resource, *use.binding,
-                fmt::format("VkFormat {} declared, the shader has {}",
-                            static_cast<int>(resource.image.format), static_cast<int>(descriptor->format)));
+            refuse(resource, *use.binding,
+                   fmt::format("VkFormat {} declared, the shader has {}", static_cast<int>(resource.image.format),
+                               static_cast<int>(descriptor->format)));
         }
         const bool unbound_read = std::any_of(pass_.uses.begin(), pass_.uses.end(), [&](const Use& other) {
             return other.access == Access::compute_read && !other.binding &&
@@ -97,9 +92,8 @@ void PassContext::check_bindings(const vulkan::Pipeline& pipeline, std::size_t p
         }
     }
     if (push_constant_size != pipeline.push_constant_size()) {
-        throw GraphError(fmt::format("pass '{}': {} bytes of push constants, pipeline '{}' has {}",
-                                     pass_.name, push_constant_size, pipeline.name(),
-                                     pipeline.push_constant_size()));
+        throw GraphError(fmt::format("pass '{}': {} bytes of push constants, pipeline '{}' has {}", pass_.name,
+                                     push_constant_size, pipeline.name(), pipeline.push_constant_size()));
     }
 }
 
@@ -136,8 +130,7 @@ void PassContext::bind(const vulkan::Pipeline& pipeline, std::span<const std::by
     }
 }
 
-void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width,
-                                  std::uint32_t height) {
+void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
     const auto [x, y, z] = pipeline.local_size();
     const std::uint32_t columns = width / x + (width % x != 0), rows = height / y + (height % y != 0);
     const auto& limit = pool_.device().limits().maxComputeWorkGroupCount;

@@ -59,8 +59,7 @@ class Culling {
         for (std::size_t p = 0; p < alive_.size(); ++p) {
             if (alive_[p]) continue;
             for (const Use& use : graph_.passes()[p].uses) {
-                if (!is_write(use.access))
-                    readers[use.handle.resource].push_back(static_cast<std::uint32_t>(p));
+                if (!is_write(use.access)) readers[use.handle.resource].push_back(static_cast<std::uint32_t>(p));
             }
         }
         for (std::size_t p = 0; p < alive_.size(); ++p) {
@@ -80,8 +79,8 @@ class Culling {
             if (reader == later.end()) {
                 reason += fmt::format("nothing reads {}", name);
             } else {
-                reason += fmt::format("{} is read only by '{}', which is skipped", name,
-                                      graph_.passes()[*reader].label);
+                reason +=
+                    fmt::format("{} is read only by '{}', which is skipped", name, graph_.passes()[*reader].label);
             }
         }
         return reason.empty() ? "writes nothing" : reason;
@@ -157,8 +156,7 @@ class BarrierPlanner {
         for (std::uint32_t r = 0; r < states_.size(); ++r) leave(r, plan.final_barriers);
         if (plan.passes.empty()) return;
         auto& first = plan.passes.front().barriers;
-        first.insert(first.begin(), std::make_move_iterator(entry_.begin()),
-                     std::make_move_iterator(entry_.end()));
+        first.insert(first.begin(), std::make_move_iterator(entry_.begin()), std::make_move_iterator(entry_.end()));
     }
 
   private:
@@ -167,24 +165,22 @@ class BarrierPlanner {
         for (const Use& use : pass.uses) {
             auto need = std::find_if(needs_.begin(), needs_.end(),
                                      [&](const Need& n) { return n.resource == use.handle.resource; });
-            if (need == needs_.end())
-                need = needs_.insert(needs_.end(), Need{use.handle.resource, 0, {}, {}});
+            if (need == needs_.end()) need = needs_.insert(needs_.end(), Need{use.handle.resource, 0, {}, {}});
             if (is_write(use.access)) {
                 need->write = use.access;
             } else {
                 need->reads |= bit(use.access);
                 check_readable(pass, use);
             }
-            if (graph_.resources()[use.handle.resource].is_image)
-                need->layout = access_scope(use.access).layout;
+            if (graph_.resources()[use.handle.resource].is_image) need->layout = access_scope(use.access).layout;
         }
     }
 
     void check_readable(const Pass& pass, const Use& use) const {
         const Resource& resource = graph_.resources()[use.handle.resource];
         if (use.handle.version > 0 || has_initial_contents(resource)) return;
-        throw GraphError(fmt::format("pass '{}', resource '{}': read of a {} resource that nobody wrote",
-                                     pass.name, resource.name, lifetime_name(resource.lifetime)));
+        throw GraphError(fmt::format("pass '{}', resource '{}': read of a {} resource that nobody wrote", pass.name,
+                                     resource.name, lifetime_name(resource.lifetime)));
     }
 
     void satisfy(const Need& need, std::uint32_t pass, std::vector<Barrier>& barriers) {
@@ -244,8 +240,8 @@ class BarrierPlanner {
         if (!need.write) state.readers &= ~source.stages;
         state.available |= destination.stages;
         const Resource& resource = graph_.resources()[need.resource];
-        barriers.push_back({need.resource, source.stages, destination.stages, source.accesses,
-                            destination.accesses, state.layout, need.layout,
+        barriers.push_back({need.resource, source.stages, destination.stages, source.accesses, destination.accesses,
+                            state.layout, need.layout,
                             fmt::format("{}: {} by {} -> {}", resource.name, access_name(state.last_access),
                                         graph_.passes()[state.last_pass].label, describe(need, pass))});
         if (new_layout) {
@@ -299,14 +295,12 @@ class BarrierPlanner {
         if (state.phase != State::Phase::ordered) return;
         if (resource.lifetime == Lifetime::host_output && !(state.visible & bit(Access::host_read))) {
             const Scope source = after_write(state);
-            barriers.push_back(
-                {r, source.stages, VK_PIPELINE_STAGE_2_HOST_BIT, source.accesses, VK_ACCESS_2_HOST_READ_BIT,
-                 VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED,
-                 fmt::format("{}: {} by {} -> read by the host", resource.name,
-                             access_name(state.last_access), graph_.passes()[state.last_pass].label)});
+            barriers.push_back({r, source.stages, VK_PIPELINE_STAGE_2_HOST_BIT, source.accesses,
+                                VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED,
+                                fmt::format("{}: {} by {} -> read by the host", resource.name,
+                                            access_name(state.last_access), graph_.passes()[state.last_pass].label)});
         }
-        if (resource.lifetime == Lifetime::persistent && resource.is_image &&
-            state.layout != VK_IMAGE_LAYOUT_GENERAL) {
+        if (resource.lifetime == Lifetime::persistent && resource.is_image && state.layout != VK_IMAGE_LAYOUT_GENERAL) {
             const Scope source = after_readers(state);
             // Ends in all stages so that the entry barrier of whatever plan follows can wait for it.
             barriers.push_back({r, source.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, source.accesses, 0,
@@ -321,8 +315,7 @@ class BarrierPlanner {
         const std::string& label = graph_.passes()[pass].label;
         if (!need.write) return fmt::format("{} by {}", access_name(first_access(need.reads)), label);
         if (need.reads == 0) return fmt::format("{} by {}", access_name(*need.write), label);
-        return fmt::format("{} and {} by {}", access_name(first_access(need.reads)), access_name(*need.write),
-                           label);
+        return fmt::format("{} and {} by {}", access_name(first_access(need.reads)), access_name(*need.write), label);
     }
 
     const Graph& graph_;
@@ -339,8 +332,7 @@ std::uint64_t total_bytes(const Graph& graph, const Plan& plan) {
         std::uint64_t bytes = 0;
         if (__builtin_mul_overflow(resource.byte_count(), std::uint64_t{copy_count(resource)}, &bytes) ||
             __builtin_add_overflow(total, bytes, &total)) {
-            throw vulkan::VulkanError(
-                fmt::format("resource '{}': the plan's sizes exceed 64 bits", resource.name));
+            throw vulkan::VulkanError(fmt::format("resource '{}': the plan's sizes exceed 64 bits", resource.name));
         }
     }
     return total;
@@ -349,8 +341,7 @@ std::uint64_t total_bytes(const Graph& graph, const Plan& plan) {
 }  // namespace
 
 std::uint32_t copy_count(const Resource& resource) {
-    const bool per_slot =
-        resource.lifetime == Lifetime::host_input || resource.lifetime == Lifetime::host_output;
+    const bool per_slot = resource.lifetime == Lifetime::host_input || resource.lifetime == Lifetime::host_output;
     return per_slot ? vulkan::frame_slot_count : 1;
 }
 
@@ -367,8 +358,7 @@ AccessScope access_scope(Access access) {
         case Access::fragment_read:
             return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, storage_read, VK_IMAGE_LAYOUT_GENERAL};
         case Access::index_read:
-            return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT,
-                    VK_IMAGE_LAYOUT_UNDEFINED};
+            return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::indirect_read:
             return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT,
                     VK_IMAGE_LAYOUT_UNDEFINED};
@@ -377,20 +367,16 @@ AccessScope access_scope(Access access) {
                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
         case Access::depth_write:
-            return {
-                VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-                VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
+            return {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
         case Access::resolve_write:
             return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
         case Access::transfer_read:
-            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                    VK_IMAGE_LAYOUT_GENERAL};
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL};
         case Access::transfer_write:
-            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                    VK_IMAGE_LAYOUT_GENERAL};
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
         case Access::host_read:
             return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
     }

@@ -26,7 +26,7 @@ struct Barrier {
     VkPipelineStageFlags2 source_stages, destination_stages;
     VkAccessFlags2 source_accesses, destination_accesses;
     VkImageLayout old_layout, new_layout;  ///< equal when the layout does not change (and for buffers)
-    std::string reason;  ///< "banner/displacement: write by force -> read by spring row even"
+    std::string reason;                    ///< "banner/displacement: write by force -> read by spring row even"
 };
 
 struct PlannedPass {

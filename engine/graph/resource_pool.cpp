@@ -115,11 +115,9 @@ vulkan::ImageDescription describe_image(const Wanted& wanted) {
 vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
     const Resource& resource = *wanted.resource;
     vulkan::BufferDescription description;
-    description.name =
-        copy_count(resource) > 1 ? fmt::format("{} (slot {})", resource.name, copy) : resource.name;
+    description.name = copy_count(resource) > 1 ? fmt::format("{} (slot {})", resource.name, copy) : resource.name;
     description.byte_count = resource.buffer.byte_count;
-    description.usage =
-        wanted.buffer_usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    description.usage = wanted.buffer_usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (resource.lifetime == Lifetime::host_input) description.home = vulkan::BufferHome::upload;
     if (resource.lifetime == Lifetime::host_output) description.home = vulkan::BufferHome::readback;
     return description;
@@ -144,19 +142,16 @@ void record_clear(VkCommandBuffer commands, const vulkan::Image& image) {
                                     &barrier.subresourceRange);
     } else {
         const VkClearColorValue zero{};
-        vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1,
-                             &barrier.subresourceRange);
+        vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &barrier.subresourceRange);
     }
 }
 
 }  // namespace
 
-ResourcePool::ResourcePool(const vulkan::Device& device,
-                           std::span<const std::pair<const Graph*, const Plan*>> plans)
+ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pair<const Graph*, const Plan*>> plans)
     : device_(device) {
     const WantedByName all = collect(plans);
-    device.budget().require(total_bytes(all),
-                            fmt::format("the {} images and buffers of the plans", all.size()));
+    device.budget().require(total_bytes(all), fmt::format("the {} images and buffers of the plans", all.size()));
     for (const auto& [name, wanted] : all) {
         if (wanted.resource->is_image) {
             images_.emplace(name, vulkan::Image(device, describe_image(wanted)));
@@ -183,16 +178,13 @@ ResourcePool::ResourcePool(const vulkan::Device& device,
     });
 }
 
-bool ResourcePool::has(const std::string& name) const {
-    return images_.contains(name) || buffers_.contains(name);
-}
+bool ResourcePool::has(const std::string& name) const { return images_.contains(name) || buffers_.contains(name); }
 
 const vulkan::Image& ResourcePool::image(const std::string& name) const {
     const auto place = images_.find(name);
     if (place != images_.end()) return place->second;
-    throw GraphError(
-        fmt::format("image '{}': {}", name,
-                    buffers_.contains(name) ? "it is a buffer" : "no plan uses it, or none is declared"));
+    throw GraphError(fmt::format("image '{}': {}", name,
+                                 buffers_.contains(name) ? "it is a buffer" : "no plan uses it, or none is declared"));
 }
 
 const vulkan::Buffer& ResourcePool::buffer(const std::string& name, std::uint32_t slot) const {

@@ -25,9 +25,7 @@ HashState new_hash_state() {
 
 }  // namespace
 
-std::string xxh3_128_hex(std::span<const std::byte> bytes) {
-    return hex(XXH3_128bits(bytes.data(), bytes.size()));
-}
+std::string xxh3_128_hex(std::span<const std::byte> bytes) { return hex(XXH3_128bits(bytes.data(), bytes.size())); }
 
 std::string xxh3_128_hex(std::string_view text) { return xxh3_128_hex(bytes_of(text)); }
 
@@ -71,8 +69,7 @@ void AtomicFile::rewrite(std::uint64_t offset, std::span<const std::byte> bytes)
 
 void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written =
-            pwrite(descriptor_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        const ssize_t written = pwrite(descriptor_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0) {
             if (errno == EINTR) continue;
             throw error(errno);
@@ -88,8 +85,7 @@ std::string AtomicFile::hash_written_bytes() const {
     const HashState state = new_hash_state();
     std::vector<std::byte> block(1 << 20);
     for (std::uint64_t offset = 0; offset < size_;) {
-        const ssize_t count =
-            pread(descriptor_.get(), block.data(), block.size(), static_cast<off_t>(offset));
+        const ssize_t count = pread(descriptor_.get(), block.data(), block.size(), static_cast<off_t>(offset));
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) throw error(count < 0 ? errno : EIO);
         XXH3_128bits_update(state.get(), block.data(), static_cast<size_t>(count));
@@ -125,8 +121,10 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     };
     while (!text.empty()) {
         const ssize_t written = write(descriptor.get(), text.data(), text.size());
-        if (written >= 0) text.remove_prefix(static_cast<size_t>(written));
-        else if (errno != EINTR) fail(errno);
+        if (written >= 0)
+            text.remove_prefix(static_cast<size_t>(written));
+        else if (errno != EINTR)
+            fail(errno);
     }
     if (fsync(descriptor.get()) != 0 || descriptor.close() != 0) fail(errno);
     if (rename(beside.c_str(), path.c_str()) != 0) fail(errno);

@@ -55,10 +55,9 @@ void for_each_child(const Json::Value& value, const std::string& pointer, const 
 std::string one_line(const Json::Value& value, const std::string& pointer) {
     if (!value.isArray() && !value.isObject()) return leaf_text(value, pointer);
     std::string text;
-    for_each_child(value, pointer,
-                   [&](const std::string& prefix, const Json::Value& child, const std::string& at) {
-                       text += (text.empty() ? "" : ", ") + prefix + one_line(child, at);
-                   });
+    for_each_child(value, pointer, [&](const std::string& prefix, const Json::Value& child, const std::string& at) {
+        text += (text.empty() ? "" : ", ") + prefix + one_line(child, at);
+    });
     return value.isArray() ? fmt::format("[{}]", text) : fmt::format("{{{}}}", text);
 }
 
@@ -66,20 +65,18 @@ void append_value(std::string& text, const Json::Value& value, const std::string
                   size_t column) {
     const std::string line = one_line(value, pointer);
     const bool is_root = indentation == 0;
-    if (value.empty() || (!value.isArray() && !value.isObject()) ||
-        (!is_root && column + line.size() <= line_length)) {
+    if (value.empty() || (!value.isArray() && !value.isObject()) || (!is_root && column + line.size() <= line_length)) {
         text += line;
         return;
     }
     const std::string margin(indentation + 2, ' ');
     text += value.isArray() ? "[" : "{";
     bool is_first = true;
-    for_each_child(value, pointer,
-                   [&](const std::string& prefix, const Json::Value& child, const std::string& at) {
-                       text += (is_first ? "\n" : ",\n") + margin + prefix;
-                       append_value(text, child, at, margin.size(), margin.size() + prefix.size());
-                       is_first = false;
-                   });
+    for_each_child(value, pointer, [&](const std::string& prefix, const Json::Value& child, const std::string& at) {
+        text += (is_first ? "\n" : ",\n") + margin + prefix;
+        append_value(text, child, at, margin.size(), margin.size() + prefix.size());
+        is_first = false;
+    });
     text += fmt::format("\n{}{}", margin.substr(2), value.isArray() ? "]" : "}");
 }
 

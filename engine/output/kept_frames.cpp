@@ -13,8 +13,7 @@ namespace drape {
 
 namespace {
 
-constexpr std::string_view remedy =
-    "use --overwrite to replace an earlier run's files, or choose another folder";
+constexpr std::string_view remedy = "use --overwrite to replace an earlier run's files, or choose another folder";
 
 bool is_frame_file_name(std::string_view name) {
     return name.starts_with("frame_") && is_output_file_name(name) && !is_temporary_file_name(name);
@@ -31,19 +30,17 @@ std::string_view number_in(std::string_view file_name) {
     return without_zeros(file_name.substr(begin, file_name.rfind('.') - begin));
 }
 
-void check_text(const std::string& path, std::string_view name, const std::string& text,
-                const std::string& key) {
+void check_text(const std::string& path, std::string_view name, const std::string& text, const std::string& key) {
     const std::string expected = fmt::format("{} frame {}", key, number_in(name));
     if (text == expected || text.starts_with(expected + " ")) return;
     if (text.starts_with(key + " ")) {
-        throw OutputError(fmt::format("cannot resume: '{}' holds {}: give it its own name back, or remove it",
-                                      path, text.substr(key.size() + 1, text.find(" {") - key.size() - 1)));
+        throw OutputError(fmt::format("cannot resume: '{}' holds {}: give it its own name back, or remove it", path,
+                                      text.substr(key.size() + 1, text.find(" {") - key.size() - 1)));
     }
     throw OutputError(fmt::format(
         "cannot resume: '{}' {}: {}", path,
-        text.empty()
-            ? "does not say which run drew it"
-            : "was drawn by another run (other scene, size, samples, program version, device or driver)",
+        text.empty() ? "does not say which run drew it"
+                     : "was drawn by another run (other scene, size, samples, program version, device or driver)",
         remedy));
 }
 

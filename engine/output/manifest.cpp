@@ -20,8 +20,7 @@ Json::Value texts(const std::vector<std::string>& values) {
 }
 
 Json::Value number(double value, const std::string& what) {
-    if (!std::isfinite(value))
-        throw OutputError(fmt::format("manifest: {} is not a finite number ({})", what, value));
+    if (!std::isfinite(value)) throw OutputError(fmt::format("manifest: {} is not a finite number ({})", what, value));
     return value;
 }
 

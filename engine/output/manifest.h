@@ -49,9 +49,9 @@ struct Manifest {
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
         bool tethers = false;
-        std::string asked;     // what the scene says, when that was to choose
-        std::string choice;    // why that method
-        double tolerance = 0;  // of the RMS stretch error; 0: none
+        std::string asked;                    // what the scene says, when that was to choose
+        std::string choice;                   // why that method
+        double tolerance = 0;                 // of the RMS stretch error; 0: none
         std::optional<double> stretch_error;  // worst RMS of any written frame and cloth, as the device measured it
     };
     struct Validation {

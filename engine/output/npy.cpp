@@ -22,8 +22,8 @@ std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, s
     if (row_count == 0 || column_count == 0 ||
         frame_bytes * static_cast<long double>(frame_count) >
             static_cast<long double>(std::numeric_limits<std::int64_t>::max() - header_bytes)) {
-        throw std::invalid_argument(fmt::format("{}: no array of {} x {} x {} x 3 floats", name, frame_count,
-                                                row_count, column_count));
+        throw std::invalid_argument(
+            fmt::format("{}: no array of {} x {} x {} x 3 floats", name, frame_count, row_count, column_count));
     }
     return row_count;
 }
@@ -41,8 +41,8 @@ std::string npy_header(const char* type, const std::string& shape) {
 
 }  // namespace
 
-NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count,
-                     std::uint32_t row_count, std::uint32_t column_count)
+NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
+                     std::uint32_t column_count)
     : announced_count_(frame_count),
       row_count_(checked_rows(name, frame_count, row_count, column_count)),
       column_count_(column_count),

@@ -19,8 +19,8 @@ class NpyWriter {
   public:
     // Throws std::invalid_argument when rows or columns are 0 or the array would exceed 2^63 bytes,
     // OutputError.
-    NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count,
-              std::uint32_t row_count, std::uint32_t column_count);
+    NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
+              std::uint32_t column_count);
 
     // One frame: row_count * column_count particles, x y z each. Throws std::invalid_argument on another
     // size.

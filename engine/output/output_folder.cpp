@@ -29,8 +29,7 @@ bool all_digits(std::string_view text) {
 }
 
 bool is_finished_file_name(std::string_view name) {
-    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy",
-                               faces = "faces_";
+    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy", faces = "faces_";
     if (name == manifest_file_name) return true;
     if (name.starts_with(frame) && name.ends_with(png)) {
         name.remove_prefix(frame.size());
@@ -49,10 +48,8 @@ std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_
     Json::Value root;
     std::string errors;
     try {
-        if (!file || !Json::parseFromStream(Json::CharReaderBuilder(), file, &root, &errors))
-            return std::nullopt;
-        if (!root.isObject() || root["format"] != Json::Value(std::string(manifest_format)))
-            return std::nullopt;
+        if (!file || !Json::parseFromStream(Json::CharReaderBuilder(), file, &root, &errors)) return std::nullopt;
+        if (!root.isObject() || root["format"] != Json::Value(std::string(manifest_format))) return std::nullopt;
         std::set<std::string> names;
         if (!root["files"].isArray()) return std::nullopt;
         for (const Json::Value& entry : root["files"]) {
@@ -93,8 +90,7 @@ void ignore_file_size_signal() {
 }  // namespace
 
 OutputError system_error_at(const std::string& action, const std::string& path, int errno_value) {
-    return OutputError(
-        fmt::format("cannot {} '{}': {}", action, path, std::generic_category().message(errno_value)));
+    return OutputError(fmt::format("cannot {} '{}': {}", action, path, std::generic_category().message(errno_value)));
 }
 
 bool is_plain_file_name(std::string_view name) {
@@ -108,9 +104,7 @@ bool is_temporary_file_name(std::string_view name) {
            is_finished_file_name(name.substr(0, mark));
 }
 
-bool is_output_file_name(std::string_view name) {
-    return is_finished_file_name(name) || is_temporary_file_name(name);
-}
+bool is_output_file_name(std::string_view name) { return is_finished_file_name(name) || is_temporary_file_name(name); }
 
 OutputFolder::OutputFolder(const fs::path& path, ExistingFiles existing) : path_(path) {
     if (path.empty()) throw OutputError("the name of the output folder is empty");
@@ -120,9 +114,8 @@ OutputFolder::OutputFolder(const fs::path& path, ExistingFiles existing) : path_
         const int error = errno;
         if (error != ENOENT) throw system_error_at("use output folder", path.string(), error);
         if (lstat(path.c_str(), &status) == 0) {
-            throw OutputError(
-                fmt::format("output folder '{}' is a symbolic link to '{}', which does not exist",
-                            path.string(), fs::read_symlink(path).string()));
+            throw OutputError(fmt::format("output folder '{}' is a symbolic link to '{}', which does not exist",
+                                          path.string(), fs::read_symlink(path).string()));
         }
     } else if (!S_ISDIR(status.st_mode)) {
         throw OutputError(fmt::format("output folder '{}' is a file, not a folder", path.string()));
@@ -231,12 +224,10 @@ std::vector<std::string> OutputFolder::file_names() const {
 
 std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const {
     // O_NONBLOCK: a named pipe must not make the program wait for a writer.
-    const FileDescriptor file(
-        openat(descriptor_.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const FileDescriptor file(openat(descriptor_.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (!file || fstat(file.get(), &status) != 0) throw system_error_at("read", path_of(name), errno);
-    if (!S_ISREG(status.st_mode))
-        throw OutputError(fmt::format("cannot read '{}': not a regular file", path_of(name)));
+    if (!S_ISREG(status.st_mode)) throw OutputError(fmt::format("cannot read '{}': not a regular file", path_of(name)));
     std::vector<std::uint8_t> bytes(static_cast<size_t>(status.st_size));
     for (size_t done = 0; done < bytes.size();) {
         const ssize_t count = read(file.get(), bytes.data() + done, bytes.size() - done);
@@ -252,8 +243,7 @@ void OutputFolder::begin_writing() {
     const std::scoped_lock lock(writing_mutex_);
     if (writing_begun_) return;
     // The manifest first: a folder that lost some of its frames must not look done.
-    std::ranges::stable_partition(files_to_remove_,
-                                  [](const auto& name) { return name == manifest_file_name; });
+    std::ranges::stable_partition(files_to_remove_, [](const auto& name) { return name == manifest_file_name; });
     for (const std::string& name : files_to_remove_) {
         if (unlinkat(descriptor_.get(), name.c_str(), 0) != 0 && errno != ENOENT) {
             throw system_error_at("remove the earlier run's file", path_of(name), errno);

@@ -38,16 +38,14 @@ bool drawable(const std::array<double, 2>& point) {
 /// One logarithmic axis: decades from `first` to `last` along pixels `begin` to `end`.
 struct Axis {
     double first, last, begin, end;
-    double place(double value) const {
-        return begin + (std::log10(value) - first) / (last - first) * (end - begin);
-    }
+    double place(double value) const { return begin + (std::log10(value) - first) / (last - first) * (end - begin); }
 };
 
 /// The axis holds every value; on less than a decade and a half its ends are tenths of a decade.
 Axis axis(double least, double most, double begin, double end) {
     const double span = std::log10(most / least), unit = span < 1.5 ? 0.1 : 1.0;
-    Axis result{std::floor(std::log10(least) / unit + 1e-9) * unit,
-                std::ceil(std::log10(most) / unit - 1e-9) * unit, begin, end};
+    Axis result{std::floor(std::log10(least) / unit + 1e-9) * unit, std::ceil(std::log10(most) / unit - 1e-9) * unit,
+                begin, end};
     if (result.last - result.first < unit) result.last = result.first + unit;
     return result;
 }
@@ -74,8 +72,7 @@ Axes axes_of(const LogPlot& plot) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* style) {
-    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
-                       style);
+    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2, style);
 }
 
 std::string text(double x, double y, const std::string& content, const char* style) {
@@ -86,8 +83,7 @@ constexpr const char *major_line = "stroke=\"#c4c4c4\"", *minor_line = "stroke=\
 
 std::string tick_label(double value) {
     const double power = std::log10(value);
-    if (std::abs(power - std::round(power)) > 1e-6 || std::abs(power) < 3.5)
-        return fmt::format("{:.4g}", value);
+    if (std::abs(power - std::round(power)) > 1e-6 || std::abs(power) < 3.5) return fmt::format("{:.4g}", value);
     return fmt::format("1e{:.0f}", power);
 }
 
@@ -113,8 +109,7 @@ std::string grid(const Axis& axis, bool along_x) {
 std::string marker(std::size_t kind, double x, double y) {
     const auto polygon = [&](std::initializer_list<std::array<double, 2>> corners) {
         std::string points;
-        for (const auto& corner : corners)
-            points += fmt::format("{:.1f},{:.1f} ", x + corner[0], y + corner[1]);
+        for (const auto& corner : corners) points += fmt::format("{:.1f},{:.1f} ", x + corner[0], y + corner[1]);
         return "<polygon points=\"" + points + "\"/>";
     };
     switch (kind % colours.size()) {
@@ -204,21 +199,19 @@ std::string svg_text(const LogPlot& plot) {
         "font-family=\"sans-serif\" font-size=\"12\" fill=\"#202020\">\n<title>{2}</title>\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         width, height, escaped(plot.title));
-    result += text(0.5 * (left + right), 26, plot.title,
-                   "text-anchor=\"middle\" font-size=\"15\" font-weight=\"bold\"");
+    result +=
+        text(0.5 * (left + right), 26, plot.title, "text-anchor=\"middle\" font-size=\"15\" font-weight=\"bold\"");
     result += grid(axes.x, true) + grid(axes.y, false);
     result += fmt::format(
         "<clipPath id=\"frame\"><rect x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\"/></clipPath>\n"
         "<rect x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" fill=\"none\" stroke=\"#404040\"/>\n",
         left, top, right - left, bottom - top);
-    result +=
-        "<g clip-path=\"url(#frame)\">\n" + slope_lines(plot, axes) + level_lines(plot, axes) + "</g>\n";
+    result += "<g clip-path=\"url(#frame)\">\n" + slope_lines(plot, axes) + level_lines(plot, axes) + "</g>\n";
     for (std::size_t k = 0; k < plot.series.size(); ++k) result += series_group(plot.series[k], k, axes);
     result += legend(plot);
     result += text(0.5 * (left + right), height - 16, plot.x_label, "text-anchor=\"middle\"");
-    result +=
-        fmt::format("<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                    0.5 * (top + bottom), escaped(plot.y_label));
+    result += fmt::format("<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                          0.5 * (top + bottom), escaped(plot.y_label));
     return result + "</svg>\n";
 }
 

@@ -21,9 +21,8 @@ struct PlotLevel {
 
 struct LogPlot {
     std::string title, x_label, y_label;  ///< labels with units
-    std::vector<PlotSeries>
-        series;                  ///< at most 8 are told apart by colour, and all those by their markers too
-    std::vector<double> slopes;  ///< of reference lines: y ~ x^slope
+    std::vector<PlotSeries> series;       ///< at most 8 are told apart by colour, and all those by their markers too
+    std::vector<double> slopes;           ///< of reference lines: y ~ x^slope
     std::vector<PlotLevel> levels;
 };
 

@@ -84,8 +84,7 @@ void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, c
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                 std::vector<std::uint8_t>& png, const std::string& text) {
     if (width == 0 || height == 0 || width > side_limit || height > side_limit) {
-        throw std::invalid_argument(
-            fmt::format("PNG: size {}x{} is not in 1..{}", width, height, side_limit));
+        throw std::invalid_argument(fmt::format("PNG: size {}x{} is not in 1..{}", width, height, side_limit));
     }
     if (rgba.size() != size_t{width} * height * 4) {
         throw std::invalid_argument(fmt::format("PNG: {}x{} pixels need {} bytes, got {}", width, height,
@@ -108,8 +107,7 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     // ms. Pictures without noise repeat pixels exactly, which a filter hides from level 1's short search.
     check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1), "set the level");
     check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_NONE), "set the filter");
-    check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG,
-                            SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE),
+    check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE),
           "begin");
     encode_rows(context.get(), width, height, rgba.data());
 }
@@ -123,8 +121,7 @@ Picture decode_png(std::span<const std::uint8_t> png) {
     check(spng_get_ihdr(context.get(), &header), "read the header");
     Picture picture{header.width, header.height, {}, {}};
     picture.rgb.resize(size_t{header.width} * header.height * 3);
-    check(spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size(), SPNG_FMT_RGB8, 0),
-          "decode");
+    check(spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size(), SPNG_FMT_RGB8, 0), "decode");
     picture.text = read_text_chunk(context.get());
     return picture;
 }

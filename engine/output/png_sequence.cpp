@@ -14,15 +14,10 @@ int frame_digits(std::uint64_t last_frame) {
     return std::max(4, static_cast<int>(fmt::formatted_size("{}", last_frame)));
 }
 
-std::string frame_file_name(std::uint64_t frame, int digits) {
-    return fmt::format("frame_{:0{}}.png", frame, digits);
-}
+std::string frame_file_name(std::uint64_t frame, int digits) { return fmt::format("frame_{:0{}}.png", frame, digits); }
 
 PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key)
-    : folder_(folder),
-      digits_(digits),
-      pending_limit_(2 * std::max(1u, worker_count)),
-      run_key_(std::move(run_key)) {
+    : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)), run_key_(std::move(run_key)) {
     for (unsigned worker = 0; worker < std::max(1u, worker_count); ++worker) {
         workers_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
     }
@@ -41,8 +36,8 @@ std::vector<std::uint8_t> PngSequence::take_buffer(size_t bytes) {
     return buffer;
 }
 
-void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
-                         std::vector<std::uint8_t> rgba, FrameValues values) {
+void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba,
+                         FrameValues values) {
     if (rgba.size() != size_t{width} * height * 4 || rgba.empty()) {
         throw std::invalid_argument(
             fmt::format("frame {}: {} bytes are not {}x{} RGBA pixels", frame, rgba.size(), width, height));

@@ -38,8 +38,8 @@ class PngSequence {
     // Queues a frame: RGBA8, rows tightly packed from the top. Waits while two frames per worker are queued
     // or being written, so memory is bounded. `values` go into the file beside the run key. Throws a worker's
     // error, or std::invalid_argument when the sizes do not fit.
-    void submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height,
-                std::vector<std::uint8_t> rgba, FrameValues values = {});
+    void submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba,
+                FrameValues values = {});
 
     // Waits for all frames; the files written, by name. Throws a worker's error. Nothing may be submitted
     // after.

@@ -22,8 +22,7 @@ constexpr size_t recent_limit = 33;
 std::string duration_text(double seconds) {
     const auto total = static_cast<std::uint64_t>(std::ceil(seconds));
     const std::uint64_t hours = total / 3600, minutes = total / 60 % 60, rest = total % 60;
-    return hours ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
-                 : fmt::format("{}:{:02}", minutes, rest);
+    return hours ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest) : fmt::format("{}:{:02}", minutes, rest);
 }
 
 }  // namespace
@@ -60,8 +59,7 @@ void Progress::frame_done(std::int64_t frame, std::string note) {
     recent_.push_back(now);
     if (recent_.size() > recent_limit) recent_.pop_front();
     if (options_.is_quiet || !is_due(now)) return;
-    options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line(now))
-                                        : fmt::format("{}\n", line(now)));
+    options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line(now)) : fmt::format("{}\n", line(now)));
     line_is_open_ = options_.is_terminal;
     last_report_ = now;
     last_tenth_ = frame_count_ ? 10 * done_count_ / frame_count_ : 0;
@@ -84,9 +82,9 @@ std::string Progress::line(double now) const {
     const double rate = milliseconds_per_frame(now);
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
-    std::string text = fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_,
-                       percent, rate, duration_text(static_cast<double>(left) * rate / 1000),
-                       note_.empty() ? "" : "  ", note_);
+    std::string text =
+        fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_, percent,
+                    rate, duration_text(static_cast<double>(left) * rate / 1000), note_.empty() ? "" : "  ", note_);
     if (options_.is_terminal && options_.columns > 1 && text.size() >= options_.columns)
         text.resize(options_.columns - 1);
     return text;

@@ -68,11 +68,9 @@ Matrix4 view_projection_matrix(const Camera& camera, std::uint32_t width, std::u
 }
 
 PixelPosition project(const Camera& camera, std::uint32_t width, std::uint32_t height, const Vec3& point) {
-    const Eigen::Vector4d clip =
-        projection(camera, width, height) * (view(camera) * vector(point).homogeneous());
+    const Eigen::Vector4d clip = projection(camera, width, height) * (view(camera) * vector(point).homogeneous());
     if (!(clip.w() > 0)) return {0, 0, std::numeric_limits<double>::infinity()};
-    return {(clip.x() / clip.w() + 1) * 0.5 * width, (clip.y() / clip.w() + 1) * 0.5 * height,
-            clip.z() / clip.w()};
+    return {(clip.x() / clip.w() + 1) * 0.5 * width, (clip.y() / clip.w() + 1) * 0.5 * height, clip.z() / clip.w()};
 }
 
 }  // namespace drape

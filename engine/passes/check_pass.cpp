@@ -11,8 +11,10 @@ namespace drape {
 namespace {
 
 constexpr vulkan::DescriptorDeclaration residual_descriptors[] = {
-    image_read(0, "position"), image_read(1, "displacement"),
-    image_read(2, "tension_row", VK_FORMAT_R32_SFLOAT), image_read(3, "tension_column", VK_FORMAT_R32_SFLOAT),
+    image_read(0, "position"),
+    image_read(1, "displacement"),
+    image_read(2, "tension_row", VK_FORMAT_R32_SFLOAT),
+    image_read(3, "tension_column", VK_FORMAT_R32_SFLOAT),
     {4, "Partials", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::write, VK_FORMAT_UNDEFINED,
      &layouts::residual_record, 0},
     image_read(5, "stiffness_image"),  // the masked variant only
@@ -21,7 +23,8 @@ const vulkan::ShaderInterface whole{"residual.comp", std::span(residual_descript
 const vulkan::ShaderInterface masked{"residual_masked.comp", residual_descriptors, &layouts::residual_push};
 
 constexpr vulkan::DescriptorDeclaration decision_descriptors[] = {
-    struct_buffer_read(0, "Partials", &layouts::residual_record), vector_buffer_read(1, "Sizes", sizeof(glsl::uvec4)),
+    struct_buffer_read(0, "Partials", &layouts::residual_record),
+    vector_buffer_read(1, "Sizes", sizeof(glsl::uvec4)),
     {2, "State", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
      nullptr, sizeof(glsl::uvec4)}};
 const vulkan::ShaderInterface decision{"iteration_decision.comp", decision_descriptors, &layouts::iteration_push};
@@ -61,8 +64,7 @@ void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     add_residual(graph, pipelines, state, step);
     const vulkan::ComputePipeline& pipeline = pipelines.get(decision);
     const SolverSettings& solver = model.scene.solver;
-    const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)),
-                                   model.iteration_limit(),
+    const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)), model.iteration_limit(),
                                    step.substep == 0 && step.iteration == 0 ? 1 : 0, static_cast<int>(solver.substeps)};
     const StepDispatch dispatch(state, step, pipeline, 1, 1);
     graph.add_pass(
@@ -82,8 +84,8 @@ std::uint64_t residual_byte_count(const Grid& grid) { return partial_count(grid)
 std::string iteration_readback_name(const ClothModel& cloth) { return cloth.name + "/iterations on the host"; }
 
 void add_iteration_readback(graph::Graph& graph, const ClothState& state) {
-    const graph::Handle empty = graph.buffer(
-        {iteration_readback_name(*state.model), sizeof(glsl::uvec4), graph::Lifetime::host_output});
+    const graph::Handle empty =
+        graph.buffer({iteration_readback_name(*state.model), sizeof(glsl::uvec4), graph::Lifetime::host_output});
     const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
     graph.add_pass(
         state.pass_name("iteration readback", "statistics"),
@@ -93,8 +95,8 @@ void add_iteration_readback(graph::Graph& graph, const ClothState& state) {
         },
         [iterations = state.iterations, target](graph::PassContext& context) {
             const VkBufferCopy used{glsl::iteration_size_count * sizeof(glsl::uvec4), 0, sizeof(glsl::uvec4)};
-            vkCmdCopyBuffer(context.commands(), context.buffer(iterations).handle(), context.buffer(*target).handle(), 1,
-                            &used);
+            vkCmdCopyBuffer(context.commands(), context.buffer(iterations).handle(), context.buffer(*target).handle(),
+                            1, &used);
         });
 }
 

@@ -34,7 +34,8 @@ void upload_rows(const graph::ResourcePool& pool, const std::string& name, std::
     if (first == last || !pool.has(name)) return;
     const auto first_row = static_cast<std::uint32_t>(first / width);
     const auto end_row = static_cast<std::uint32_t>((last + width - 1) / width);
-    const std::span<const T> rows(now.data() + std::size_t{first_row} * width, std::size_t{end_row - first_row} * width);
+    const std::span<const T> rows(now.data() + std::size_t{first_row} * width,
+                                  std::size_t{end_row - first_row} * width);
     vulkan::upload_rows(pool.device(), pool.image(name), first_row, std::as_bytes(rows));
 }
 
@@ -50,9 +51,11 @@ void upload_list(const graph::ResourcePool& pool, const std::string& name, const
 }  // namespace
 
 std::vector<std::string> state_image_parts() {
-    std::vector<std::string> parts{"position", "displacement", "position rest", "displacement rest",
-                                   "displacement before", "velocity excess", "line control"};
-    for (const SpringDirection& direction : spring_directions) parts.push_back("tension " + std::string(direction.name));
+    std::vector<std::string> parts{"position",          "displacement",        "position rest",
+                                   "displacement rest", "displacement before", "velocity excess",
+                                   "line control"};
+    for (const SpringDirection& direction : spring_directions)
+        parts.push_back("tension " + std::string(direction.name));
     return parts;
 }
 
@@ -96,8 +99,7 @@ void ClothSolver::upload_state(const graph::ResourcePool& pool,
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,
                                 double frame_end) const {
-    const std::vector<glsl::CutterTriangle> triangles =
-        cutter_triangles(model_.scene.cutters, frame_start, frame_end);
+    const std::vector<glsl::CutterTriangle> triangles = cutter_triangles(model_.scene.cutters, frame_start, frame_end);
     const std::span<const std::byte> bytes = std::as_bytes(std::span(triangles));
     std::memcpy(pool.buffer(cutters_name, slot).mapped().data(), bytes.data(), bytes.size());
 }

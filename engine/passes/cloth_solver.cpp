@@ -98,15 +98,14 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
     if (model_.adaptive()) declare_iterations(graph, state);
     if (needs.drawing) declare_drawing(graph, state);
     if (!model.tethers.empty())
-        state.tethers = graph.buffer({model.name + "/tethers", model.tethers.size() * sizeof(glsl::ParticleTethers),
-                                      Lifetime::constant});
+        state.tethers = graph.buffer(
+            {model.name + "/tethers", model.tethers.size() * sizeof(glsl::ParticleTethers), Lifetime::constant});
     if (!model.pinned.empty()) {
-        state.pinned = graph.buffer({model.name + "/pinned particles",
-                                     model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
-        state.pin_motions = graph.buffer({model.name + "/pin motions",
-                                          model.dynamic_pins.size() * model_.scene.solver.substeps *
-                                              sizeof(glsl::PinMotion),
-                                          Lifetime::host_input});
+        state.pinned = graph.buffer(
+            {model.name + "/pinned particles", model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
+        state.pin_motions = graph.buffer(
+            {model.name + "/pin motions",
+             model.dynamic_pins.size() * model_.scene.solver.substeps * sizeof(glsl::PinMotion), Lifetime::host_input});
     }
     cloths_.push_back(state);
 }
@@ -147,21 +146,36 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
 
 void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
     switch (step.kind) {
-        case StepKind::release: return add_pin_release(graph, pipelines_, state, step);
-        case StepKind::wind: return add_wind(graph, pipelines_, state, inputs_, step);
-        case StepKind::control: return add_line_control(graph, pipelines_, state, step);
-        case StepKind::predict: return add_predict(graph, pipelines_, state, step);
-        case StepKind::force: return add_force(graph, pipelines_, state, step);
-        case StepKind::explicit_step: return add_explicit_step(graph, pipelines_, state, step);
-        case StepKind::pin: return add_pin_motion(graph, pipelines_, state, step);
-        case StepKind::bend: return add_bend(graph, pipelines_, state, step);
-        case StepKind::twist: return add_twist(graph, pipelines_, state, step);
-        case StepKind::spring: return add_spring(graph, pipelines_, state, step);
-        case StepKind::line: return add_line(graph, pipelines_, state, step);
-        case StepKind::tether: return add_tether(graph, pipelines_, state, step);
-        case StepKind::collide: return add_collision(graph, pipelines_, state, inputs_, model_, step);
-        case StepKind::check: return add_check(graph, pipelines_, state, model_, step);
-        case StepKind::advance: return add_advance(graph, pipelines_, state);
+        case StepKind::release:
+            return add_pin_release(graph, pipelines_, state, step);
+        case StepKind::wind:
+            return add_wind(graph, pipelines_, state, inputs_, step);
+        case StepKind::control:
+            return add_line_control(graph, pipelines_, state, step);
+        case StepKind::predict:
+            return add_predict(graph, pipelines_, state, step);
+        case StepKind::force:
+            return add_force(graph, pipelines_, state, step);
+        case StepKind::explicit_step:
+            return add_explicit_step(graph, pipelines_, state, step);
+        case StepKind::pin:
+            return add_pin_motion(graph, pipelines_, state, step);
+        case StepKind::bend:
+            return add_bend(graph, pipelines_, state, step);
+        case StepKind::twist:
+            return add_twist(graph, pipelines_, state, step);
+        case StepKind::spring:
+            return add_spring(graph, pipelines_, state, step);
+        case StepKind::line:
+            return add_line(graph, pipelines_, state, step);
+        case StepKind::tether:
+            return add_tether(graph, pipelines_, state, step);
+        case StepKind::collide:
+            return add_collision(graph, pipelines_, state, inputs_, model_, step);
+        case StepKind::check:
+            return add_check(graph, pipelines_, state, model_, step);
+        case StepKind::advance:
+            return add_advance(graph, pipelines_, state);
     }
 }
 

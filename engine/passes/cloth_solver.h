@@ -57,7 +57,8 @@ class ClothSolver {
     void upload(const graph::ResourcePool& pool) const;
     /// The persistent images of all cloths, by name: to carry the state over to new resources.
     std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
-    void upload_state(const graph::ResourcePool& pool, const std::map<std::string, std::vector<std::byte>>& state) const;
+    void upload_state(const graph::ResourcePool& pool,
+                      const std::map<std::string, std::vector<std::byte>>& state) const;
     /// Uploads what of a cut cloth's stiffness, cells and draw lists differs from `before`.
     void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
     /// What `upload_cut` compares with: copies of the host's side.

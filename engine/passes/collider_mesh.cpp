@@ -19,8 +19,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 
 glsl::vec4 vec4(const Vec3& v, double w) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]),
-            static_cast<float>(w)};
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
 }
 
 glsl::ColliderInstance instance(const ColliderPose& pose, const glsl::vec4& shape, const Vec3& color) {
@@ -70,8 +69,7 @@ std::vector<ColliderDraw> collider_draws(const Colliders& colliders) {
         if (count > 0) draws.push_back({kind, vertex_count, first, instance_count, casts_shadow});
         first += instance_count;
     };
-    add(glsl::kind_ellipsoid, sphere_vertex_count, colliders.spheres.size() + colliders.ellipsoids.size(),
-        true);
+    add(glsl::kind_ellipsoid, sphere_vertex_count, colliders.spheres.size() + colliders.ellipsoids.size(), true);
     add(glsl::kind_box, box_vertex_count, colliders.boxes.size(), true);
     add(glsl::kind_plane, quad_vertex_count, colliders.planes.size(), false);
     add(glsl::kind_backdrop, backdrop_vertex_count, 1, false);
@@ -85,12 +83,10 @@ std::vector<glsl::ColliderInstance> collider_instances(const Colliders& collider
         instances.push_back(instance(collider_pose(sphere, time),
                                      vec4({sphere.radius, sphere.radius, sphere.radius}, 0), sphere.color));
     for (const EllipsoidCollider& ellipsoid : colliders.ellipsoids)
-        instances.push_back(
-            instance(collider_pose(ellipsoid, time), vec4(ellipsoid.radii, 0), ellipsoid.color));
+        instances.push_back(instance(collider_pose(ellipsoid, time), vec4(ellipsoid.radii, 0), ellipsoid.color));
     for (const BoxCollider& box : colliders.boxes)
         instances.push_back(instance(collider_pose(box, time), vec4(box.half_extents, 0), box.color));
-    for (const PlaneCollider& plane : colliders.planes)
-        instances.push_back(plane_instance(plane, extent, time));
+    for (const PlaneCollider& plane : colliders.planes) instances.push_back(plane_instance(plane, extent, time));
     instances.push_back({});  // the backdrop has no pose
     return instances;
 }

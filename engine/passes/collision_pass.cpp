@@ -10,14 +10,13 @@ namespace drape {
 
 namespace {
 
-constexpr vulkan::DescriptorDeclaration descriptors[] = {
-    image_read(0, "position"),
-    image_read(1, "displacement_in"),
-    image_write(2, "displacement_out"),
-    struct_buffer_read(3, "Planes", &layouts::collider),
-    struct_buffer_read(4, "Spheres", &layouts::collider),
-    struct_buffer_read(5, "Boxes", &layouts::collider),
-    struct_buffer_read(6, "Ellipsoids", &layouts::collider)};
+constexpr vulkan::DescriptorDeclaration descriptors[] = {image_read(0, "position"),
+                                                         image_read(1, "displacement_in"),
+                                                         image_write(2, "displacement_out"),
+                                                         struct_buffer_read(3, "Planes", &layouts::collider),
+                                                         struct_buffer_read(4, "Spheres", &layouts::collider),
+                                                         struct_buffer_read(5, "Boxes", &layouts::collider),
+                                                         struct_buffer_read(6, "Ellipsoids", &layouts::collider)};
 const vulkan::ShaderInterface shader{"collision.comp", descriptors, &layouts::collision_push};
 
 }  // namespace

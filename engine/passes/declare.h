@@ -17,14 +17,14 @@ constexpr vulkan::DescriptorDeclaration image_write(std::uint32_t binding, std::
 
 constexpr vulkan::DescriptorDeclaration struct_buffer_read(std::uint32_t binding, std::string_view name,
                                                            const vulkan::StructLayout* element) {
-    return {binding, name, vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read,
-            VK_FORMAT_UNDEFINED, element, 0};
+    return {binding, name, vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read, VK_FORMAT_UNDEFINED,
+            element, 0};
 }
 
 constexpr vulkan::DescriptorDeclaration vector_buffer_read(std::uint32_t binding, std::string_view name,
                                                            std::uint32_t stride) {
-    return {binding, name, vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read,
-            VK_FORMAT_UNDEFINED, nullptr, stride};
+    return {binding, name,  vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read, VK_FORMAT_UNDEFINED,
+            nullptr, stride};
 }
 
 }  // namespace drape

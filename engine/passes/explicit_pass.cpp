@@ -10,9 +10,8 @@ namespace drape {
 namespace {
 
 constexpr vulkan::DescriptorDeclaration state_images[] = {
-    image_read(0, "position_in"),          image_write(1, "position_out"),
-    image_read(2, "displacement_in"),      image_write(3, "displacement_out"),
-    image_read(4, "position_rest_in"),     image_write(5, "position_rest_out"),
+    image_read(0, "position_in"),          image_write(1, "position_out"),          image_read(2, "displacement_in"),
+    image_write(3, "displacement_out"),    image_read(4, "position_rest_in"),       image_write(5, "position_rest_out"),
     image_read(6, "displacement_rest_in"), image_write(7, "displacement_rest_out"),
 };
 constexpr vulkan::DescriptorDeclaration wind_force = image_read(8, "wind_force"),

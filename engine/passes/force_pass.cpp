@@ -8,9 +8,9 @@ namespace drape {
 namespace {
 
 constexpr vulkan::DescriptorDeclaration force_descriptors[] = {
-    image_read(0, "position_in"),       image_write(1, "position_out"),
-    image_read(2, "displacement_in"),   image_write(3, "displacement_out"),
-    image_read(4, "position_rest_in"),  image_write(5, "position_rest_out"),
+    image_read(0, "position_in"),          image_write(1, "position_out"),
+    image_read(2, "displacement_in"),      image_write(3, "displacement_out"),
+    image_read(4, "position_rest_in"),     image_write(5, "position_rest_out"),
     image_read(6, "displacement_rest_in"), image_write(7, "displacement_rest_out"),
     image_read(8, "wind_force"),  // the windy variant only
 };
@@ -18,8 +18,10 @@ const vulkan::ShaderInterface calm{"force.comp", std::span(force_descriptors).fi
 const vulkan::ShaderInterface windy{"force_wind.comp", force_descriptors, &layouts::force_push};
 
 constexpr vulkan::DescriptorDeclaration advance_descriptors[] = {
-    image_read(0, "position_in"),  image_write(1, "position_out"),
-    image_read(2, "displacement"), image_read(3, "position_rest_in"),
+    image_read(0, "position_in"),
+    image_write(1, "position_out"),
+    image_read(2, "displacement"),
+    image_read(3, "position_rest_in"),
     image_write(4, "position_rest_out"),
     image_write(5, "displacement_out"),  // the variant that returns from the spare images only
 };

@@ -22,28 +22,33 @@ constexpr DescriptorDeclaration control_descriptors[] = {image_read(0, "control_
 const vulkan::ShaderInterface control_shader{"line_control.comp", control_descriptors, nullptr};
 
 constexpr DescriptorDeclaration predict_calm[] = {
-    image_read(0, "position_in"),          image_write(1, "position_out"),
-    image_read(2, "displacement_in"),      image_write(3, "displacement_out"),
-    image_read(4, "position_rest_in"),     image_write(5, "position_rest_out"),
-    image_read(6, "displacement_rest_in"), image_write(7, "displacement_rest_out"),
-    image_read(9, "displacement_before_in"), image_write(10, "displacement_before_out"),
-    image_read(11, "velocity_excess_in"),  image_write(12, "velocity_excess_out"),
+    image_read(0, "position_in"),
+    image_write(1, "position_out"),
+    image_read(2, "displacement_in"),
+    image_write(3, "displacement_out"),
+    image_read(4, "position_rest_in"),
+    image_write(5, "position_rest_out"),
+    image_read(6, "displacement_rest_in"),
+    image_write(7, "displacement_rest_out"),
+    image_read(9, "displacement_before_in"),
+    image_write(10, "displacement_before_out"),
+    image_read(11, "velocity_excess_in"),
+    image_write(12, "velocity_excess_out"),
     image_read(13, "control", integer),
     image_read(8, "wind_force"),  // the windy variant only
 };
 const vulkan::ShaderInterface calm{"predict.comp", std::span(predict_calm).first(13), &layouts::predict_push};
 const vulkan::ShaderInterface windy{"predict_wind.comp", predict_calm, &layouts::predict_push};
 
-constexpr DescriptorDeclaration position = image_read(0, "position"),
-                                displacement_in = image_read(1, "displacement_in"),
-                                displacement_out = image_write(2, "displacement_out"),
-                                scratch{3, "Scratch", DescriptorKind::storage_buffer, DescriptorAccess::read_write,
-                                        VK_FORMAT_UNDEFINED, nullptr, sizeof(glsl::vec2)},
-                                stiffness = image_read(4, "stiffness_image"),
-                                tension_in = image_read(5, "tension_in", VK_FORMAT_R32_SFLOAT),
-                                tension_out = image_write(6, "tension_out", VK_FORMAT_R32_SFLOAT),
-                                control{7, "control", DescriptorKind::storage_image, DescriptorAccess::read_write,
-                                        integer};
+constexpr DescriptorDeclaration
+    position = image_read(0, "position"),
+    displacement_in = image_read(1, "displacement_in"), displacement_out = image_write(2, "displacement_out"),
+    scratch{
+        3,       "Scratch",         DescriptorKind::storage_buffer, DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
+        nullptr, sizeof(glsl::vec2)},
+    stiffness = image_read(4, "stiffness_image"), tension_in = image_read(5, "tension_in", VK_FORMAT_R32_SFLOAT),
+    tension_out = image_write(6, "tension_out", VK_FORMAT_R32_SFLOAT),
+    control{7, "control", DescriptorKind::storage_image, DescriptorAccess::read_write, integer};
 
 /// What every variant binds, and `more`.
 template <class... More>
@@ -81,8 +86,8 @@ void update_in_place(graph::PassSetup& setup, graph::Handle& handle, std::uint32
 void declare_line(graph::Graph& graph, ClothState& state) {
     const ClothModel& model = *state.model;
     const auto image = [&](const std::string& part, VkFormat format, std::uint32_t width, std::uint32_t height) {
-        return graph.image({model.name + "/" + part, format, width, height, VK_SAMPLE_COUNT_1_BIT,
-                            graph::Lifetime::persistent});
+        return graph.image(
+            {model.name + "/" + part, format, width, height, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     };
     std::size_t springs = 0;
     for (const LineWork& line : model.lines)

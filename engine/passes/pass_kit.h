@@ -34,13 +34,14 @@ class PipelineCache {
 ///   *_spare        rgba32f  explicit: the other image of each pair; a micro-step reads one and writes the other
 ///   wind_force     rgba32f  N; scenes with wind
 ///   normal         rgba32f  unit normal of the front; only when something is drawn
-///   tension        r32f     per direction, by first particle, m: extension that would balance the tension applied in the
+///   tension        r32f     per direction, by first particle, m: extension that would balance the tension applied in
+///   the
 ///                           substep; compliant and iterated springs, and stretch where the stretch error is wanted
 ///   residuals      buffer   stretch error by workgroup; where iterations end by tolerance
 ///   iterations     buffer   sizes of the next iteration's dispatches, and iterations run (residual_types.h); likewise
 ///   displacement_before     rgba32f  line in second order: displacement of the substep before the last, m
-///   velocity_excess         rgba32f  line in second order: of that substep, h times its end's velocity - displacement, m
-///   line_control   r32ui    line in second order: LineControl (shaders/include/bdf2.h), an integer per texel
+///   velocity_excess         rgba32f  line in second order: of that substep, h times its end's velocity - displacement,
+///   m line_control   r32ui    line in second order: LineControl (shaders/include/bdf2.h), an integer per texel
 ///   line_scratch   vec2[]   line: eliminated rows, within a pass
 ///   stiffness      rgba32f  share per direction, by first particle; holes and cuts
 ///   mass           r32f     mass share (1 = an inner particle's); holes and cuts, where statistics are wanted
@@ -57,11 +58,11 @@ struct ClothState {
     /// What the list will hold, gathered while the passes are added.
     std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
     graph::Handle line_scratch, displacement_before, velocity_excess, line_control;
-    graph::Handle triangles;              ///< index buffer
-    graph::Handle cut_vertices;           ///< vertices on cut springs; cut cloths that are drawn
+    graph::Handle triangles;     ///< index buffer
+    graph::Handle cut_vertices;  ///< vertices on cut springs; cut cloths that are drawn
     std::uint32_t index_count = 0;
-    graph::Handle pinned, pin_motions;    ///< dynamic pins
-    graph::Handle tethers;                ///< ParticleTethers of every particle
+    graph::Handle pinned, pin_motions;  ///< dynamic pins
+    graph::Handle tethers;              ///< ParticleTethers of every particle
     /// What a micro-step wrote becomes the state.
     void turn();
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;

@@ -13,8 +13,8 @@ constexpr vulkan::DescriptorDeclaration release_descriptors[] = {
 const vulkan::ShaderInterface release_shader{"pin_release.comp", release_descriptors, &layouts::pin_push};
 
 constexpr vulkan::DescriptorDeclaration motion_descriptors[] = {
-    image_read(0, "position"), image_write(1, "displacement"),
-    struct_buffer_read(2, "Pins", &layouts::pinned_particle), struct_buffer_read(3, "Motions", &layouts::pin_motion)};
+    image_read(0, "position"), image_write(1, "displacement"), struct_buffer_read(2, "Pins", &layouts::pinned_particle),
+    struct_buffer_read(3, "Motions", &layouts::pin_motion)};
 const vulkan::ShaderInterface motion_shader{"pin_motion.comp", motion_descriptors, &layouts::pin_push};
 
 glsl::PinPush pin_push(const ClothModel& model, const Step& step) {

@@ -34,8 +34,7 @@ std::string shadow_skip_reason(const SceneDescription& scene, const RasterOption
     if (!options.shadow) return "switched off";
     if (scene.lights.empty()) return "the scene has no light";
     if (!(scene.lights[0].intensity > 0)) return "the first light has no intensity";
-    if (scene.cloths.empty() && colliders.spheres.empty() && colliders.boxes.empty() &&
-        colliders.ellipsoids.empty())
+    if (scene.cloths.empty() && colliders.spheres.empty() && colliders.boxes.empty() && colliders.ellipsoids.empty())
         return "the scene has nothing that casts one";
     return {};
 }
@@ -81,16 +80,14 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
         state.fragment = shadow ? interfaces::cloth_shadowed_fragment : interfaces::cloth_fragment;
         cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cloth", state);
         shadow_state.vertex = interfaces::shadow_cloth_vertex;
-        if (shadow)
-            shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
+        if (shadow) shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
     }
     if (has_cut_cloth) {
         state.vertex = interfaces::cut_cloth_vertex;
         cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cut cloth", state);
         shadow_state.vertex = interfaces::shadow_cut_cloth_vertex;
         if (shadow)
-            shadow_cut_cloth_ =
-                std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cut cloth", shadow_state);
+            shadow_cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cut cloth", shadow_state);
     }
     state.vertex = interfaces::collider_vertex;
     state.fragment = shadow ? interfaces::collider_shadowed_fragment : interfaces::collider_fragment;
@@ -99,8 +96,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
         const auto kind = static_cast<std::uint32_t>(range.kind);
         state.constants = {{interfaces::collider_kind_constant, kind}};
         state.depth_write = range.kind != glsl::kind_backdrop;
-        draws_.push_back(
-            {range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
+        draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
         if (!shadow || !range.casts_shadow) continue;
         shadow_state.constants = state.constants;
         shadow_draws_.push_back(
@@ -110,16 +106,14 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
 
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     Targets targets;
-    const std::size_t instance_count =
-        draws_.back().range.first_instance + draws_.back().range.instance_count;
+    const std::size_t instance_count = draws_.back().range.first_instance + draws_.back().range.instance_count;
     targets.frame = graph.buffer({frame_name, sizeof(glsl::FrameConstants), graph::Lifetime::host_input});
-    targets.colliders = graph.buffer(
-        {colliders_name, instance_count * sizeof(glsl::ColliderInstance), graph::Lifetime::host_input});
+    targets.colliders =
+        graph.buffer({colliders_name, instance_count * sizeof(glsl::ColliderInstance), graph::Lifetime::host_input});
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     targets.color = graph.image({color_name, color_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
-    if (samples_ > 1)
-        targets.multisampled = graph.image({multisampled_name, color_format, width_, height_, samples});
+    if (samples_ > 1) targets.multisampled = graph.image({multisampled_name, color_format, width_, height_, samples});
     if (casts_shadow()) {
         const std::uint32_t side = glsl::shadow_map_size;
         targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
@@ -140,8 +134,7 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
     return add_readback(graph, targets);
 }
 
-void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
-                            const std::vector<RasterCloth>& cloths) const {
+void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
     auto attachments = std::make_shared<RasterAttachments>();
     graph.add_pass(
         {"shadow", "shadow", "shadow"},
@@ -156,8 +149,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
             attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
             attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
         },
-        [this, attachments, cloths, frame = targets.frame,
-         colliders = targets.colliders](graph::PassContext& context) {
+        [this, attachments, cloths, frame = targets.frame, colliders = targets.colliders](graph::PassContext& context) {
             begin_rendering(context, *attachments);
             for (const RasterCloth& cloth : cloths) {
                 const bool cut = cloth.cut_vertices.valid();
@@ -171,17 +163,15 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets,
             }
             for (const Draw& draw : shadow_draws_) {
                 bind_pipeline(context, *draw.pipeline);
-                push_bindings(
-                    context, *draw.pipeline,
-                    {{interfaces::frame_binding, frame}, {interfaces::colliders_binding, colliders}});
+                push_bindings(context, *draw.pipeline,
+                              {{interfaces::frame_binding, frame}, {interfaces::colliders_binding, colliders}});
                 draw_colliders(context, draw.range);
             }
             vkCmdEndRendering(context.commands());
         });
 }
 
-void RasterPass::add_raster(graph::Graph& graph, Targets& targets,
-                            const std::vector<RasterCloth>& cloths) const {
+void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
     auto attachments = std::make_shared<RasterAttachments>();
     graph.add_pass(
         {"raster", "raster", "raster"},
@@ -199,8 +189,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets,
             Handle& drawn = samples_ > 1 ? targets.multisampled : targets.color;
             attachments->color = drawn = setup.write(drawn, Access::color_write);
             attachments->depth = setup.write(targets.depth, Access::depth_write);
-            if (samples_ > 1)
-                attachments->resolve = targets.color = setup.write(targets.color, Access::resolve_write);
+            if (samples_ > 1) attachments->resolve = targets.color = setup.write(targets.color, Access::resolve_write);
         },
         [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);
@@ -221,8 +210,8 @@ void RasterPass::draw_picture(const graph::PassContext& context, const Targets& 
     for (const RasterCloth& cloth : cloths) {
         const bool cut = cloth.cut_vertices.valid();
         const vulkan::GraphicsPipeline& pipeline = cut ? *cut_cloth_ : *cloth_;
-        std::vector<BoundHandle> bound = bindings({{interfaces::position_binding, cloth.position},
-                                                   {interfaces::normal_binding, cloth.normal}});
+        std::vector<BoundHandle> bound =
+            bindings({{interfaces::position_binding, cloth.position}, {interfaces::normal_binding, cloth.normal}});
         if (cut) bound.push_back({interfaces::cut_vertices_binding, cloth.cut_vertices});
         bind_pipeline(context, pipeline);
         push_bindings(context, pipeline, bound);
@@ -230,24 +219,21 @@ void RasterPass::draw_picture(const graph::PassContext& context, const Targets& 
     }
     for (const Draw& draw : draws_) {
         bind_pipeline(context, *draw.pipeline);
-        push_bindings(context, *draw.pipeline,
-                      bindings({{interfaces::colliders_binding, targets.colliders}}));
+        push_bindings(context, *draw.pipeline, bindings({{interfaces::colliders_binding, targets.colliders}}));
         draw_colliders(context, draw.range);
     }
 }
 
 Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
-    auto readback = std::make_shared<Handle>(
-        graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
+    auto readback =
+        std::make_shared<Handle>(graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
     graph.add_pass(
         {"readback", "readback", "readback"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.color, Access::transfer_read);
             *readback = setup.write(*readback, Access::transfer_write);
         },
-        [color = targets.color, readback](graph::PassContext& context) {
-            copy_to_buffer(context, color, *readback);
-        });
+        [color = targets.color, readback](graph::PassContext& context) { copy_to_buffer(context, color, *readback); });
     return *readback;
 }
 

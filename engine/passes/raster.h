@@ -37,8 +37,8 @@ struct RasterOptions {
 class RasterPass {
   public:
     /// Makes the pipelines that the scene needs and no others. `samples`: 1 or 4.
-    RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
-               std::uint32_t height, std::uint32_t samples, const RasterOptions& options = {});
+    RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width, std::uint32_t height,
+               std::uint32_t samples, const RasterOptions& options = {});
     RasterPass(const RasterPass&) = delete;
     RasterPass& operator=(const RasterPass&) = delete;
 

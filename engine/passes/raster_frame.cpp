@@ -24,8 +24,7 @@ Vec3 unit(const Vec3& v) {
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 1, 0};
 }
 glsl::vec4 vec4(const Vec3& v, double w) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]),
-            static_cast<float>(w)};
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
 }
 
 /// Axis-aligned box that grows.
@@ -47,8 +46,7 @@ struct Bounds {
 void add_cloth(const Cloth& cloth, const Colliders& colliders, Bounds& bounds) {
     const double swing = 0.25 * 0.5 * std::hypot(cloth.size[0], cloth.size[1]);
     for (int corner = 0; corner < 4; ++corner) {
-        const Vec3 along_u =
-            sum(cloth.placement.origin, cloth.placement.u, corner % 2 == 0 ? 0 : cloth.size[0]);
+        const Vec3 along_u = sum(cloth.placement.origin, cloth.placement.u, corner % 2 == 0 ? 0 : cloth.size[0]);
         const Vec3 point = sum(along_u, cloth.placement.v, corner / 2 == 0 ? 0 : cloth.size[1]);
         bounds.add(point, swing);
         for (const Pin& pin : cloth.pins) bounds.add(point, 0, pin.path);
@@ -69,8 +67,7 @@ void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants
     }
 }
 
-void write_shadow(const SceneDescription& scene, const BoundingSphere& extent,
-                  glsl::FrameConstants& constants) {
+void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, glsl::FrameConstants& constants) {
     if (scene.lights.empty()) return;
     const Vec3 to_light = unit(sum({0, 0, 0}, scene.lights[0].direction, -1));
     const Vec3 across = unit(cross(std::abs(to_light[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, to_light));
@@ -91,13 +88,10 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent,
 BoundingSphere scene_extent(const SceneDescription& scene) {
     Bounds bounds;
     for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene.colliders, bounds);
-    for (const SphereCollider& sphere : scene.colliders.spheres)
-        bounds.add(sphere.center, sphere.radius, sphere.path);
-    for (const BoxCollider& box : scene.colliders.boxes)
-        bounds.add(box.center, length(box.half_extents), box.path);
+    for (const SphereCollider& sphere : scene.colliders.spheres) bounds.add(sphere.center, sphere.radius, sphere.path);
+    for (const BoxCollider& box : scene.colliders.boxes) bounds.add(box.center, length(box.half_extents), box.path);
     for (const EllipsoidCollider& ellipsoid : scene.colliders.ellipsoids)
-        bounds.add(ellipsoid.center, *std::max_element(ellipsoid.radii.begin(), ellipsoid.radii.end()),
-                   ellipsoid.path);
+        bounds.add(ellipsoid.center, *std::max_element(ellipsoid.radii.begin(), ellipsoid.radii.end()), ellipsoid.path);
     if (bounds.empty()) {
         const double distance = length(sum(scene.camera.target, scene.camera.position, -1));
         return {scene.camera.target, distance > 0 ? distance : 1.0};
@@ -120,8 +114,8 @@ PlaneExtent plane_extent(const SceneDescription& scene, const BoundingSphere& ex
     return {scene.camera.target, fade_radius(scene, extent), line_distance};
 }
 
-glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent,
-                                     std::uint32_t width, std::uint32_t height) {
+glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent, std::uint32_t width,
+                                     std::uint32_t height) {
     glsl::FrameConstants constants{};
     const Matrix4 matrix = view_projection_matrix(scene.camera, width, height);
     for (std::size_t row = 0; row < 4; ++row)

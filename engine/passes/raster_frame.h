@@ -24,7 +24,7 @@ double fade_radius(const SceneDescription& scene, const BoundingSphere& extent);
 PlaneExtent plane_extent(const SceneDescription& scene, const BoundingSphere& extent);
 
 /// The shadow map looks along the first light and holds `extent`.
-glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent,
-                                     std::uint32_t width, std::uint32_t height);
+glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent, std::uint32_t width,
+                                     std::uint32_t height);
 
 }  // namespace drape

@@ -28,8 +28,7 @@ constexpr vulkan::MemberLayout collider_members[] = {
     {"pose_z", offsetof(ColliderInstance, pose_z)}, {"shape", offsetof(ColliderInstance, shape)},
     {"color", offsetof(ColliderInstance, color)},
 };
-constexpr vulkan::StructLayout collider_layout{"ColliderInstance", sizeof(ColliderInstance),
-                                               collider_members};
+constexpr vulkan::StructLayout collider_layout{"ColliderInstance", sizeof(ColliderInstance), collider_members};
 
 constexpr vulkan::MemberLayout push_members[] = {
     {"grid", offsetof(ClothPush, grid)},

@@ -12,8 +12,8 @@ extern const vulkan::ShaderInterface shadow_cloth_vertex, shadow_collider_vertex
 extern const vulkan::ShaderInterface cut_cloth_vertex, shadow_cut_cloth_vertex;
 
 /// Bindings of set 0.
-inline constexpr std::uint32_t frame_binding = 0, position_binding = 1, colliders_binding = 1,
-                               normal_binding = 2, shadow_map_binding = 3, cut_vertices_binding = 5;
+inline constexpr std::uint32_t frame_binding = 0, position_binding = 1, colliders_binding = 1, normal_binding = 2,
+                               shadow_map_binding = 3, cut_vertices_binding = 5;
 /// Specialization constant of the collider shaders.
 inline constexpr std::uint32_t collider_kind_constant = 0;
 

@@ -18,8 +18,7 @@ VkRenderingAttachmentInfo attachment(const graph::PassContext& context, graph::H
     return info;
 }
 
-graph::GraphError mismatch(const vulkan::Pipeline& pipeline, std::uint32_t binding,
-                           std::string_view problem) {
+graph::GraphError mismatch(const vulkan::Pipeline& pipeline, std::uint32_t binding, std::string_view problem) {
     return graph::GraphError(fmt::format("pipeline '{}', binding {}: {}", pipeline.name(), binding, problem));
 }
 
@@ -54,8 +53,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     rendering.pColorAttachments = &color;
     rendering.pDepthAttachment = &depth;
     vkCmdBeginRendering(context.commands(), &rendering);
-    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0, 1};
+    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(context.commands(), 0, 1, &viewport);
     vkCmdSetScissor(context.commands(), 0, 1, &scissor);
@@ -71,9 +69,7 @@ void push_bindings(const graph::PassContext& context, const vulkan::GraphicsPipe
     PushedDescriptors pushed(descriptors.size());
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
         const vulkan::DescriptorDeclaration& descriptor = descriptors[i];
-        const auto is_it = [&](const BoundHandle& candidate) {
-            return candidate.binding == descriptor.binding;
-        };
+        const auto is_it = [&](const BoundHandle& candidate) { return candidate.binding == descriptor.binding; };
         const auto match = std::find_if(bound.begin(), bound.end(), is_it);
         if (match == bound.end()) throw mismatch(pipeline, descriptor.binding, "nothing is bound");
         VkWriteDescriptorSet& write = pushed.writes[i];
@@ -95,16 +91,15 @@ void push_bindings(const graph::PassContext& context, const vulkan::GraphicsPipe
         }
     }
     if (bound.size() != descriptors.size())
-        throw graph::GraphError(fmt::format("pipeline '{}' has {} descriptors, but {} are bound",
-                                            pipeline.name(), descriptors.size(), bound.size()));
+        throw graph::GraphError(fmt::format("pipeline '{}' has {} descriptors, but {} are bound", pipeline.name(),
+                                            descriptors.size(), bound.size()));
     vkCmdPushDescriptorSetKHR(context.commands(), pipeline.bind_point(), pipeline.layout(), 0,
                               static_cast<std::uint32_t>(pushed.writes.size()), pushed.writes.data());
 }
 
 void draw_cloth(const graph::PassContext& context, const vulkan::GraphicsPipeline& pipeline,
                 const glsl::ClothPush& push, graph::Handle indices, std::uint32_t index_count) {
-    vkCmdPushConstants(context.commands(), pipeline.layout(), pipeline.push_constant_stages(), 0,
-                       sizeof(push), &push);
+    vkCmdPushConstants(context.commands(), pipeline.layout(), pipeline.push_constant_stages(), 0, sizeof(push), &push);
     vkCmdBindIndexBuffer(context.commands(), context.buffer(indices).handle(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexed(context.commands(), index_count, 1, 0, 0, 0);
 }
@@ -118,8 +113,8 @@ void copy_to_buffer(const graph::PassContext& context, graph::Handle image, grap
     VkBufferImageCopy region{};
     region.imageSubresource = {source.aspect(), 0, 0, 1};
     region.imageExtent = {source.description().width, source.description().height, 1};
-    vkCmdCopyImageToBuffer(context.commands(), source.handle(), context.layout(image),
-                           context.buffer(buffer).handle(), 1, &region);
+    vkCmdCopyImageToBuffer(context.commands(), source.handle(), context.layout(image), context.buffer(buffer).handle(),
+                           1, &region);
 }
 
 }  // namespace drape

@@ -8,9 +8,9 @@ std::string position_readback_name(const ClothModel& cloth) { return cloth.name 
 
 void add_position_readback(graph::Graph& graph, ClothState& state) {
     const Grid& grid = state.model->grid;
-    const graph::Handle empty = graph.buffer({position_readback_name(*state.model),
-                                              grid.particle_count() * sizeof(glsl::vec4),
-                                              graph::Lifetime::host_output});
+    const graph::Handle empty =
+        graph.buffer({position_readback_name(*state.model), grid.particle_count() * sizeof(glsl::vec4),
+                      graph::Lifetime::host_output});
     // The execute function is made before set-up runs, so it holds the place where the handle will be.
     const auto target = std::make_shared<graph::Handle>();
     graph.add_pass(

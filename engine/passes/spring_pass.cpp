@@ -22,7 +22,7 @@ constexpr vulkan::DescriptorDeclaration masked[] = {position, displacement_in, d
 constexpr vulkan::DescriptorDeclaration stored[] = {position, displacement_in, displacement_out, tension_in,
                                                     tension_out};
 constexpr vulkan::DescriptorDeclaration both[] = {position,  displacement_in, displacement_out,
-                                                  stiffness, tension_in,   tension_out};
+                                                  stiffness, tension_in,      tension_out};
 
 /// By [masked][stores tension].
 const vulkan::ShaderInterface interfaces[2][2] = {
@@ -35,9 +35,8 @@ const vulkan::ShaderInterface interfaces[2][2] = {
 void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const SpringWork& work = state.model->springs[step.work];
     const auto direction = static_cast<std::size_t>(work.pass.direction);
-    const bool stores_tension =
-        state.tension[direction].valid() &&
-        (state.model->carries_tension[direction] || (step.last && work.push.compliance > 0));
+    const bool stores_tension = state.tension[direction].valid() &&
+                                (state.model->carries_tension[direction] || (step.last && work.push.compliance > 0));
     const vulkan::ComputePipeline& pipeline = pipelines.get(interfaces[state.model->masked][stores_tension]);
     glsl::SpringPush push = work.push;
     push.first_iteration = step.iteration == 0 ? 1 : 0;

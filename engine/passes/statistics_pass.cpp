@@ -10,8 +10,13 @@ namespace drape {
 namespace {
 
 constexpr vulkan::DescriptorDeclaration record_buffer_write(std::uint32_t binding, std::string_view name) {
-    return {binding, name, vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::write,
-            VK_FORMAT_UNDEFINED, &layouts::statistics_record, 0};
+    return {binding,
+            name,
+            vulkan::DescriptorKind::storage_buffer,
+            vulkan::DescriptorAccess::write,
+            VK_FORMAT_UNDEFINED,
+            &layouts::statistics_record,
+            0};
 }
 
 constexpr vulkan::DescriptorDeclaration position = image_read(0, "position"),
@@ -31,8 +36,8 @@ constexpr vulkan::DescriptorDeclaration masked[] = {position, displacement, part
                                                     mass,     tension_row,  tension_column};
 constexpr vulkan::DescriptorDeclaration colliding[] = {position, displacement, partials,    planes,        spheres,
                                                        boxes,    ellipsoids,   tension_row, tension_column};
-constexpr vulkan::DescriptorDeclaration both[] = {position, displacement, partials,   stiffness,   mass,          planes,
-                                                  spheres,  boxes,        ellipsoids, tension_row, tension_column};
+constexpr vulkan::DescriptorDeclaration both[] = {
+    position, displacement, partials, stiffness, mass, planes, spheres, boxes, ellipsoids, tension_row, tension_column};
 
 /// By [masked][colliding].
 const vulkan::ShaderInterface interfaces[2][2] = {
@@ -57,18 +62,17 @@ std::uint32_t partial_count(const Grid& grid) {
     return (grid.columns() + width - 1) / width * strip_count(grid);
 }
 
-graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
-                           const SceneInputs& inputs, const SimulationModel& model) {
+graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+                           const SimulationModel& model) {
     const bool collides = model.collider_count > 0;
     std::vector<vulkan::SpecializationConstant> constants;
     if (collides)
         for (std::uint32_t kind = 0; kind < collider_kind_count; ++kind)
             constants.push_back({kind, inputs.colliders[kind].valid() ? 1u : 0u});
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(interfaces[state.model->masked][collides], constants);
-    graph::Handle records = graph.buffer({state.model->name + "/statistics of workgroups",
-                                          partial_count(state.model->grid) * sizeof(glsl::StatisticsRecord),
-                                          graph::Lifetime::transient});
+    const vulkan::ComputePipeline& pipeline = pipelines.get(interfaces[state.model->masked][collides], constants);
+    graph::Handle records =
+        graph.buffer({state.model->name + "/statistics of workgroups",
+                      partial_count(state.model->grid) * sizeof(glsl::StatisticsRecord), graph::Lifetime::transient});
     graph.add_pass(
         state.pass_name("statistics", "statistics"),
         [&](graph::PassSetup& setup) {
@@ -89,8 +93,8 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
                 setup.read(buffer.valid() ? buffer : any, graph::Access::compute_read, 5 + kind);
             }
         },
-        [&pipeline, push = statistics_push(model, *state.model), height = strip_count(state.model->grid)](
-            graph::PassContext& context) {
+        [&pipeline, push = statistics_push(model, *state.model),
+         height = strip_count(state.model->grid)](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height);
         });
     return records;
@@ -103,8 +107,8 @@ std::string statistics_readback_name(const ClothModel& cloth) { return cloth.nam
 void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model) {
     const graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
-    const graph::Handle result = graph.buffer({statistics_readback_name(*state.model),
-                                               sizeof(glsl::StatisticsRecord), graph::Lifetime::host_output});
+    const graph::Handle result = graph.buffer(
+        {statistics_readback_name(*state.model), sizeof(glsl::StatisticsRecord), graph::Lifetime::host_output});
     const vulkan::ComputePipeline& pipeline = pipelines.get(sum_interface);
     const glsl::StatisticsSumPush push{static_cast<int>(partial_count(state.model->grid))};
     graph.add_pass(

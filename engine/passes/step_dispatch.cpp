@@ -12,7 +12,8 @@ std::size_t slot_of(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size) {
     const auto same = [&](const glsl::uvec4& other) { return other.x == size.x && other.y == size.y; };
     const auto found = std::ranges::find_if(sizes, same);
     if (found != sizes.end()) return static_cast<std::size_t>(found - sizes.begin());
-    if (sizes.size() == glsl::iteration_size_count) throw std::logic_error("too many sizes of dispatches in an iteration");
+    if (sizes.size() == glsl::iteration_size_count)
+        throw std::logic_error("too many sizes of dispatches in an iteration");
     sizes.push_back(size);
     return sizes.size() - 1;
 }

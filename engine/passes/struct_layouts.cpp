@@ -44,12 +44,9 @@ constexpr vulkan::MemberLayout explicit_push_members[] = {
     {"twist", offsetof(ExplicitPush, twist)},
 };
 constexpr vulkan::MemberLayout bend_push_members[] = {
-    {"grid", offsetof(BendPush, grid)},
-    {"element_count", offsetof(BendPush, element_count)},
-    {"axis", offsetof(BendPush, axis)},
-    {"colour", offsetof(BendPush, colour)},
-    {"channel", offsetof(BendPush, channel)},
-    {"compliance", offsetof(BendPush, compliance)},
+    {"grid", offsetof(BendPush, grid)},       {"element_count", offsetof(BendPush, element_count)},
+    {"axis", offsetof(BendPush, axis)},       {"colour", offsetof(BendPush, colour)},
+    {"channel", offsetof(BendPush, channel)}, {"compliance", offsetof(BendPush, compliance)},
 };
 constexpr vulkan::MemberLayout line_push_members[] = {
     {"grid", offsetof(LinePush, grid)},
@@ -143,12 +140,9 @@ constexpr vulkan::MemberLayout statistics_record_members[] = {
     {"errors", offsetof(StatisticsRecord, errors)},   {"counts", offsetof(StatisticsRecord, counts)},
 };
 constexpr vulkan::MemberLayout collider_members[] = {
-    {"pose_x", offsetof(Collider, pose_x)},
-    {"pose_y", offsetof(Collider, pose_y)},
-    {"pose_z", offsetof(Collider, pose_z)},
-    {"change_x", offsetof(Collider, change_x)},
-    {"change_y", offsetof(Collider, change_y)},
-    {"change_z", offsetof(Collider, change_z)},
+    {"pose_x", offsetof(Collider, pose_x)},     {"pose_y", offsetof(Collider, pose_y)},
+    {"pose_z", offsetof(Collider, pose_z)},     {"change_x", offsetof(Collider, change_x)},
+    {"change_y", offsetof(Collider, change_y)}, {"change_z", offsetof(Collider, change_z)},
     {"shape", offsetof(Collider, shape)},
 };
 constexpr vulkan::MemberLayout pinned_particle_members[] = {

@@ -7,10 +7,10 @@ namespace drape {
 
 namespace {
 
-constexpr vulkan::DescriptorDeclaration descriptors[] = {
-    image_read(0, "position"), image_read(1, "displacement"),
-    image_write(2, "tension_row", VK_FORMAT_R32_SFLOAT), image_write(3, "tension_column", VK_FORMAT_R32_SFLOAT)};
-const vulkan::ShaderInterface interface{"tension.comp", descriptors, &layouts::tension_push};
+constexpr vulkan::DescriptorDeclaration descriptors[] = {image_read(0, "position"), image_read(1, "displacement"),
+                                                         image_write(2, "tension_row", VK_FORMAT_R32_SFLOAT),
+                                                         image_write(3, "tension_column", VK_FORMAT_R32_SFLOAT)};
+const vulkan::ShaderInterface interface { "tension.comp", descriptors, &layouts::tension_push };
 
 }  // namespace
 

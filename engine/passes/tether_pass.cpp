@@ -7,9 +7,9 @@ namespace drape {
 
 namespace {
 
-constexpr vulkan::DescriptorDeclaration descriptors[] = {
-    image_read(0, "position"), image_read(1, "displacement_in"), image_write(2, "displacement_out"),
-    struct_buffer_read(3, "Tethers", &layouts::particle_tethers)};
+constexpr vulkan::DescriptorDeclaration descriptors[] = {image_read(0, "position"), image_read(1, "displacement_in"),
+                                                         image_write(2, "displacement_out"),
+                                                         struct_buffer_read(3, "Tethers", &layouts::particle_tethers)};
 const vulkan::ShaderInterface shader{"tether.comp", descriptors, &layouts::grid_push};
 
 }  // namespace

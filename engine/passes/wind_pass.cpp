@@ -8,7 +8,9 @@ namespace drape {
 namespace {
 
 constexpr vulkan::DescriptorDeclaration descriptors[] = {
-    image_read(0, "position"), image_read(1, "displacement"), image_write(2, "wind_force"),
+    image_read(0, "position"),
+    image_read(1, "displacement"),
+    image_write(2, "wind_force"),
     vector_buffer_read(3, "Wind", sizeof(glsl::vec4)),
     image_read(4, "cells", VK_FORMAT_R32_UINT),  // the masked variant only
 };

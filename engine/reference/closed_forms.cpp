@@ -42,9 +42,7 @@ double bisect(double low, double high, const Function& function) {
 
 double damping_mean(double z) { return std::abs(z) < series_limit ? damping_series(z, 1) : -std::expm1(-z) / z; }
 
-double damping_lag(double z) {
-    return std::abs(z) < series_limit ? damping_series(z, 2) : (1 - damping_mean(z)) / z;
-}
+double damping_lag(double z) { return std::abs(z) < series_limit ? damping_series(z, 2) : (1 - damping_mean(z)) / z; }
 
 double flight_displacement(double v0, double acceleration, double damping, double time) {
     const double z = damping * time;
@@ -134,8 +132,8 @@ double stretch_law(std::uint32_t links, double gravity, double substep, std::uin
     return double(links) * links * gravity * substep * substep / (2.0 * sweeps * length);
 }
 
-std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps,
-                                   double length, double strain, double factor) {
+std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps, double length,
+                                   double strain, double factor) {
     const double at_one = factor * stretch_law(links, gravity, 1 / fps, sweeps, length);
     const double substeps = std::ceil(std::sqrt(at_one / strain) * (1 - 1e-12));
     if (!(substeps < 4e9)) throw std::invalid_argument("stretch_law_substeps: more than 4e9 substeps");

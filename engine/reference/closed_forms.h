@@ -59,8 +59,8 @@ inline constexpr double law_all_passes_mean = 0.65, law_all_passes_rms = 0.83, l
 /// N links over height L (m), K sweeps per substep of h (s). Held to 0.4 % for N = 32..128.
 double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t sweeps, double length);
 /// Substeps per frame of 1/fps seconds at which `stretch_law` times `factor` is at most `strain`.
-std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps,
-                                   double length, double strain, double factor = 1.0);
+std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps, double length,
+                                   double strain, double factor = 1.0);
 
 /// n-th positive zero of the Bessel function J0, n from 1.
 double bessel_j0_zero(std::uint32_t n);
@@ -106,9 +106,9 @@ PlanePoint elastic_catenary_point(const Catenary& curve, double elastic_length, 
 /// The heavy elastica: a strip clamped horizontally at one end, bending under its own weight, in units of its
 /// length. gamma = w L^3/B: weight per length times cubed length over bending rigidity.
 struct HeavyElastica {
-    double drop;       ///< H/L: tip below the clamp
-    double reach;      ///< W/L: tip away from the clamp
-    double tip_angle;  ///< rad below the horizontal
+    double drop;                    ///< H/L: tip below the clamp
+    double reach;                   ///< W/L: tip away from the clamp
+    double tip_angle;               ///< rad below the horizontal
     std::vector<PlanePoint> shape;  ///< from the clamp (0, 0) to the tip, equally spaced in arc length, y downward
     double ratio() const { return drop / reach; }
 };

@@ -54,8 +54,7 @@ class MidpointRun {
         if (network_.wind.blows()) {
             std::vector<Vec3> velocity = state_.velocity;
             for (const std::uint32_t p : system_->free_particles())
-                for (std::size_t k = 0; k < 3; ++k)
-                    velocity[p][k] = 2 / step_ * (middle[p][k] - state_.position[p][k]);
+                for (std::size_t k = 0; k < 3; ++k) velocity[p][k] = 2 / step_ * (middle[p][k] - state_.position[p][k]);
             for (const std::uint32_t p : moved_) velocity[p] = network_.pinned_velocity(p, middle_time);
             network_.add_wind_force(middle, velocity, middle_time, wind);
         }

@@ -29,9 +29,9 @@ struct StaticResult {
     /// The exact Hessian there is positive definite. A flat hanging sheet without bending can be in equilibrium but not
     /// at a minimum: the compression beside its pins would rather make wrinkles, which a flat start never does.
     bool minimum = false;
-    double last_step = 0;        ///< m, largest movement of a particle by the last step: the error estimate
-    double residual = 0;         ///< N, largest force left on a free particle
-    double energy = 0;           ///< J
+    double last_step = 0;          ///< m, largest movement of a particle by the last step: the error estimate
+    double residual = 0;           ///< N, largest force left on a free particle
+    double energy = 0;             ///< J
     std::uint32_t iterations = 0;  ///< of all stages
 };
 
@@ -44,8 +44,8 @@ StaticResult find_equilibrium(const SpringNetwork& network, std::span<const Vec3
 StaticResult find_equilibrium(const SpringNetwork& network, const StaticOptions& options = {});
 
 struct ImplicitOptions {
-    double step = 1e-3;                   ///< s, of the finest run
-    double position_tolerance = 1e-12;    ///< m, largest correction of a particle by a step's last iteration
+    double step = 1e-3;                 ///< s, of the finest run
+    double position_tolerance = 1e-12;  ///< m, largest correction of a particle by a step's last iteration
     ReferenceProgress progress{};
 };
 

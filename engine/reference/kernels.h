@@ -9,8 +9,6 @@
 
 namespace drape::glsl {
 
-#include "include/vector.h"
-
 #include "include/bdf2.h"
 #include "include/bend.h"
 #include "include/colliders.h"
@@ -23,6 +21,7 @@ namespace drape::glsl {
 #include "include/statistics.h"
 #include "include/tether.h"
 #include "include/triangles.h"
+#include "include/vector.h"
 #include "include/verlet.h"
 #include "include/wind.h"
 

@@ -130,9 +130,9 @@ std::optional<ReferenceRun> decoded(std::string_view data, std::string_view key)
 
 std::string reference_key(std::string_view method, const SpringNetwork& network, std::span<const double> times,
                           std::initializer_list<std::pair<std::string_view, double>> options) {
-    std::string key = fmt::format("drape reference; method {}; particles {}; springs {}; bending {}; network {:016x}",
-                                  method, network.particle_count(), network.springs.size(), network.bending.size(),
-                                  network.fingerprint());
+    std::string key =
+        fmt::format("drape reference; method {}; particles {}; springs {}; bending {}; network {:016x}", method,
+                    network.particle_count(), network.springs.size(), network.bending.size(), network.fingerprint());
     for (const auto& [name, value] : options) key += fmt::format("; {} {:.17g}", name, value);
     key += "; times";
     for (const double time : times) key += fmt::format(" {:.17g}", time);

@@ -58,8 +58,8 @@ void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
             const int i = static_cast<int>(column), j = static_cast<int>(row);
-            const int cells = (grid.cell(i - 1, j - 1) != 0) + (grid.cell(i, j - 1) != 0) +
-                              (grid.cell(i - 1, j) != 0) + (grid.cell(i, j) != 0);
+            const int cells = (grid.cell(i - 1, j - 1) != 0) + (grid.cell(i, j - 1) != 0) + (grid.cell(i - 1, j) != 0) +
+                              (grid.cell(i, j) != 0);
             mass.push_back(0.25 * cells * cloth.areal_density * dx * dy);
             Vec3 at = cloth.placement.origin;
             for (std::size_t k = 0; k < 3; ++k)

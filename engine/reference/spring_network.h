@@ -75,9 +75,9 @@ struct SpringNetwork {
     /// Throws std::invalid_argument for rigid cloth (no finite stiffness, no energy) and for colliders unless ignored.
     SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options = {});
 
-    std::vector<double> mass;             ///< kg; 0: a particle without a cell, held for ever
-    std::vector<Vec3> rest_position;      ///< m, at the start
-    std::vector<std::int32_t> pin_of;     ///< index into pins, -1 = free
+    std::vector<double> mass;          ///< kg; 0: a particle without a cell, held for ever
+    std::vector<Vec3> rest_position;   ///< m, at the start
+    std::vector<std::int32_t> pin_of;  ///< index into pins, -1 = free
     std::vector<NetworkPin> pins;
     std::vector<NetworkSpring> springs;
     std::vector<BendingElement> bending;

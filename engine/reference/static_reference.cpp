@@ -23,8 +23,8 @@ class EnergyMinimiser {
         double extent = 1e-3;
         for (const Vec3& x : result_.position)
             for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, std::abs(x[k] - result_.position[0][k]));
-        smallest_shift_ = 1e-2 * std::max(std::hypot(network.gravity[0], network.gravity[1], network.gravity[2]), 1.0) /
-                          extent;
+        smallest_shift_ =
+            1e-2 * std::max(std::hypot(network.gravity[0], network.gravity[1], network.gravity[2]), 1.0) / extent;
     }
 
     StaticResult run() {
@@ -70,8 +70,8 @@ class EnergyMinimiser {
             const Eigen::VectorXd gradient = system_.gather(network_.gradient(tried));
             // Where the energy cannot tell any more, the gradient decides.
             const bool indistinct = std::abs(slope) <= 1e-11 * std::abs(energy_);
-            const bool better = energy <= energy_ + 1e-4 * fraction * slope ||
-                                (indistinct && gradient.norm() <= gradient_.norm());
+            const bool better =
+                energy <= energy_ + 1e-4 * fraction * slope || (indistinct && gradient.norm() <= gradient_.norm());
             const bool done = shift_ == 0 && fraction == 1 && result_.last_step <= options_.position_tolerance;
             if (!better && !done) continue;
             result_.position = std::move(tried);
@@ -101,7 +101,7 @@ class EnergyMinimiser {
     StaticResult result_;
     Eigen::VectorXd gradient_;
     double energy_ = 0, shift_ = 0, smallest_shift_ = 0;  ///< J, 1/s^2
-    bool exact_ = false;  ///< the last step came from the exact Hessian (and shift_)
+    bool exact_ = false;                                  ///< the last step came from the exact Hessian (and shift_)
 };
 
 /// Share of the spring stiffness at which the weight stretches the cloth by about a tenth; at most 1.

@@ -127,8 +127,8 @@ class SymplecticRun {
     NetworkKernel kernel_;
     double time_ = 0;
     Planes position_, velocity_, acceleration_, moved_by_;
-    std::vector<double> free_;            ///< 1 or 0
-    std::vector<std::uint32_t> moved_;    ///< held by pins that move
+    std::vector<double> free_;          ///< 1 or 0
+    std::vector<std::uint32_t> moved_;  ///< held by pins that move
     double drift_velocity_ = 0, drift_acceleration_ = 0, kick_displacement_ = 0, kick_acceleration_ = 0, decay_ = 1;
 };
 

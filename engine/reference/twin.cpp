@@ -55,21 +55,36 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
     TwinCloth& state = cloths_[cloth];
     if (step.conditional && !state.iterates) return;
     switch (step.kind) {
-        case StepKind::release: return release(model, state, inputs.pins[cloth], step.substep);
-        case StepKind::wind: return wind(model, state, inputs, step.substep);
-        case StepKind::control: return control(state);
-        case StepKind::predict: return predict(model, state, step.substep > 0);
-        case StepKind::force: return force(model, state, step.substep > 0);
-        case StepKind::explicit_step: return explicit_step(model, state, step.substep > 0);
-        case StepKind::pin: return pin(model, state, inputs.pins[cloth], step.substep);
-        case StepKind::bend: return bend(model, state, step);
-        case StepKind::twist: return twist(model, state, step);
-        case StepKind::spring: return spring(model, state, step);
-        case StepKind::line: return line(model, state, step);
-        case StepKind::tether: return tether(model, state);
-        case StepKind::collide: return collide(model, state, inputs, step.substep);
-        case StepKind::check: return check(model, state, step);
-        case StepKind::advance: return advance(state);
+        case StepKind::release:
+            return release(model, state, inputs.pins[cloth], step.substep);
+        case StepKind::wind:
+            return wind(model, state, inputs, step.substep);
+        case StepKind::control:
+            return control(state);
+        case StepKind::predict:
+            return predict(model, state, step.substep > 0);
+        case StepKind::force:
+            return force(model, state, step.substep > 0);
+        case StepKind::explicit_step:
+            return explicit_step(model, state, step.substep > 0);
+        case StepKind::pin:
+            return pin(model, state, inputs.pins[cloth], step.substep);
+        case StepKind::bend:
+            return bend(model, state, step);
+        case StepKind::twist:
+            return twist(model, state, step);
+        case StepKind::spring:
+            return spring(model, state, step);
+        case StepKind::line:
+            return line(model, state, step);
+        case StepKind::tether:
+            return tether(model, state);
+        case StepKind::collide:
+            return collide(model, state, inputs, step.substep);
+        case StepKind::check:
+            return check(model, state, step);
+        case StepKind::advance:
+            return advance(state);
     }
 }
 
@@ -156,8 +171,8 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             const vec3 moved_first = xyz(state.displacement[first]), moved_second = xyz(state.displacement[second]);
             const vec3 edge =
                 spring_edge(xyz(state.position[first]), xyz(state.position[second]), moved_first, moved_second);
-            const SpringResult result = project_spring(edge, weight_first + weight_second, push.rest_length, share,
-                                                       push.compliance, tension);
+            const SpringResult result =
+                project_spring(edge, weight_first + weight_second, push.rest_length, share, push.compliance, tension);
             state.displacement[first] = texel(moved_by(moved_first, result.correction, -weight_first));
             state.displacement[second] = texel(moved_by(moved_second, result.correction, weight_second));
             tensions[first] = result.tension;

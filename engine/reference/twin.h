@@ -14,7 +14,7 @@ namespace drape {
 /// The images of one cloth, one texel per particle, row by row (units: metres, newtons).
 struct TwinCloth {
     std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
-    std::vector<glsl::vec4> position_spare, displacement_spare;  ///< explicit: where the next micro-step writes
+    std::vector<glsl::vec4> position_spare, displacement_spare;    ///< explicit: where the next micro-step writes
     std::vector<glsl::vec4> displacement_before, velocity_excess;  ///< line in second order
     std::array<std::uint32_t, glsl::control_texel_count> line_control{};  ///< likewise
     /// m, per spring direction, by first particle: what the tension applied in the last substep would stretch it by.

@@ -51,14 +51,12 @@ void Twin::twist(const ClothModel& model, TwinCloth& state, const Step& step) {
                 moved[k] = xyz(state.displacement[i[k]]);
                 weight[k] = state.position[i[k]].w;
             }
-            const float share = model.masked ? twist_share(model.stiffness[i[0]], model.stiffness[i[1]],
-                                                           model.stiffness[i[2]])
-                                             : 1.0f;
+            const float share =
+                model.masked ? twist_share(model.stiffness[i[0]], model.stiffness[i[1]], model.stiffness[i[2]]) : 1.0f;
             const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
                                                      spring_edge(start[2], start[3], moved[2], moved[3]));
-            const vec3 correction =
-                project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]), share,
-                             push.compliance);
+            const vec3 correction = project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]),
+                                                 share, push.compliance);
             state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
             state.displacement[i[1]] = texel(moved_by(moved[1], correction, -weight[1]));
             state.displacement[i[2]] = texel(moved_by(moved[2], correction, -weight[2]));

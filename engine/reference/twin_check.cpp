@@ -36,8 +36,7 @@ ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model
 ResidualRecord strip(const ClothModel& model, const TwinCloth& state, ivec2 first) {
     ResidualRecord record = empty_residual();
     for (int y = first.y; y < first.y + residual_rows && y < model.residual.grid.y; ++y)
-        for (int channel = 0; channel < 2; ++channel)
-            record = with_spring(record, model, state, {first.x, y}, channel);
+        for (int channel = 0; channel < 2; ++channel) record = with_spring(record, model, state, {first.x, y}, channel);
     return record;
 }
 

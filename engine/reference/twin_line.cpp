@@ -11,8 +11,8 @@ using namespace glsl;
 
 void Twin::control(TwinCloth& state) {
     auto& texels = state.line_control;
-    const LineControl next = next_control({texels[control_order], texels[control_previous_order],
-                                           texels[control_violation], texels[control_hold]});
+    const LineControl next = next_control(
+        {texels[control_order], texels[control_previous_order], texels[control_violation], texels[control_hold]});
     texels = {next.order, next.previous_order, next.violation, next.hold};
 }
 

@@ -37,8 +37,7 @@ Vec3 slope_at(const std::vector<MotionKey>& keys, std::size_t k, Vec3 MotionKey:
     if (k == 0 || k + 1 == keys.size()) return {0, 0, 0};
     const double span = keys[k + 1].time - keys[k - 1].time;
     Vec3 slope;
-    for (std::size_t i = 0; i < 3; ++i)
-        slope[i] = ((keys[k + 1].*member)[i] - (keys[k - 1].*member)[i]) / span;
+    for (std::size_t i = 0; i < 3; ++i) slope[i] = ((keys[k + 1].*member)[i] - (keys[k - 1].*member)[i]) / span;
     return slope;
 }
 
@@ -54,8 +53,7 @@ Vec3 interpolate(const std::vector<MotionKey>& keys, std::size_t k, double time,
     const double to_weight = span * s * s * (s - 1);
     Vec3 result;
     for (std::size_t i = 0; i < 3; ++i)
-        result[i] =
-            from[i] + blend * (to[i] - from[i]) + from_weight * slope_from[i] + to_weight * slope_to[i];
+        result[i] = from[i] + blend * (to[i] - from[i]) + from_weight * slope_from[i] + to_weight * slope_to[i];
     return result;
 }
 
@@ -81,12 +79,11 @@ std::array<double, 9> rotation_matrix(const Vec3& degrees) {
 RigidTransform motion_at(const MotionPath& path, double time) {
     const std::vector<MotionKey>& keys = path.keys;
     if (keys.empty()) return {};
-    const auto later = std::upper_bound(keys.begin(), keys.end(), time,
-                                        [](double t, const MotionKey& key) { return t < key.time; });
+    const auto later =
+        std::upper_bound(keys.begin(), keys.end(), time, [](double t, const MotionKey& key) { return t < key.time; });
     if (later == keys.begin()) return {rotation_matrix(keys.front().rotate), keys.front().translate};
     const auto k = static_cast<std::size_t>(later - keys.begin()) - 1;
-    if (later == keys.end() || time == keys[k].time)
-        return {rotation_matrix(keys[k].rotate), keys[k].translate};
+    if (later == keys.end() || time == keys[k].time) return {rotation_matrix(keys[k].rotate), keys[k].translate};
     return {rotation_matrix(interpolate(keys, k, time, &MotionKey::rotate)),
             interpolate(keys, k, time, &MotionKey::translate)};
 }

@@ -29,8 +29,7 @@ bool read_name(const SceneNode& node, std::size_t index, std::string& name) {
     name = index == 0 ? "cloth" : fmt::format("cloth{}", index + 1);
     if (!node.read(name)) return false;
     const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-               c == '-';
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     });
     if (is_plain && !name.empty() && name.size() <= 64) return true;
     return node.fail_expected("a name of 1 to 64 letters, digits, _ and - (it becomes a file name)");
@@ -99,11 +98,10 @@ void read_edge(const SceneNode& node, const std::array<std::uint32_t, 2>& grid, 
 void read_corner(const SceneNode& node, const std::array<std::uint32_t, 2>& grid, IndexBox& box) {
     const std::uint32_t right = grid[0] - 1;
     const std::uint32_t bottom = grid[1] - 1;
-    const std::pair<std::string_view, IndexBox> places[] = {
-        {"top_left", {{0, 0}, {0, 0}}},
-        {"top_right", {{right, 0}, {right, 0}}},
-        {"bottom_left", {{0, bottom}, {0, bottom}}},
-        {"bottom_right", {{right, bottom}, {right, bottom}}}};
+    const std::pair<std::string_view, IndexBox> places[] = {{"top_left", {{0, 0}, {0, 0}}},
+                                                            {"top_right", {{right, 0}, {right, 0}}},
+                                                            {"bottom_left", {{0, bottom}, {0, bottom}}},
+                                                            {"bottom_right", {{right, bottom}, {right, bottom}}}};
     node.read_choice<IndexBox>(box, places);
 }
 
@@ -115,8 +113,7 @@ void read_pin(SceneNode node, const std::array<std::uint32_t, 2>& grid, Pin& pin
     const SceneNode box = node.member("box");
     const int selector_count = bool(edge) + bool(corner) + bool(at) + bool(box);
     if (selector_count != 1)
-        node.fail(
-            fmt::format("expected exactly one of edge, corner, at and box, got {} of them", selector_count));
+        node.fail(fmt::format("expected exactly one of edge, corner, at and box, got {} of them", selector_count));
     read_edge(edge, grid, pin.particles);
     read_corner(corner, grid, pin.particles);
     if (at && read_particle(at, grid, pin.particles.first)) pin.particles.last = pin.particles.first;
@@ -145,13 +142,12 @@ void check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
         for (const double x : corner) farthest = std::max(farthest, std::abs(x));
     const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const auto single = static_cast<float>(farthest);
-    const double ulp =
-        static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
+    const double ulp = static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
     if (ulp <= 0.25 * edge) return;
-    cloth_node.fail(fmt::format(
-        "expected a cloth that single precision resolves: at {:.6g} m from the origin it is exact to "
-        "{:.3g} m, more than a quarter of the edge length {:.3g} m",
-        farthest, ulp, edge));
+    cloth_node.fail(
+        fmt::format("expected a cloth that single precision resolves: at {:.6g} m from the origin it is exact to "
+                    "{:.3g} m, more than a quarter of the edge length {:.3g} m",
+                    farthest, ulp, edge));
 }
 
 void read_particle_boxes(const SceneNode& node, bool has_grid, Cloth& cloth) {
@@ -161,8 +157,7 @@ void read_particle_boxes(const SceneNode& node, bool has_grid, Cloth& cloth) {
     const SceneNode holes = node.member("holes");
     if (holes.open_array("an array of boxes", 0, 1'000'000)) {
         cloth.holes.assign(holes.value()->size(), {});
-        for (std::size_t i = 0; i < cloth.holes.size(); ++i)
-            read_index_box(holes.element(i), grid, cloth.holes[i]);
+        for (std::size_t i = 0; i < cloth.holes.size(); ++i) read_index_box(holes.element(i), grid, cloth.holes[i]);
     }
     const SceneNode pins = node.member("pins");
     if (pins.open_array("an array of pins", 0, 1'000'000)) {
@@ -207,8 +202,8 @@ void count_particles(const SceneNode& grid, const Cloth& cloth, std::uint64_t& t
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     total = count > most - total ? most : total + count;
     if (before <= scene_particle_limit && total > scene_particle_limit)
-        grid.fail(fmt::format("expected at most {} particles in all cloths together, got {}",
-                              scene_particle_limit, total));
+        grid.fail(
+            fmt::format("expected at most {} particles in all cloths together, got {}", scene_particle_limit, total));
 }
 
 bool start_boxes_meet(const Cloth& a, const Cloth& b) {
@@ -226,9 +221,8 @@ bool start_boxes_meet(const Cloth& a, const Cloth& b) {
 // One warning per cloth, naming the first of the earlier ones it meets.
 void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
     for (std::size_t i = 1; i < cloths.size(); ++i) {
-        const auto other =
-            std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i),
-                         [&](const Cloth& earlier) { return start_boxes_meet(earlier, cloths[i]); });
+        const auto other = std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const Cloth& earlier) { return start_boxes_meet(earlier, cloths[i]); });
         if (other - cloths.begin() == static_cast<std::ptrdiff_t>(i)) continue;
         node.element(i).warn(
             fmt::format("cloths \"{}\" and \"{}\" are set to touch, but will pass through each other: "

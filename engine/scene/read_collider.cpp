@@ -14,8 +14,7 @@ void read_common(const SceneNode& node, ColliderCommon& common) {
 }
 
 template <typename Collider, typename ReadShape>
-void read_list(const SceneNode& node, ObjectKind kind, std::vector<Collider>& colliders,
-               ReadShape read_shape) {
+void read_list(const SceneNode& node, ObjectKind kind, std::vector<Collider>& colliders, ReadShape read_shape) {
     if (!node.open_array("an array of at most 1024 colliders", 0, collider_limit)) return;
     colliders.assign(node.value()->size(), {});
     for (std::size_t i = 0; i < colliders.size(); ++i) {
@@ -40,11 +39,10 @@ void read_colliders(SceneNode node, Colliders& colliders) {
                   sphere.member("center").read(field.center);
                   sphere.member("radius").read(field.radius, positive);
               });
-    read_list(node.member("boxes"), ObjectKind::box, colliders.boxes,
-              [](const SceneNode& box, BoxCollider& field) {
-                  box.member("center").read(field.center);
-                  box.member("half_extents").read(field.half_extents, positive);
-              });
+    read_list(node.member("boxes"), ObjectKind::box, colliders.boxes, [](const SceneNode& box, BoxCollider& field) {
+        box.member("center").read(field.center);
+        box.member("half_extents").read(field.half_extents, positive);
+    });
     read_list(node.member("ellipsoids"), ObjectKind::ellipsoid, colliders.ellipsoids,
               [](const SceneNode& ellipsoid, EllipsoidCollider& field) {
                   ellipsoid.member("center").read(field.center);

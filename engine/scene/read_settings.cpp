@@ -39,7 +39,8 @@ void read_solver(SceneNode node, SolverSettings& solver) {
     if (substeps.read(solver.substeps, 1, 4096) && substeps && is_automatic)
         substeps.warn("substeps is ignored by method auto, which chooses: name a method to set it");
     if (iterations.read(solver.iterations, 1, 1024) && iterations) {
-        if (is_automatic) iterations.warn("iterations is ignored by method auto, which chooses: name a method to set it");
+        if (is_automatic)
+            iterations.warn("iterations is ignored by method auto, which chooses: name a method to set it");
         if (is_explicit && solver.iterations > 1)
             iterations.warn("iterations is ignored by method explicit: a micro-step solves nothing");
     }

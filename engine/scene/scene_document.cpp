@@ -44,11 +44,9 @@ std::vector<SyntaxError> split_report(const std::string& report) {
     }
     // After a first error these two only say that the rest was not read.
     const auto is_consequence = [](const SyntaxError& error) {
-        return error.message.starts_with("Extra non-whitespace") ||
-               error.message.starts_with("A valid JSON document");
+        return error.message.starts_with("Extra non-whitespace") || error.message.starts_with("A valid JSON document");
     };
-    if (!errors.empty())
-        errors.erase(std::remove_if(errors.begin() + 1, errors.end(), is_consequence), errors.end());
+    if (!errors.empty()) errors.erase(std::remove_if(errors.begin() + 1, errors.end(), is_consequence), errors.end());
     return errors;
 }
 
@@ -64,8 +62,7 @@ std::optional<Json::Value> parse_single(const std::string& bracketed) {
     Json::Value list;
     try {
         const std::string finite = with_finite_numbers(bracketed);
-        if (!strict_reader()->parse(finite.data(), finite.data() + finite.size(), &list, nullptr))
-            return std::nullopt;
+        if (!strict_reader()->parse(finite.data(), finite.data() + finite.size(), &list, nullptr)) return std::nullopt;
     } catch (const Json::Exception&) {
         return std::nullopt;
     }
@@ -107,8 +104,7 @@ void SceneDocument::parse(std::string_view text) {
     } catch (const Json::Exception& exception) {
         return fail(0, "", exception.what());
     }
-    for (const SyntaxError& error : split_report(report))
-        fail(lines_.offset_of(error.place), "", error.message);
+    for (const SyntaxError& error : split_report(report)) fail(lines_.offset_of(error.place), "", error.message);
     if (errors_.empty()) fail(0, "", "expected a JSON document");
 }
 
@@ -136,14 +132,12 @@ std::string_view SceneDocument::written(const Json::Value& value) const {
     return std::string_view(text_).substr(begin, end - begin);
 }
 
-std::size_t SceneDocument::key_offset(const Json::Value& object, const std::string& key,
-                                      const Json::Value& value) {
+std::size_t SceneDocument::key_offset(const Json::Value& object, const std::string& key, const Json::Value& value) {
     const auto begin = static_cast<std::size_t>(object.getOffsetStart());
     auto [entry, is_new] = keys_.try_emplace(&object);
     if (is_new && text_[begin] == '{') entry->second = key_offsets(std::string_view(text_).substr(begin));
     const auto found = entry->second.find(key);
-    return found != entry->second.end() ? begin + found->second
-                                        : static_cast<std::size_t>(value.getOffsetStart());
+    return found != entry->second.end() ? begin + found->second : static_cast<std::size_t>(value.getOffsetStart());
 }
 
 void SceneDocument::apply_override(const std::string& override_text) {
@@ -167,8 +161,7 @@ void SceneDocument::apply_override(const std::string& override_text) {
         return;
     }
     const std::string word = override_text.substr(equals + 1);
-    if (const auto fault = find_text_fault(bracketed);
-        fault && fault->message.find("UTF-8") != std::string::npos)
+    if (const auto fault = find_text_fault(bracketed); fault && fault->message.find("UTF-8") != std::string::npos)
         return fail(begin, pointer, fault->message);
     *target = word;
     target->setOffsetStart(static_cast<std::ptrdiff_t>(begin + 1));
@@ -185,8 +178,8 @@ Json::Value* SceneDocument::find_target(const std::string& pointer, std::size_t 
             const auto index = parse_index(token);
             if (!index || *index >= value->size()) {
                 fail(offset, pointer.substr(0, end),
-                     fmt::format("expected an index into the {} elements of {}, got \"{}\"", value->size(),
-                                 parent, token));
+                     fmt::format("expected an index into the {} elements of {}, got \"{}\"", value->size(), parent,
+                                 token));
                 return nullptr;
             }
             value = &(*value)[*index];
@@ -200,8 +193,7 @@ Json::Value* SceneDocument::find_target(const std::string& pointer, std::size_t 
             }
         } else {
             fail(offset, pointer.substr(0, end),
-                 fmt::format("expected {} to be an object or an array",
-                             parent.empty() ? "the scene" : parent));
+                 fmt::format("expected {} to be an object or an array", parent.empty() ? "the scene" : parent));
             return nullptr;
         }
         begin = end + 1;

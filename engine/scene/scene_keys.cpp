@@ -15,9 +15,8 @@ constexpr Key scene_keys[] = {"$schema", "name",   "time",   "gravity", "wind", 
 constexpr Key time_keys[] = {"fps", "frames"};
 constexpr Key wind_keys[] = {"velocity", "gust", "air_density", "drag", "lift"};
 constexpr Key gust_keys[] = {"amplitude", "period", "seed"};
-constexpr Key cloth_keys[] = {"name",      "grid",    "size",      "placement", "areal_density",
-                              "stiffness", "damping", "friction",  "thickness", "velocity",
-                              "holes",     "pins",    "appearance"};
+constexpr Key cloth_keys[] = {"name",     "grid",      "size",     "placement", "areal_density", "stiffness", "damping",
+                              "friction", "thickness", "velocity", "holes",     "pins",          "appearance"};
 constexpr Key placement_keys[] = {"origin", "u", "v"};
 constexpr Key stiffness_keys[] = {"stretch", "shear", "bend"};
 constexpr Key pin_keys[] = {"edge", "corner", "at", "box", "release", "path", "pivot"};
@@ -29,8 +28,7 @@ constexpr Key sphere_keys[] = {"center", "radius", "friction", "rotate", "path",
 constexpr Key box_keys[] = {"center", "half_extents", "friction", "rotate", "path", "color"};
 constexpr Key ellipsoid_keys[] = {"center", "radii", "friction", "rotate", "path", "color"};
 constexpr Key cutter_keys[] = {"triangle", "active", "path"};
-constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance",
-                               "strain_damping", "tethers"};
+constexpr Key solver_keys[] = {"method", "substeps", "iterations", "collide", "tolerance", "strain_damping", "tethers"};
 constexpr Key camera_keys[] = {"position", "target", "fov"};
 constexpr Key light_keys[] = {"direction", "color", "intensity"};
 constexpr Key image_keys[] = {"size", "samples", "background"};

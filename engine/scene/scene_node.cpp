@@ -59,13 +59,11 @@ bool SceneNode::open_object(ObjectKind kind) {
         const std::string key = it.name();
         if (has_key(*keys_, key)) continue;
         const std::string_view nearest = nearest_key(*keys_, key);
-        const std::string hint = nearest.empty()
-                                     ? fmt::format("expected one of {}", fmt::join(keys_->keys, ", "))
-                                     : fmt::format("expected \"{}\"", nearest);
+        const std::string hint = nearest.empty() ? fmt::format("expected one of {}", fmt::join(keys_->keys, ", "))
+                                                 : fmt::format("expected \"{}\"", nearest);
         SceneDocument& document = report_->document;
-        report_->errors.push_back(
-            document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
-                           fmt::format("{}, got the unknown key \"{}\"", hint, shortened(key))));
+        report_->errors.push_back(document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
+                                                 fmt::format("{}, got the unknown key \"{}\"", hint, shortened(key))));
     }
     return true;
 }

@@ -10,9 +10,7 @@ namespace drape {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool continues_number(char c) {
-    return is_digit(c) || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
-}
+bool continues_number(char c) { return is_digit(c) || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E'; }
 
 // number = [-] (0 | 1-9 digits) [. digits] [e|E [+|-] digits]
 bool is_json_number(std::string_view token) {
@@ -167,8 +165,7 @@ std::string unescaped(std::string_view quoted) {
         constexpr std::string_view letters = "bfnrt";
         constexpr std::string_view meanings = "\b\f\n\r\t";
         if (escape == 'u' && i + 4 < quoted.size()) {
-            append_utf8(key,
-                        static_cast<unsigned>(std::stoul(std::string(quoted.substr(i + 1, 4)), nullptr, 16)));
+            append_utf8(key, static_cast<unsigned>(std::stoul(std::string(quoted.substr(i + 1, 4)), nullptr, 16)));
             i += 4;
         } else if (const std::size_t letter = letters.find(escape); letter != std::string_view::npos) {
             key.push_back(meanings[letter]);
@@ -183,16 +180,14 @@ std::string unescaped(std::string_view quoted) {
 
 LineTable::LineTable(std::string_view text) : size_(text.size()) {
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool ends =
-            text[i] == '\n' || (text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n'));
+        const bool ends = text[i] == '\n' || (text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n'));
         if (ends) starts_.push_back(i + 1);
     }
 }
 
 LineColumn LineTable::at(std::size_t offset) const {
     const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);
-    return {static_cast<std::uint32_t>(after - starts_.begin()),
-            static_cast<std::uint32_t>(offset - after[-1] + 1)};
+    return {static_cast<std::uint32_t>(after - starts_.begin()), static_cast<std::uint32_t>(offset - after[-1] + 1)};
 }
 
 std::size_t LineTable::offset_of(LineColumn place) const {

@@ -34,8 +34,7 @@ void require_possible(const Device& device, const BufferDescription& description
 Buffer::Buffer(const Device& device, const BufferDescription& description, Empty)
     : device_(&device), description_(description) {}
 
-Buffer::Buffer(const Device& device, const BufferDescription& description)
-    : Buffer(device, description, Empty{}) {
+Buffer::Buffer(const Device& device, const BufferDescription& description) : Buffer(device, description, Empty{}) {
     require_possible(device, description);
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = description.byte_count;
@@ -66,8 +65,7 @@ Buffer::Buffer(const Device& device, const BufferDescription& description)
 
 void Buffer::map() {
     void* address = nullptr;
-    check(vkMapMemory(device_->handle(), memory_, 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory",
-          description_.name);
+    check(vkMapMemory(device_->handle(), memory_, 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory", description_.name);
     mapped_ = static_cast<std::byte*>(address);
 }
 

@@ -20,16 +20,15 @@ std::array<std::uint32_t, 3> specialized_local_size(const ReflectedModule& modul
     return size;
 }
 
-void require_local_size(const Device& device, const std::string& name,
-                        const std::array<std::uint32_t, 3>& size) {
+void require_local_size(const Device& device, const std::string& name, const std::array<std::uint32_t, 3>& size) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     bool fits = std::uint64_t{size[0]} * size[1] * size[2] <= limits.maxComputeWorkGroupInvocations;
     for (std::size_t axis = 0; axis < size.size(); ++axis) {
         fits = fits && size[axis] > 0 && size[axis] <= limits.maxComputeWorkGroupSize[axis];
     }
     if (!fits) {
-        throw VulkanError(fmt::format("pipeline {}: the device cannot have workgroups of {} x {} x {}", name,
-                                      size[0], size[1], size[2]));
+        throw VulkanError(fmt::format("pipeline {}: the device cannot have workgroups of {} x {} x {}", name, size[0],
+                                      size[1], size[2]));
     }
 }
 
@@ -43,8 +42,7 @@ ComputePipeline::ComputePipeline(const Device& device, std::string name, const S
     require_constants(name_, constants, stages);
     local_size_ = specialized_local_size(stage.reflected(), constants);
     require_local_size(device, name_, local_size_);
-    const std::pair<VkShaderStageFlagBits, ShaderInterface> interfaces[] = {
-        {VK_SHADER_STAGE_COMPUTE_BIT, shader}};
+    const std::pair<VkShaderStageFlagBits, ShaderInterface> interfaces[] = {{VK_SHADER_STAGE_COMPUTE_BIT, shader}};
     make_layout(interfaces);
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage = stage.create_info();

@@ -62,8 +62,7 @@ std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory
     return cpu ? std::min(limit, available_memory() / 4 * 3) : limit;
 }
 
-Device::Device(const Instance& instance, DeviceInfo info, Empty)
-    : instance_(instance), info_(std::move(info)) {}
+Device::Device(const Instance& instance, DeviceInfo info, Empty) : instance_(instance), info_(std::move(info)) {}
 
 Device::Device(const Instance& instance, std::string_view selector)
     : Device(instance, select_device(instance.devices(), selector), Empty{}) {
@@ -84,10 +83,10 @@ Device::Device(const Instance& instance, std::string_view selector)
 }
 
 void Device::read_limits() {
-    auto properties11 = structure<VkPhysicalDeviceVulkan11Properties>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
-    auto properties13 = structure<VkPhysicalDeviceVulkan13Properties>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
+    auto properties11 =
+        structure<VkPhysicalDeviceVulkan11Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
+    auto properties13 =
+        structure<VkPhysicalDeviceVulkan13Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
     auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
     auto all = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
@@ -101,8 +100,7 @@ void Device::read_limits() {
     max_allocation_size_ = properties11.maxMemoryAllocationSize;
 
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    budget_ =
-        MemoryBudget(memory_budget_limit(memory_, properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
+    budget_ = MemoryBudget(memory_budget_limit(memory_, properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
 
     queue_family_ = find_queue_family(physical_).value();  // a usable device has one
     std::uint32_t count = queue_family_ + 1;
@@ -149,8 +147,8 @@ std::uint32_t Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags
             if (allowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
         }
     }
-    throw VulkanError(fmt::format("{} has no memory type with the properties {:#x} among the types {:#x}",
-                                  info_.name, required, type_bits));
+    throw VulkanError(fmt::format("{} has no memory type with the properties {:#x} among the types {:#x}", info_.name,
+                                  required, type_bits));
 }
 
 VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,

@@ -66,11 +66,9 @@ std::string missing_format(VkPhysicalDevice physical) {
         std::string_view text;
     };
     constexpr Need needs[] = {
-        {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT,
-         "R32G32B32A32_SFLOAT storage images"},
+        {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "R32G32B32A32_SFLOAT storage images"},
         {VK_FORMAT_R32_SFLOAT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "R32_SFLOAT storage images"},
-        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
-         "D32_SFLOAT depth attachments"},
+        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D32_SFLOAT depth attachments"},
         {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "R8G8B8A8_SRGB colour attachments"},
     };
     for (const Need& need : needs) {
@@ -106,8 +104,7 @@ std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical) {
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
     constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (std::uint32_t family = 0; family < count; ++family) {
-        if ((families[family].queueFlags & needed) == needed && families[family].queueCount > 0)
-            return family;
+        if ((families[family].queueFlags & needed) == needed && families[family].queueCount > 0) return family;
     }
     return std::nullopt;
 }
@@ -122,8 +119,7 @@ DeviceInfo describe_device(VkPhysicalDevice physical, std::uint32_t index) {
     info.api_version = version_text(properties.apiVersion);
     info.driver_version = version_text(properties.driverVersion);
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
-        auto driver =
-            structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+        auto driver = structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
         auto id = structure<VkPhysicalDeviceIDProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES);
         id.pNext = &driver;
         auto all = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);

@@ -72,9 +72,9 @@ const DeviceInfo& by_uuid_or_name(std::span<const DeviceInfo> devices, std::stri
     for (const auto* matches : {&same_uuid, &same_name, &name_contains}) {
         if (matches->size() == 1) return *matches->front();
         if (matches->size() > 1) {
-            refuse(fmt::format("device \"{}\" is ambiguous ({} devices match), use the index", selector,
-                               matches->size()),
-                   devices);
+            refuse(
+                fmt::format("device \"{}\" is ambiguous ({} devices match), use the index", selector, matches->size()),
+                devices);
         }
     }
     refuse(fmt::format("no device matches \"{}\" (INDEX, NAME, UUID or cpu)", selector), devices);
@@ -85,10 +85,9 @@ const DeviceInfo& by_uuid_or_name(std::span<const DeviceInfo> devices, std::stri
 std::string device_list_text(std::span<const DeviceInfo> devices) {
     std::string text;
     for (const DeviceInfo& device : devices) {
-        text +=
-            fmt::format("  {}: {} [{}, Vulkan {}, {} {}, UUID {}]{}{}\n", device.index, device.name,
-                        device.type, device.api_version, device.driver, device.driver_version,
-                        device.uuid_text(), device.usable ? "" : " cannot be used: ", device.unusable_reason);
+        text += fmt::format("  {}: {} [{}, Vulkan {}, {} {}, UUID {}]{}{}\n", device.index, device.name, device.type,
+                            device.api_version, device.driver, device.driver_version, device.uuid_text(),
+                            device.usable ? "" : " cannot be used: ", device.unusable_reason);
     }
     if (!text.empty()) text.pop_back();
     return text;
@@ -101,12 +100,10 @@ const DeviceInfo& select_device(std::span<const DeviceInfo> devices, std::string
         refuse("no usable Vulkan device", devices);
     }
     if (selector == "cpu") return first_cpu(devices);
-    const bool digits =
-        std::all_of(selector.begin(), selector.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool digits = std::all_of(selector.begin(), selector.end(), [](char c) { return c >= '0' && c <= '9'; });
     const DeviceInfo& chosen = digits ? by_index(devices, selector) : by_uuid_or_name(devices, selector);
     if (!chosen.usable) {
-        refuse(fmt::format("device {} ({}) cannot be used: {}", chosen.index, chosen.name,
-                           chosen.unusable_reason),
+        refuse(fmt::format("device {} ({}) cannot be used: {}", chosen.index, chosen.name, chosen.unusable_reason),
                devices);
     }
     return chosen;

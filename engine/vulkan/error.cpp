@@ -8,8 +8,7 @@ namespace {
 
 std::string failure_text(VkResult result, std::string_view call, std::string_view object) {
     const std::string_view name = result_name(result);
-    const std::string code =
-        name.empty() ? fmt::format("VkResult {}", static_cast<int>(result)) : std::string(name);
+    const std::string code = name.empty() ? fmt::format("VkResult {}", static_cast<int>(result)) : std::string(name);
     return object.empty() ? fmt::format("{}: {}", call, code) : fmt::format("{}({}): {}", call, object, code);
 }
 

@@ -16,8 +16,8 @@ namespace {
 void require_read_only(const std::string& pipeline, const ShaderInterface& shader) {
     for (const DescriptorDeclaration& descriptor : shader.descriptors) {
         if (descriptor.access != DescriptorAccess::read) {
-            throw VulkanError(fmt::format("pipeline {}: {} writes binding {} ({}); graphics stages only read",
-                                          pipeline, shader.module, descriptor.binding, descriptor.name));
+            throw VulkanError(fmt::format("pipeline {}: {} writes binding {} ({}); graphics stages only read", pipeline,
+                                          shader.module, descriptor.binding, descriptor.name));
         }
     }
 }
@@ -37,8 +37,8 @@ struct FixedFunctions {
         depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED;
         depth.depthWriteEnable = depth.depthTestEnable && state.depth_write;
         depth.depthCompareOp = VK_COMPARE_OP_LESS;
-        attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                    VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+        attachment.colorWriteMask =
+            VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
         blend.attachmentCount = has_color ? 1 : 0;
         blend.pAttachments = &attachment;
         dynamic.dynamicStateCount = 2;
@@ -68,20 +68,20 @@ struct FixedFunctions {
     VkFormat color_format;
     VkDynamicState dynamic_states[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineColorBlendAttachmentState attachment{};
-    VkPipelineVertexInputStateCreateInfo vertex_input = structure<VkPipelineVertexInputStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-    VkPipelineInputAssemblyStateCreateInfo assembly = structure<VkPipelineInputAssemblyStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    VkPipelineVertexInputStateCreateInfo vertex_input =
+        structure<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    VkPipelineInputAssemblyStateCreateInfo assembly =
+        structure<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     VkPipelineViewportStateCreateInfo viewport =
         structure<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
-    VkPipelineRasterizationStateCreateInfo rasterization = structure<VkPipelineRasterizationStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
-    VkPipelineMultisampleStateCreateInfo multisample = structure<VkPipelineMultisampleStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
-    VkPipelineDepthStencilStateCreateInfo depth = structure<VkPipelineDepthStencilStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
-    VkPipelineColorBlendStateCreateInfo blend = structure<VkPipelineColorBlendStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    VkPipelineRasterizationStateCreateInfo rasterization =
+        structure<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    VkPipelineMultisampleStateCreateInfo multisample =
+        structure<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    VkPipelineDepthStencilStateCreateInfo depth =
+        structure<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    VkPipelineColorBlendStateCreateInfo blend =
+        structure<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     VkPipelineDynamicStateCreateInfo dynamic =
         structure<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     VkPipelineRenderingCreateInfo rendering =

@@ -33,16 +33,15 @@ VkImageCreateInfo create_info(const ImageDescription& description) {
 /// Throws unless the device and its memory budget can take the image: asked before anything is created,
 /// since drivers find out as late as when the memory is bound, or never.
 void require_possible(const Device& device, const ImageDescription& description) {
-    if (description.width == 0 || description.height == 0)
-        refuse(description, "both sides must be at least 1");
+    if (description.width == 0 || description.height == 0) refuse(description, "both sides must be at least 1");
     const std::uint32_t side = device.limits().maxImageDimension2D;
     if (description.width > side || description.height > side) {
         refuse(description, fmt::format("the device's limit is {} x {}", side, side));
     }
     const VkImageCreateInfo info = create_info(description);
     VkImageFormatProperties properties;
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        device.physical(), info.format, info.imageType, info.tiling, info.usage, info.flags, &properties);
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType,
+                                                                     info.tiling, info.usage, info.flags, &properties);
     if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) {
         refuse(description, fmt::format("the device has no images of VkFormat {} with the usage {:#x}",
                                         static_cast<int>(info.format), info.usage));
@@ -57,12 +56,10 @@ void require_possible(const Device& device, const ImageDescription& description)
                                         static_cast<int>(description.samples)));
     }
     // The sides are within the device's limit, so 64 bits hold the product.
-    const std::uint64_t bytes = std::uint64_t{description.width} * description.height *
-                                texel_size(description.format) *
+    const std::uint64_t bytes = std::uint64_t{description.width} * description.height * texel_size(description.format) *
                                 static_cast<std::uint32_t>(description.samples);
     if (bytes > properties.maxResourceSize) {
-        refuse(description,
-               fmt::format("{} bytes, the device's limit is {}", bytes, properties.maxResourceSize));
+        refuse(description, fmt::format("{} bytes, the device's limit is {}", bytes, properties.maxResourceSize));
     }
     device.budget().require(bytes, "image " + description.name);
 }
@@ -97,16 +94,14 @@ std::uint32_t texel_size(VkFormat format) {
 Image::Image(const Device& device, const ImageDescription& description, Empty)
     : device_(&device), description_(description) {}
 
-Image::Image(const Device& device, const ImageDescription& description)
-    : Image(device, description, Empty{}) {
+Image::Image(const Device& device, const ImageDescription& description) : Image(device, description, Empty{}) {
     require_possible(device, description);
     const VkImageCreateInfo info = create_info(description);
     create_handle(vkCreateImage, device.handle(), info, handle_, "vkCreateImage", description.name);
     device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_), description.name);
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), handle_, &requirements);
-    memory_ =
-        device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
+    memory_ = device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
     byte_count_ = requirements.size;
     check(vkBindImageMemory(device.handle(), handle_, memory_, 0), "vkBindImageMemory", description.name);
     // An image that is only copied can have no view.
@@ -140,8 +135,7 @@ Image::Image(Image&& other) noexcept
       byte_count_(std::exchange(other.byte_count_, 0)) {}
 
 VkImageAspectFlags Image::aspect() const {
-    return description_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                       : VK_IMAGE_ASPECT_COLOR_BIT;
+    return description_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 }  // namespace drape::vulkan

@@ -19,8 +19,7 @@ struct Instance::Echo {
 
     static VKAPI_ATTR VkBool32 VKAPI_CALL callback(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                    VkDebugUtilsMessageTypeFlagsEXT types,
-                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                                   void* user_data);
+                                                   const VkDebugUtilsMessengerCallbackDataEXT* data, void* user_data);
     VkDebugUtilsMessengerCreateInfoEXT create_info();
 };
 
@@ -30,8 +29,7 @@ constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
 /// The layer finds copies and clears in GENERAL slow. It gives real layout errors the same message id, so
 /// the type and the text decide.
-bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_view id,
-                            std::string_view text) {
+bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_view id, std::string_view text) {
     return types == VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT &&
            id == "UNASSIGNED-CoreValidation-DrawState-InvalidImageLayout" &&
            text.find("instead of GENERAL") != std::string_view::npos;
@@ -55,8 +53,7 @@ void require_validation_layer() {
         return std::strcmp(layer.layerName, validation_layer) == 0;
     });
     if (!found) {
-        throw VulkanError(
-            fmt::format("validation was asked for, but the layer {} is not installed", validation_layer));
+        throw VulkanError(fmt::format("validation was asked for, but the layer {} is not installed", validation_layer));
     }
 }
 
@@ -76,13 +73,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL Instance::Echo::callback(VkDebugUtilsMessageSever
 }
 
 VkDebugUtilsMessengerCreateInfoEXT Instance::Echo::create_info() {
-    auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(
-        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+    auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // Not GENERAL: those are the loader's remarks on drivers for hardware that is not there.
-    info.messageType =
-        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = callback;
     info.pUserData = this;
     return info;
@@ -138,16 +133,14 @@ void Instance::create(bool validation) {
 
     // Core validation is on by default; synchronization validation is not, and is what finds a missing
     // barrier.
-    constexpr VkValidationFeatureEnableEXT enabled[] = {
-        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    constexpr VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = enabled;
     // Chained as well: the messenger proper does not live during vkCreateInstance and vkDestroyInstance.
     VkDebugUtilsMessengerCreateInfoEXT messenger = echo_->create_info();
     features.pNext = &messenger;
-    constexpr const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
-                                          VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    constexpr const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     if (validation) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
@@ -165,8 +158,7 @@ void Instance::list_devices() {
     std::uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
     physical_devices_.resize(count);
-    check(vkEnumeratePhysicalDevices(handle_, &count, physical_devices_.data()),
-          "vkEnumeratePhysicalDevices");
+    check(vkEnumeratePhysicalDevices(handle_, &count, physical_devices_.data()), "vkEnumeratePhysicalDevices");
     physical_devices_.resize(count);
     for (std::uint32_t index = 0; index < count; ++index) {
         devices_.push_back(describe_device(physical_devices_[index], index));

@@ -13,8 +13,7 @@ namespace drape::vulkan {
 namespace {
 
 VkDescriptorType descriptor_type(DescriptorKind kind) {
-    return kind == DescriptorKind::storage_image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                 : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    return kind == DescriptorKind::storage_image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 bool same_binding(const DescriptorDeclaration& a, const DescriptorDeclaration& b) {
@@ -24,20 +23,18 @@ bool same_binding(const DescriptorDeclaration& a, const DescriptorDeclaration& b
 
 /// `pipeline` may push this many storage images and buffers per stage.
 void require_counts(const Device& device, const std::string& pipeline, const ShaderInterface& shader) {
-    const auto images = static_cast<std::uint32_t>(std::count_if(
-        shader.descriptors.begin(), shader.descriptors.end(),
-        [](const DescriptorDeclaration& d) { return d.kind == DescriptorKind::storage_image; }));
+    const auto images = static_cast<std::uint32_t>(
+        std::count_if(shader.descriptors.begin(), shader.descriptors.end(),
+                      [](const DescriptorDeclaration& d) { return d.kind == DescriptorKind::storage_image; }));
     const auto buffers = static_cast<std::uint32_t>(shader.descriptors.size()) - images;
     const VkPhysicalDeviceLimits& limits = device.limits();
     if (images > limits.maxPerStageDescriptorStorageImages) {
-        throw VulkanError(fmt::format("pipeline {}: {} has {} storage images, the device's limit is {}",
-                                      pipeline, shader.module, images,
-                                      limits.maxPerStageDescriptorStorageImages));
+        throw VulkanError(fmt::format("pipeline {}: {} has {} storage images, the device's limit is {}", pipeline,
+                                      shader.module, images, limits.maxPerStageDescriptorStorageImages));
     }
     if (buffers > limits.maxPerStageDescriptorStorageBuffers) {
-        throw VulkanError(fmt::format("pipeline {}: {} has {} storage buffers, the device's limit is {}",
-                                      pipeline, shader.module, buffers,
-                                      limits.maxPerStageDescriptorStorageBuffers));
+        throw VulkanError(fmt::format("pipeline {}: {} has {} storage buffers, the device's limit is {}", pipeline,
+                                      shader.module, buffers, limits.maxPerStageDescriptorStorageBuffers));
     }
 }
 
@@ -63,9 +60,8 @@ void Pipeline::make_layout(std::span<const std::pair<VkShaderStageFlagBits, Shad
                 descriptors_.push_back(descriptor);
             }
             binding->second.stageFlags |= stage;
-            const auto first = std::find_if(descriptors_.begin(), descriptors_.end(), [&](const auto& other) {
-                return other.binding == descriptor.binding;
-            });
+            const auto first = std::find_if(descriptors_.begin(), descriptors_.end(),
+                                            [&](const auto& other) { return other.binding == descriptor.binding; });
             if (!same_binding(*first, descriptor)) {
                 throw VulkanError(
                     fmt::format("pipeline {}: binding {} is {} in one stage and {}, or declared "
@@ -85,22 +81,21 @@ void Pipeline::make_layout(std::span<const std::pair<VkShaderStageFlagBits, Shad
 
 void Pipeline::make_layout_handles(const std::map<std::uint32_t, VkDescriptorSetLayoutBinding>& bindings) {
     if (bindings.size() > device_.max_push_descriptors()) {
-        throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_,
-                                      bindings.size(), device_.max_push_descriptors()));
+        throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_, bindings.size(),
+                                      device_.max_push_descriptors()));
     }
     if (push_constant_size_ > device_.limits().maxPushConstantsSize) {
-        throw VulkanError(fmt::format("pipeline {} has {} bytes of push constants, the device's limit is {}",
-                                      name_, push_constant_size_, device_.limits().maxPushConstantsSize));
+        throw VulkanError(fmt::format("pipeline {} has {} bytes of push constants, the device's limit is {}", name_,
+                                      push_constant_size_, device_.limits().maxPushConstantsSize));
     }
     std::vector<VkDescriptorSetLayoutBinding> sorted;
     for (const auto& [number, binding] : bindings) sorted.push_back(binding);
-    auto set =
-        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = static_cast<std::uint32_t>(sorted.size());
     set.pBindings = sorted.data();
-    create_handle(vkCreateDescriptorSetLayout, device_.handle(), set, set_layout_,
-                  "vkCreateDescriptorSetLayout", name_);
+    create_handle(vkCreateDescriptorSetLayout, device_.handle(), set, set_layout_, "vkCreateDescriptorSetLayout",
+                  name_);
     const VkPushConstantRange range{push_constant_stages_, 0, push_constant_size_};
     auto layout = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout.setLayoutCount = 1;

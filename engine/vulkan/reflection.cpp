@@ -80,8 +80,8 @@ class Reflector {
         context_.reset(context);
         spvc_parsed_ir ir = nullptr;
         require(spvc_context_parse_spirv(context, words.data(), words.size(), &ir));
-        require(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
-                                             &compiler_));
+        require(
+            spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler_));
     }
 
     ReflectedModule module() const {
@@ -154,8 +154,7 @@ class Reflector {
         }
         const spvc_type block = spvc_compiler_get_type_handle(compiler_, resource.base_type_id);
         if (spvc_type_get_num_member_types(block) != 1) return;
-        const spvc_type member =
-            spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(block, 0));
+        const spvc_type member = spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(block, 0));
         result.is_runtime_array = spvc_type_get_num_array_dimensions(member) == 1 &&
                                   spvc_type_array_dimension_is_literal(member, 0) &&
                                   spvc_type_get_array_dimension(member, 0) == 0;
@@ -185,10 +184,8 @@ class Reflector {
     ReflectedStruct push_constants(spvc_type_id id) const {
         const spvc_type block = spvc_compiler_get_type_handle(compiler_, id);
         if (spvc_type_get_num_member_types(block) == 1) {
-            const spvc_type only =
-                spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(block, 0));
-            if (spvc_type_get_basetype(only) == SPVC_BASETYPE_STRUCT &&
-                spvc_type_get_num_array_dimensions(only) == 0) {
+            const spvc_type only = spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(block, 0));
+            if (spvc_type_get_basetype(only) == SPVC_BASETYPE_STRUCT && spvc_type_get_num_array_dimensions(only) == 0) {
                 return structure_of(spvc_type_get_base_type_id(only));
             }
         }
@@ -200,8 +197,8 @@ class Reflector {
         spvc_compiler_get_work_group_size_specialization_constants(compiler_, &constants[0], &constants[1],
                                                                    &constants[2]);
         for (unsigned axis = 0; axis < 3; ++axis) {
-            result.local_size[axis] = spvc_compiler_get_execution_mode_argument_by_index(
-                compiler_, SpvExecutionModeLocalSize, axis);
+            result.local_size[axis] =
+                spvc_compiler_get_execution_mode_argument_by_index(compiler_, SpvExecutionModeLocalSize, axis);
             if (constants[axis].id != 0) result.local_size_constant_ids[axis] = constants[axis].constant_id;
         }
     }

@@ -75,8 +75,7 @@ class Comparison {
   public:
     explicit Comparison(std::string_view module) : module_(module) {}
 
-    void descriptors(const std::vector<ReflectedDescriptor>& shader,
-                     std::span<const DescriptorDeclaration> declared) {
+    void descriptors(const std::vector<ReflectedDescriptor>& shader, std::span<const DescriptorDeclaration> declared) {
         std::set<std::uint32_t> bindings;
         for (const DescriptorDeclaration& declaration : declared) {
             where_ = fmt::format("binding {} ({})", declaration.binding, declaration.name);
@@ -85,8 +84,7 @@ class Comparison {
                 return descriptor.set == 0 && descriptor.binding == declaration.binding;
             });
             if (match == shader.end()) {
-                add(fmt::format("is declared as a {}, but the shader does not use it",
-                                kind_name(declaration.kind)));
+                add(fmt::format("is declared as a {}, but the shader does not use it", kind_name(declaration.kind)));
             } else {
                 descriptor(*match, declaration);
             }
@@ -116,8 +114,7 @@ class Comparison {
 
     void finish() const {
         if (differences_.empty()) return;
-        throw VulkanError(
-            fmt::format("shader module {} differs from its declaration:{}", module_, differences_));
+        throw VulkanError(fmt::format("shader module {} differs from its declaration:{}", module_, differences_));
     }
 
   private:
@@ -170,8 +167,7 @@ class Comparison {
             const bool known = std::any_of(declared.members.begin(), declared.members.end(),
                                            [&](const auto& other) { return other.name == member.name; });
             if (!known) {
-                add(fmt::format("member {}.{}: is in the shader, but not declared", declared.name,
-                                member.name));
+                add(fmt::format("member {}.{}: is in the shader, but not declared", declared.name, member.name));
             }
         }
     }

@@ -34,9 +34,8 @@ struct DescriptorDeclaration {
     DescriptorKind kind;
     DescriptorAccess access;                ///< must equal the shader's readonly / writeonly qualifiers
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< images: must equal the layout format
-    const StructLayout* element =
-        nullptr;               ///< buffers: runtime array of this struct; null: plain scalars or vectors
-    std::uint32_t stride = 0;  ///< buffers without element: array stride in bytes
+    const StructLayout* element = nullptr;  ///< buffers: runtime array of this struct; null: plain scalars or vectors
+    std::uint32_t stride = 0;               ///< buffers without element: array stride in bytes
 };
 
 struct ShaderInterface {

@@ -16,8 +16,8 @@ T structure(VkStructureType type) {
 /// Calls `function` (vkCreateX) and stores the handle only on success: what a failed call leaves in its
 /// output is undefined, and must not reach a destructor. Throws VulkanError.
 template <class Function, class Info, class Handle>
-void create_handle(Function function, VkDevice device, const Info& info, Handle& handle,
-                   std::string_view call, std::string_view object) {
+void create_handle(Function function, VkDevice device, const Info& info, Handle& handle, std::string_view call,
+                   std::string_view object) {
     Handle made = VK_NULL_HANDLE;
     check(function(device, &info, nullptr, &made), call, object);
     handle = made;

@@ -12,8 +12,7 @@ namespace drape::vulkan {
 namespace {
 
 void require_size(const std::string& object, std::uint64_t has, std::uint64_t given) {
-    if (has != given)
-        throw VulkanError(fmt::format("{} holds {} bytes, the transfer has {}", object, has, given));
+    if (has != given) throw VulkanError(fmt::format("{} holds {} bytes, the transfer has {}", object, has, given));
 }
 
 void require_transferable(const Image& image, std::uint64_t bytes, VkImageUsageFlags usage) {
@@ -23,9 +22,7 @@ void require_transferable(const Image& image, std::uint64_t bytes, VkImageUsageF
         throw VulkanError(object + " has several samples: it cannot be copied");
     }
     if (!(description.usage & usage)) throw VulkanError(object + " was made without the transfer usage");
-    require_size(object,
-                 std::uint64_t{description.width} * description.height * texel_size(description.format),
-                 bytes);
+    require_size(object, std::uint64_t{description.width} * description.height * texel_size(description.format), bytes);
 }
 
 void require_transferable(const Buffer& buffer, std::uint64_t bytes, VkBufferUsageFlags usage) {
@@ -99,8 +96,7 @@ void upload(const Device& device, const Image& image, std::span<const std::byte>
     device.run_once([&](VkCommandBuffer commands) {
         discard_to_general(commands, image);
         const VkBufferImageCopy region = whole(image);
-        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
-                               &region);
+        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
         full_barrier(commands);
     });
 }
@@ -121,7 +117,8 @@ void upload_rows(const Device& device, const Image& image, std::uint32_t first_r
     const std::uint64_t row = std::uint64_t{description.width} * texel_size(description.format);
     const std::uint64_t count = bytes.size() / row;
     if (bytes.size() % row != 0 || first_row + count > description.height)
-        throw VulkanError(fmt::format("image {} has no {} bytes from row {} on", description.name, bytes.size(), first_row));
+        throw VulkanError(
+            fmt::format("image {} has no {} bytes from row {} on", description.name, bytes.size(), first_row));
     if (count == 0) return;
     const Buffer source = staging(device, description.name, bytes.size(), BufferHome::upload);
     std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
@@ -160,8 +157,7 @@ void download(const Device& device, const Image& image, std::span<std::byte> byt
     device.run_once([&](VkCommandBuffer commands) {
         full_barrier(commands);
         const VkBufferImageCopy region = whole(image);
-        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, target.handle(), 1,
-                               &region);
+        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, target.handle(), 1, &region);
         full_barrier(commands);
     });
     std::memcpy(bytes.data(), target.mapped().data(), bytes.size());

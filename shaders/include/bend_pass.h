@@ -1,5 +1,5 @@
-// Body of the bending passes, plain schedule: one invocation per element of one colour, so no particle is touched twice.
-// MASKED: the stiffness comes from an image (holes, cuts).
+// Body of the bending passes, plain schedule: one invocation per element of one colour, so no particle is touched
+// twice. MASKED: the stiffness comes from an image (holes, cuts).
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { BendPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -29,12 +29,11 @@ void main() {
     vec3 moved_first = imageLoad(displacement_in, first).xyz;
     vec3 moved_middle = imageLoad(displacement_in, middle).xyz;
     vec3 moved_third = imageLoad(displacement_in, third).xyz;
-    vec3 difference = second_difference(
-        spring_edge(position_middle.xyz, position_first.xyz, moved_middle, moved_first),
-        spring_edge(position_middle.xyz, position_third.xyz, moved_middle, moved_third));
-    vec3 correction =
-        project_bend(difference, bend_weight(position_first.w, position_middle.w, position_third.w),
-                     bend_share(share_of(first), share_of(middle)), push.compliance);
+    vec3 difference =
+        second_difference(spring_edge(position_middle.xyz, position_first.xyz, moved_middle, moved_first),
+                          spring_edge(position_middle.xyz, position_third.xyz, moved_middle, moved_third));
+    vec3 correction = project_bend(difference, bend_weight(position_first.w, position_middle.w, position_third.w),
+                                   bend_share(share_of(first), share_of(middle)), push.compliance);
     precise float weight_middle = -2.0f * position_middle.w;
     imageStore(displacement_out, first, vec4(moved_by(moved_first, correction, position_first.w), 0.0f));
     imageStore(displacement_out, middle, vec4(moved_by(moved_middle, correction, weight_middle), 0.0f));

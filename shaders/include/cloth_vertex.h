@@ -1,24 +1,16 @@
 // Where a drawn vertex of a cloth is. The index buffer alone says which: particles first, then, on a cut cloth
 // (CUT), vertices on cut springs, each placed from particles of its own side. Needs `push` (ClothPush) and the
 // position image.
-ivec2 particle_texel(uint particle) {
-    return ivec2(particle % push.grid.x, particle / push.grid.x);
-}
+ivec2 particle_texel(uint particle) { return ivec2(particle % push.grid.x, particle / push.grid.x); }
 
-vec3 particle_position(uint particle) {
-    return imageLoad(position, particle_texel(particle)).xyz;
-}
+vec3 particle_position(uint particle) { return imageLoad(position, particle_texel(particle)).xyz; }
 
 #ifdef CUT
 layout(set = 0, binding = 5, std430) readonly buffer CutVertices { CutVertex cut_vertices[]; };
 
-bool is_cut_vertex(uint index) {
-    return index >= push.grid.x * push.grid.y;
-}
+bool is_cut_vertex(uint index) { return index >= push.grid.x * push.grid.y; }
 
-CutVertex cut_vertex(uint index) {
-    return cut_vertices[index - push.grid.x * push.grid.y];
-}
+CutVertex cut_vertex(uint index) { return cut_vertices[index - push.grid.x * push.grid.y]; }
 #endif
 
 vec3 vertex_position(uint index) {

@@ -26,10 +26,9 @@ SHARED vec3 world_direction(Collider collider, vec3 local) {
 
 /// How far the collider's material at `local` moved during the substep, world frame, metres.
 SHARED vec3 surface_displacement(Collider collider, vec3 local) {
-    precise vec3 turned =
-        vec3(ordered_dot(vec3(collider.change_x.x, collider.change_x.y, collider.change_x.z), local),
-             ordered_dot(vec3(collider.change_y.x, collider.change_y.y, collider.change_y.z), local),
-             ordered_dot(vec3(collider.change_z.x, collider.change_z.y, collider.change_z.z), local));
+    precise vec3 turned = vec3(ordered_dot(vec3(collider.change_x.x, collider.change_x.y, collider.change_x.z), local),
+                               ordered_dot(vec3(collider.change_y.x, collider.change_y.y, collider.change_y.z), local),
+                               ordered_dot(vec3(collider.change_z.x, collider.change_z.y, collider.change_z.z), local));
     precise vec3 moved = turned + vec3(collider.change_x.w, collider.change_y.w, collider.change_z.w);
     return moved;
 }

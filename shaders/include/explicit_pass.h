@@ -29,14 +29,12 @@ struct Particle {
     vec4 shares;  // of this particle's own springs; masked only
 };
 
-bool inside(ivec2 texel) {
-    return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y;
-}
+bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
 
 /// The particle of a texel inside the grid.
 Particle particle_at(ivec2 texel) {
-    Particle particle = Particle(texel, imageLoad(position_in, texel).xyz, imageLoad(displacement_in, texel).xyz,
-                                 vec4(0.0f));
+    Particle particle =
+        Particle(texel, imageLoad(position_in, texel).xyz, imageLoad(displacement_in, texel).xyz, vec4(0.0f));
 #ifdef MASKED
     particle.shares = imageLoad(stiffness_image, texel);
 #endif
@@ -95,8 +93,7 @@ vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend)
 /// the same difference, so that their pulls are opposite to the bit.
 vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle lower_left, Particle lower_right,
                  float factor) {
-    vec3 difference =
-        twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
+    vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
 #ifdef MASKED
     precise float scaled = factor * twist_share(upper_left.shares, upper_right.shares, lower_left.shares);
     return add_bend(sum, difference, scaled);
@@ -115,12 +112,9 @@ vec3 gather_twist(vec3 sum, Particle center) {
     if (has_right) right = particle_at(texel + ivec2(1, 0));
     if (has_up) up = particle_at(texel + ivec2(0, -1));
     if (has_down) down = particle_at(texel + ivec2(0, 1));
-    if (has_up && has_left)
-        sum = gather_cell(sum, particle_at(texel + ivec2(-1, -1)), up, left, center, -push.twist);
-    if (has_up && has_right)
-        sum = gather_cell(sum, up, particle_at(texel + ivec2(1, -1)), center, right, push.twist);
-    if (has_down && has_left)
-        sum = gather_cell(sum, left, center, particle_at(texel + ivec2(-1, 1)), down, push.twist);
+    if (has_up && has_left) sum = gather_cell(sum, particle_at(texel + ivec2(-1, -1)), up, left, center, -push.twist);
+    if (has_up && has_right) sum = gather_cell(sum, up, particle_at(texel + ivec2(1, -1)), center, right, push.twist);
+    if (has_down && has_left) sum = gather_cell(sum, left, center, particle_at(texel + ivec2(-1, 1)), down, push.twist);
     if (has_down && has_right)
         sum = gather_cell(sum, center, right, down, particle_at(texel + ivec2(1, 1)), -push.twist);
     return sum;
@@ -132,8 +126,7 @@ void main() {
     vec4 position = imageLoad(position_in, texel);
     vec3 displacement = imageLoad(displacement_in, texel).xyz;
     if (advance) {
-        CompensatedSum advanced =
-            compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
+        CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
         imageStore(position_out, texel, vec4(advanced.value, position.w));
         imageStore(position_rest_out, texel, vec4(advanced.rest, 0.0f));
     } else {

@@ -22,8 +22,7 @@ void main() {
     vec4 position = imageLoad(position_in, texel);
     vec3 displacement = imageLoad(displacement_in, texel).xyz;
     if (advance) {
-        CompensatedSum advanced =
-            compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
+        CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
         imageStore(position_out, texel, vec4(advanced.value, position.w));
         imageStore(position_rest_out, texel, vec4(advanced.rest, 0.0f));
     }
@@ -32,8 +31,8 @@ void main() {
 #ifdef WINDY
     force = imageLoad(wind_force, texel).xyz;
 #endif
-    vec3 increment = verlet_increment(displacement, push.gravity_step.xyz, force, position.w, push.force_step,
-                                      push.damping_loss);
+    vec3 increment =
+        verlet_increment(displacement, push.gravity_step.xyz, force, position.w, push.force_step, push.damping_loss);
     CompensatedSum predicted = compensated_add(displacement, increment, imageLoad(displacement_rest_in, texel).xyz);
     imageStore(displacement_out, texel, vec4(predicted.value, 0.0f));
     imageStore(displacement_rest_out, texel, vec4(predicted.rest, 0.0f));

@@ -79,9 +79,9 @@ LinePlace eliminate_line(int line, float compliance, float followed) {
         }
         float stiffness = share_of(place.at_first);
         place.largest_excess = larger_excess(place.largest_excess, spring, stiffness);
-        eliminated = eliminate_spring(eliminated, normal_before, spring, after.normal, place.first.position.w,
-                                      place.second.position.w, stiffness, compliance,
-                                      tension_of(place.at_first, followed));
+        eliminated =
+            eliminate_spring(eliminated, normal_before, spring, after.normal, place.first.position.w,
+                             place.second.position.w, stiffness, compliance, tension_of(place.at_first, followed));
         scratch[e * push.line_count + line] = eliminated;
         if (e == last) break;
         normal_before = spring.normal;
@@ -108,8 +108,9 @@ void substitute_line(int line, LinePlace place, float compliance, float followed
         move_particle(place.at_second, place.second,
                       line_correction(spring.normal, change, normal_after, change_after));
 #ifdef TENSION
-        precise float tension = changed_tension(tension_of(place.at_first, followed), change,
-                                                share_of(place.at_first), compliance) * followed;
+        precise float tension =
+            changed_tension(tension_of(place.at_first, followed), change, share_of(place.at_first), compliance) *
+            followed;
         imageStore(tension_out, place.at_first, vec4(tension, 0.0f, 0.0f, 0.0f));
 #endif
         change_after = change;

@@ -27,8 +27,7 @@ void main() {
     vec4 position = imageLoad(position_in, texel);
     vec3 displacement = imageLoad(displacement_in, texel).xyz;
     if (advance) {
-        CompensatedSum advanced =
-            compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
+        CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_rest_in, texel).xyz);
         imageStore(position_out, texel, vec4(advanced.value, position.w));
         imageStore(position_rest_out, texel, vec4(advanced.rest, 0.0f));
     }

@@ -1,5 +1,5 @@
-// Body of the residual passes: an invocation per residual_rows particles of a column, a record per workgroup. A particle
-// answers for the stretch springs whose first particle it is. MASKED: stiffness from an image (holes, cuts).
+// Body of the residual passes: an invocation per residual_rows particles of a column, a record per workgroup. A
+// particle answers for the stretch springs whose first particle it is. MASKED: stiffness from an image (holes, cuts).
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { ResidualPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -36,6 +36,5 @@ void main() {
         record = with_spring(record, texel, ivec2(0, 1), push.rest_length.y, 1, imageLoad(tension_column, texel).x);
     }
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u)
-        partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
 }

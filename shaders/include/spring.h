@@ -25,8 +25,7 @@ SHARED float border_stiffness(ivec2 owner, ivec2 offset, ivec2 grid) {
 /// second - first in displacement form: the difference of the start positions is exact where it matters, so
 /// the edge carries the rounding of the edge's length, not of the distance from the origin (the position form
 /// loses a factor of ten in the swing test).
-SHARED vec3 spring_edge(vec3 position_first, vec3 position_second, vec3 displacement_first,
-                        vec3 displacement_second) {
+SHARED vec3 spring_edge(vec3 position_first, vec3 position_second, vec3 displacement_first, vec3 displacement_second) {
     precise vec3 edge = (position_second - position_first) + (displacement_second - displacement_first);
     return edge;
 }
@@ -37,7 +36,7 @@ SHARED vec3 moved_by(vec3 displacement, vec3 correction, float weight) {
 }
 
 struct SpringResult {
-    vec3 correction;   // to be added to the second particle times its w, subtracted from the first times its w
+    vec3 correction;  // to be added to the second particle times its w, subtracted from the first times its w
     float tension;    // m: extension that would balance the tension applied so far
 };
 
@@ -45,8 +44,8 @@ struct SpringResult {
 /// in [0, 1] scales the spring's stiffness, 0 = no spring; `compliance` = m_inner / (k h^2), 0 = rigid.
 /// `tension`: the XPBD multiplier lambda as the extension that would balance it, T = -a lambda/s, m. In place of lambda
 /// it means the same to every solver: C - T is what a perfect solve makes zero. delta lambda = -s (C - T) /
-/// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by zero. A rigid spring between two fixed particles, and one of zero
-/// length (no direction), are left alone.
+/// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by
+/// zero. A rigid spring between two fixed particles, and one of zero length (no direction), are left alone.
 SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float stiffness, float compliance,
                                    float tension) {
     precise float length_squared = ordered_dot(edge, edge);

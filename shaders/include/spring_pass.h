@@ -34,8 +34,7 @@ void main() {
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
     precise float weight_sum = position_first.w + position_second.w;
-    SpringResult result =
-        project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, tension);
+    SpringResult result = project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
     vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
     imageStore(displacement_out, first, vec4(moved_first, 0.0f));

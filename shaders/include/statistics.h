@@ -19,9 +19,8 @@ SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_fi
 /// What a sum or a maximum over nothing is: -0 + x is x for every x.
 SHARED StatisticsRecord empty_statistics() {
     return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
-                            vec4(lowest_float, lowest_float, lowest_float, lowest_float),
-                            vec4(0.0f, 0.0f, 0.0f, 0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
-                            uvec4(0u, no_particle, 0u, 0u));
+                            vec4(lowest_float, lowest_float, lowest_float, lowest_float), vec4(0.0f, 0.0f, 0.0f, 0.0f),
+                            vec4(-0.0f, -0.0f, -0.0f, -0.0f), uvec4(0u, no_particle, 0u, 0u));
 }
 
 SHARED vec4 ordered_sum(vec4 a, vec4 b) {
@@ -35,8 +34,7 @@ SHARED vec4 larger(vec4 a, vec4 b) {
 
 SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
     return StatisticsRecord(ordered_sum(a.squares, b.squares), ordered_sum(a.moments, b.moments),
-                            larger(a.strains, b.strains), larger(a.extents, b.extents),
-                            ordered_sum(a.errors, b.errors),
+                            larger(a.strains, b.strains), larger(a.extents, b.extents), ordered_sum(a.errors, b.errors),
                             uvec4(a.counts.x + b.counts.x, a.counts.y < b.counts.y ? a.counts.y : b.counts.y,
                                   a.counts.z + b.counts.z, a.counts.w + b.counts.w));
 }
@@ -50,8 +48,7 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
 }
 
 /// A particle without its springs. It counts as not finite when its position or displacement is.
-SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, float share, vec3 reference,
-                                            uint index) {
+SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, float share, vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
     if (!is_finite(position) || !is_finite(displacement)) {
         record.counts = uvec4(1u, index, 0u, 0u);
@@ -80,8 +77,8 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
     precise float strain = extension / rest_length;
     precise float square = strain * strain;
     precise float energy = share * half_stiffness * (extension * extension);
-    record.squares = ordered_sum(record.squares, shear ? vec4(-0.0f, square, energy, -0.0f)
-                                                       : vec4(square, -0.0f, energy, -0.0f));
+    record.squares =
+        ordered_sum(record.squares, shear ? vec4(-0.0f, square, energy, -0.0f) : vec4(square, -0.0f, energy, -0.0f));
     record.strains = larger(record.strains, shear ? vec4(lowest_float, strain, lowest_float, -strain)
                                                   : vec4(strain, lowest_float, -strain, lowest_float));
     if (shear) {

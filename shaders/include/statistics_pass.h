@@ -1,6 +1,6 @@
-// Body of the statistics passes: an invocation per statistics_rows particles of a column, a record per workgroup. A particle answers for
-// the springs whose first particle it is. MASKED: stiffness and masses come from images (holes, cuts).
-// COLLIDING: the scene has colliders.
+// Body of the statistics passes: an invocation per statistics_rows particles of a column, a record per workgroup. A
+// particle answers for the springs whose first particle it is. MASKED: stiffness and masses come from images (holes,
+// cuts). COLLIDING: the scene has colliders.
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { StatisticsPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -26,9 +26,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Ellipsoids { Collider ellip
 
 #include "include/statistics_reduction.h"
 
-bool inside(ivec2 texel) {
-    return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y;
-}
+bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
 
 /// Held particles have a mass too; their w does not tell it.
 float mass_share(ivec2 texel) {
@@ -40,7 +38,7 @@ float mass_share(ivec2 texel) {
 }
 
 StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, int direction, ivec2 offset,
-                              float tension) {
+                             float tension) {
     ivec2 second = first + offset;
     if (!inside(second)) return record;
 #ifdef MASKED
@@ -84,9 +82,8 @@ float penetration(vec3 at) {
 
 StatisticsRecord statistics_of(ivec2 texel) {
     vec4 at = imageLoad(position, texel);
-    StatisticsRecord record =
-        particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel), push.reference.xyz,
-                            uint(texel.y * push.grid.x + texel.x));
+    StatisticsRecord record = particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel),
+                                                  push.reference.xyz, uint(texel.y * push.grid.x + texel.x));
     if (record.counts.x != 0u) return record;
     record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), imageLoad(tension_row, texel).x);
     record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), imageLoad(tension_column, texel).x);
@@ -105,6 +102,5 @@ void main() {
     for (int row = 0; row < statistics_rows; ++row, ++texel.y)
         if (inside(texel)) record = joined(record, statistics_of(texel));
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u)
-        partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
 }

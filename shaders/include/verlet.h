@@ -20,8 +20,8 @@ SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 rest) {
 
 /// Displacement of the next substep before constraints: d' = e^(-c h) d + phi h^2 (g + w F / m), written as
 /// an increment to d. `damping_loss` = 1 - e^(-c h); `gravity_step` = phi h^2 g; `force_step` = phi h^2 / m.
-SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, float inverse_mass,
-                             float force_step, float damping_loss) {
+SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, float inverse_mass, float force_step,
+                             float damping_loss) {
     precise vec3 forced = gravity_step + force * (inverse_mass * force_step);
     precise vec3 increment = forced - displacement * damping_loss;
     return increment;

@@ -32,8 +32,8 @@ void main() {
             if (advance) now = now + moved[corner];
             corners[corner] = now;
         }
-        sum = add_wind_share(sum, corners[0], corners[1], corners[2], moved[0], moved[1], moved[2],
-                             push.inverse_step, wind_velocity, push.drag_coefficient, push.lift_coefficient);
+        sum = add_wind_share(sum, corners[0], corners[1], corners[2], moved[0], moved[1], moved[2], push.inverse_step,
+                             wind_velocity, push.drag_coefficient, push.lift_coefficient);
     }
     imageStore(wind_force, texel, vec4(sum, 0.0f));
 }

@@ -13,8 +13,8 @@ const int line_group_width = 8;
 
 /// All lines of one spring direction (include/line.h).
 struct LinePush {
-    ivec2 grid;             // columns, rows
-    ivec2 step;             // from a particle of a line to the next; columns wrap around
+    ivec2 grid;  // columns, rows
+    ivec2 step;  // from a particle of a line to the next; columns wrap around
     int line_count;
     int particle_count;     // of each line, >= 2
     int seam;               // column whose particles own no spring of this direction, -1 = none
@@ -24,7 +24,7 @@ struct LinePush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)
     float followed;         // compliance asked for over the one above, 1 = nothing softened
     float followed_bdf2;
-    int first_iteration;    // 1: the tension starts at zero
+    int first_iteration;  // 1: the tension starts at zero
     int unused;
 };
 

@@ -46,9 +46,9 @@ struct ColliderInstance {
 };
 
 struct ClothPush {
-    uvec4 grid;      // columns, rows, 1 when checkered, 0
-    vec4 size;       // x, y: metres along columns, rows; z: side of a checker square, m
-    vec4 front;      // colour of the side the normals point to
+    uvec4 grid;  // columns, rows, 1 when checkered, 0
+    vec4 size;   // x, y: metres along columns, rows; z: side of a checker square, m
+    vec4 front;  // colour of the side the normals point to
     vec4 back;
 };
 

@@ -14,14 +14,14 @@ const int workgroup_width = 64;
 
 /// One parity pass of one spring direction (engine/cloth/directions.h).
 struct SpringPush {
-    ivec2 grid;         // columns, rows
-    ivec2 pair_count;   // springs of this pass along columns, rows
-    ivec2 offset;       // from a spring's first particle to its second
-    int parity_axis;    // 0: pairs alternate along columns, 1: along rows
-    int parity;         // 0 even, 1 odd
-    float rest_length;  // m
-    float compliance;   // m_inner / (k h^2), dimensionless; 0 = rigid
-    int channel;        // of the stiffness image: row, column, shear down-right, shear down-left
+    ivec2 grid;           // columns, rows
+    ivec2 pair_count;     // springs of this pass along columns, rows
+    ivec2 offset;         // from a spring's first particle to its second
+    int parity_axis;      // 0: pairs alternate along columns, 1: along rows
+    int parity;           // 0 even, 1 odd
+    float rest_length;    // m
+    float compliance;     // m_inner / (k h^2), dimensionless; 0 = rigid
+    int channel;          // of the stiffness image: row, column, shear down-right, shear down-left
     int first_iteration;  // 1: the tension starts at zero (it is written, not read)
 };
 
@@ -64,10 +64,10 @@ struct TwistPush {
 
 struct WindPush {
     ivec2 grid;
-    int substep;               // index into the wind buffer
-    float inverse_step;        // 1 / h
-    float drag_coefficient;    // air_density (Cd - Cl) / 2
-    float lift_coefficient;    // air_density Cl / 2
+    int substep;             // index into the wind buffer
+    float inverse_step;      // 1 / h
+    float drag_coefficient;  // air_density (Cd - Cl) / 2
+    float lift_coefficient;  // air_density Cl / 2
 };
 
 struct CollisionPush {
@@ -107,7 +107,7 @@ struct Collider {
 
 /// A particle that the scene pins with a motion or a release.
 struct PinnedParticle {
-    vec4 rest;  // xyz: position at rest, metres; w: its inverse mass once released
+    vec4 rest;    // xyz: position at rest, metres; w: its inverse mass once released
     ivec4 index;  // column, row, motion, 0
 };
 

@@ -20,7 +20,7 @@ struct StatisticsPush {
     vec4 reference;        // xyz: positions are summed relative to this point, m; w: thickness, m
     ivec4 collider_first;  // first collider at the frame's end: planes, spheres, boxes, ellipsoids
     ivec4 collider_count;
-    ivec2 grid;            // columns, rows
+    ivec2 grid;  // columns, rows
 };
 
 struct StatisticsSumPush {

@@ -51,8 +51,8 @@ TEST(ClaimsTest, AutoIsComparedWithTheSoonestThatKeepsTheTolerance) {
         result.metrics["worst_stretch_error"] = error;
         return result;
     };
-    const std::vector<CaseResult> results = {random("auto", 3, 1, 3, 0.009), random("line", 3, 4, 2, 0.01),
-                                             random("line", 3, 2, 1, 0.011), random("relax", 3, 80, 9, 0.001),
+    const std::vector<CaseResult> results = {random("auto", 3, 1, 3, 0.009),   random("line", 3, 4, 2, 0.01),
+                                             random("line", 3, 2, 1, 0.011),   random("relax", 3, 80, 9, 0.001),
                                              random("line", 4, 2, 0.1, 0.001), random("auto", 5, 1, 4, 0.02)};
     const std::vector<AutoRatio> ratios = auto_ratios(results);
     ASSERT_EQ(ratios.size(), 2u);
@@ -73,8 +73,7 @@ TEST(ClaimsTest, ADivergedCaseMeetsNothing) {
 
 TEST(ClaimsTest, LimitsAreThoseOfTheTableAtTheSamePasses) {
     CaseResult good = swing_result(SolverMethod::explicit_steps, 167, 2, 1e-6, 4.4e-4);
-    good.metrics["position_rms_0.25"] =
-        4.9e-5;  // the table has 2e-7, below what is asked of single precision
+    good.metrics["position_rms_0.25"] = 4.9e-5;  // the table has 2e-7, below what is asked of single precision
     good.metrics["position_rms_0.5"] = 5.1e-5;
     const std::vector<LimitCheck> checks = check_limits(std::vector{good});
     ASSERT_EQ(checks.size(), 3u);

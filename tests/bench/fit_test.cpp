@@ -15,8 +15,7 @@ using Points = std::vector<std::array<double, 2>>;
 TEST(FitTest, FindsTheSlopeOfAPowerAndOfScatteredPowers) {
     EXPECT_NEAR(*log_slope(Points{{1, 5}, {2, 1.25}, {4, 0.3125}}), -2, 1e-12);
     // Residuals +e, -2e, +e are orthogonal to a line through three equally spaced points.
-    EXPECT_NEAR(*log_slope(Points{{1, std::exp(0.1)}, {2, 2 * std::exp(-0.2)}, {4, 4 * std::exp(0.1)}}), 1,
-                1e-12);
+    EXPECT_NEAR(*log_slope(Points{{1, std::exp(0.1)}, {2, 2 * std::exp(-0.2)}, {4, 4 * std::exp(0.1)}}), 1, 1e-12);
 }
 
 TEST(FitTest, HasNoSlopeWithoutTwoDifferentPoints) {
@@ -40,8 +39,7 @@ TEST(FitTest, AClaimIsAboutOneFamilyAndLeavesOutWhatIsOutsideItsRange) {
     results.push_back(test::swing_result(SolverMethod::relax, 160, 1, 0, 1e-3));  // stuck at the floor
     results.push_back(test::swing_result(SolverMethod::relax, 1, 1, 0, 0.5, 40));
     results.push_back(test::swing_result(SolverMethod::explicit_steps, 40, 1, 0, 77));
-    OrderClaim claim{"swing", "relax", "stretch_error", OrderClaim::Variable::substeps, -2, 0.1, 2e-3,
-                     0.03,    64};
+    OrderClaim claim{"swing", "relax", "stretch_error", OrderClaim::Variable::substeps, -2, 0.1, 2e-3, 0.03, 64};
     claim.floor = 1.1e-3;
     std::vector<OrderFit> fits = fit_orders(std::vector{claim}, results);
     ASSERT_TRUE(fits.empty()) << "only 0.01 and 0.0025 are in range, and two points are no order";

@@ -66,12 +66,10 @@ Evaluated evaluated(const std::string& name, std::uint32_t size, double offset) 
     SceneDescription scene = problem.scene(size, {SolverMethod::relax, 1, 1});
     const SpringNetwork network(scene, 0);
     std::vector<double> times;
-    for (std::uint32_t frame = problem.record_every; frame < scene.time.frame_count;
-         frame += problem.record_every)
+    for (std::uint32_t frame = problem.record_every; frame < scene.time.frame_count; frame += problem.record_every)
         times.push_back(frame / scene.time.fps);
     const bool is_motion = problem.record_every < scene.time.frame_count - 1;
-    const ReferenceRun& reference =
-        is_motion ? references.motion(network, times) : references.equilibrium(network);
+    const ReferenceRun& reference = is_motion ? references.motion(network, times) : references.equilibrium(network);
     Recording exact{scene, {{0, network.rest_position, {}}}};
     for (std::size_t k = 0; k < times.size(); ++k)
         exact.samples.push_back({static_cast<std::uint32_t>((k + 1) * problem.record_every),

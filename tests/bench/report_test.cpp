@@ -28,8 +28,7 @@ std::size_t element_count(const std::string& xml) {
             throw std::runtime_error("not a token at " + xml.substr(at, 60));
         at += static_cast<std::size_t>(it->length());
         if ((*it)[5].matched) {
-            if (!std::regex_match((*it)[5].str(), text))
-                throw std::runtime_error("unescaped: " + (*it)[5].str());
+            if (!std::regex_match((*it)[5].str(), text)) throw std::runtime_error("unescaped: " + (*it)[5].str());
         } else if ((*it)[1].length() > 0) {
             if (open.empty() || open.back() != (*it)[2]) throw std::runtime_error("wrong end: " + it->str());
             open.pop_back();
@@ -70,8 +69,7 @@ TEST(PlotTest, IsWellFormedAndHoldsEverySeries) {
     plot.series.push_back({"empty", {}});
     const std::string svg = svg_text(plot);
     EXPECT_GT(element_count(svg), 60u);
-    for (int k = 0; k < 8; ++k)
-        EXPECT_THAT(svg, HasSubstr("<title>series &lt;" + std::to_string(k) + "&gt;</title>"));
+    for (int k = 0; k < 8; ++k) EXPECT_THAT(svg, HasSubstr("<title>series &lt;" + std::to_string(k) + "&gt;</title>"));
     EXPECT_THAT(svg, HasSubstr("<title>empty</title>"));
     EXPECT_EQ(occurrences(svg, "class=\"series\""), 9u);
     EXPECT_EQ(occurrences(svg, "slope -"), 2u);
@@ -83,8 +81,7 @@ TEST(PlotTest, PutsPointsWhereTheLogarithmsAre) {
     // From 1 to 100 and 1e-4 to 1 the middle decade's point stands in the middle of the frame.
     const std::string svg = svg_text({"t", "x", "y", {{"s", {{1, 1}, {10, 1e-2}, {100, 1e-4}}}}, {}, {}});
     std::smatch match;
-    const std::regex line(
-        "<polyline points=\"([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) \"");
+    const std::regex line("<polyline points=\"([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) \"");
     ASSERT_TRUE(std::regex_search(svg, match, line));
     const auto value = [&](std::size_t k) { return std::stod(match[k]); };
     EXPECT_NEAR(value(3), 0.5 * (value(1) + value(5)), 0.11);
@@ -142,9 +139,8 @@ TEST(ReportTest, CsvHasTheSameColumnsInEveryRow) {
 
 TEST(ReportTest, TextSaysWhatIsMetAndWhatIsNot) {
     const std::string text = report_text(report(), all_problems(false));
-    EXPECT_THAT(
-        text, testing::AllOf(HasSubstr("a device (a driver 5)"), HasSubstr("swing/64/explicit/640"),
-                             HasSubstr("diverged"), HasSubstr("NOT MET"), HasSubstr("no measured setting")));
+    EXPECT_THAT(text, testing::AllOf(HasSubstr("a device (a driver 5)"), HasSubstr("swing/64/explicit/640"),
+                                     HasSubstr("diverged"), HasSubstr("NOT MET"), HasSubstr("no measured setting")));
 }
 
 }  // namespace

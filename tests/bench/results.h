@@ -6,8 +6,8 @@
 namespace drape::bench::test {
 
 /// swing/64/METHOD/SUBSTEPS with these errors; as many passes as substeps.
-inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, double milliseconds,
-                               double position, double stretch, std::uint32_t iterations = 1) {
+inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, double milliseconds, double position,
+                               double stretch, std::uint32_t iterations = 1) {
     CaseResult result;
     result.problem = "swing";
     result.size = 64;

@@ -49,8 +49,8 @@ TEST(StoreTest, LeavesOutWhatIsNoResult) {
     std::string other = result_line(first());
     other.replace(other.find("\"substeps\""), 10, "\"subspace\"");
     const std::string text = result_line(first());
-    write_text(folder / "results.jsonl", "\nnull\n[1, 2]\n{}\n" + other + "\n" + text +
-                                             " more\n{\"key\": 3}\n" + result_line(second()) + "\n");
+    write_text(folder / "results.jsonl",
+               "\nnull\n[1, 2]\n{}\n" + other + "\n" + text + " more\n{\"key\": 3}\n" + result_line(second()) + "\n");
     const ResultStore store(folder / "results.jsonl");
     EXPECT_EQ(store.size(), 1u);
     EXPECT_TRUE(store.find(second().key));
@@ -59,8 +59,7 @@ TEST(StoreTest, LeavesOutWhatIsNoResult) {
 TEST(StoreTest, SaysWhatItCannotWrite) {
     const TemporaryFolder folder;
     ResultStore store(folder / "missing/results.jsonl");
-    EXPECT_NE(error_text<OutputError>([&] { store.add(first()); }).find("missing/results.jsonl"),
-              std::string::npos);
+    EXPECT_NE(error_text<OutputError>([&] { store.add(first()); }).find("missing/results.jsonl"), std::string::npos);
 }
 
 }  // namespace

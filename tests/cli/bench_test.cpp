@@ -17,19 +17,17 @@ using testing::Not;
 
 TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
     const TemporaryFolder folder;
-    const std::vector<std::string> arguments = {"bench",    "accuracy",        "--short",  "--validate",
-                                                "--filter", "free fall",       "--folder", folder / "b",
-                                                "--json",   folder / "a.json", "--csv",    folder / "a.csv",
-                                                "--svg",    folder / "plots"};
+    const std::vector<std::string> arguments = {
+        "bench",      "accuracy", "--short",         "--validate", "--filter",       "free fall", "--folder",
+        folder / "b", "--json",   folder / "a.json", "--csv",      folder / "a.csv", "--svg",     folder / "plots"};
     const Outcome first = drape(arguments);
     EXPECT_EQ(first.code, 0) << first.err;
-    EXPECT_THAT(first.out, AllOf(HasSubstr("free fall/2/relax/16"), HasSubstr("met"),
-                                 Not(HasSubstr("NOT MET")), Not(HasSubstr("swing"))));
+    EXPECT_THAT(first.out, AllOf(HasSubstr("free fall/2/relax/16"), HasSubstr("met"), Not(HasSubstr("NOT MET")),
+                                 Not(HasSubstr("swing"))));
     EXPECT_THAT(first.err, AllOf(HasSubstr("6/6 free fall/2/line/16"), HasSubstr("ETA 0:00"),
                                  HasSubstr("6 cases measured, 0 kept")));
     EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("\"format\": \"drape bench accuracy 1\""));
-    EXPECT_THAT(read_text(folder / "a.csv"),
-                HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
+    EXPECT_THAT(read_text(folder / "a.csv"), HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
     EXPECT_EQ(names_in(folder / "plots"), std::set<std::string>{"free_fall_substeps.svg"});
 
     // Without the last line, which a kill may have cut short, one case is missing.
@@ -57,8 +55,8 @@ TEST(BenchAccuracy, AReferenceIsComputedOnce) {
 
 TEST(BenchAccuracy, ABudgetLeavesOutWhatItCannotPay) {
     const TemporaryFolder folder;
-    const Outcome outcome = drape(
-        {"bench", "accuracy", "--filter", "^swing/512/", "--budget", "0.001", "--folder", folder / "b"});
+    const Outcome outcome =
+        drape({"bench", "accuracy", "--filter", "^swing/512/", "--budget", "0.001", "--folder", folder / "b"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("0 cases measured, 0 kept from before, 35 left out by --budget"));
     EXPECT_THAT(outcome.out, HasSubstr("The budget of time left cases out."));
@@ -84,8 +82,7 @@ TEST(BenchAccuracy, RefusesWhatItCannotDo) {
     EXPECT_EQ(outcome.code, 1) << outcome.err;
     EXPECT_EQ(drape({"bench"}).code, 2);
     const Outcome help = drape({"bench", "accuracy", "--help"});
-    EXPECT_THAT(help.out,
-                AllOf(HasSubstr("Usage: drape bench accuracy"), HasSubstr("Exit codes: 0 ok, 1 file")));
+    EXPECT_THAT(help.out, AllOf(HasSubstr("Usage: drape bench accuracy"), HasSubstr("Exit codes: 0 ok, 1 file")));
 }
 
 }  // namespace

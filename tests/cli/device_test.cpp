@@ -35,8 +35,7 @@ TEST(Devices, AreListedAsTextAndJson) {
     ASSERT_GE(list.size(), 1u);
     const Outcome text = drape({"devices"});
     EXPECT_EQ(text.code, 0);
-    EXPECT_THAT(text.out,
-                AllOf(HasSubstr("0: " + list[0]["name"].asString()), HasSubstr(list[0]["uuid"].asString())));
+    EXPECT_THAT(text.out, AllOf(HasSubstr("0: " + list[0]["name"].asString()), HasSubstr(list[0]["uuid"].asString())));
 }
 
 TEST(Devices, AreChosenByIndexNameAndUuid) {
@@ -57,8 +56,7 @@ TEST(Devices, AnUnknownOneListsThoseThereAre) {
     for (const char* selector : {"99", "no such device", "00000000-0000-0000-0000-000000000000"}) {
         const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "--device", selector});
         EXPECT_EQ(outcome.code, 4) << selector;
-        EXPECT_THAT(outcome.err, AllOf(HasSubstr(selector), HasSubstr("the devices are:\n  0: " + name)))
-            << selector;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr(selector), HasSubstr("the devices are:\n  0: " + name))) << selector;
     }
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
 }
@@ -70,8 +68,7 @@ TEST(Devices, WithoutADriverTheErrorSaysWhereOneIs) {
                                                       {"render", folder.scene(), "-o", folder.out()}}) {
         const Outcome outcome = drape(arguments, {.environment = no_driver});
         EXPECT_EQ(outcome.code, 4) << arguments[0];
-        EXPECT_THAT(outcome.err,
-                    AllOf(HasSubstr("no Vulkan driver found"), HasSubstr("mesa-vulkan-drivers")));
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("no Vulkan driver found"), HasSubstr("mesa-vulkan-drivers")));
         EXPECT_THAT(outcome.out, IsEmpty());
     }
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));

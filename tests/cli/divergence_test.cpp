@@ -33,8 +33,8 @@ TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
     // Semi-implicit: frame 1 has fallen g, frame 2 would have fallen 3 g = 9e38 > 3.4e38.
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
                                    HasSubstr("the particle in column 0, row 0 is not finite"),
-                                   HasSubstr("(48 of the cloth's 48 particles are not)"),
-                                   HasSubstr("(2 of 9 frames)"), HasSubstr("no manifest was written")));
+                                   HasSubstr("(48 of the cloth's 48 particles are not)"), HasSubstr("(2 of 9 frames)"),
+                                   HasSubstr("no manifest was written")));
     ASSERT_THAT(names_in(folder.out()), ElementsAre("positions.npy"));
     const std::string array = read_text(folder / "out/positions.npy");
     EXPECT_THAT(array, HasSubstr("'shape': (2, 6, 8, 3)"));

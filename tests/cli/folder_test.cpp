@@ -29,8 +29,7 @@ TEST(OutputFolderOption, ANonEmptyFolderIsRefused) {
 TEST(OutputFolderOption, AFolderThatCannotBeMadeIsRefused) {
     const SceneFolder folder(small_scene(2));
     const auto before = everything_below(folder.path());
-    for (const std::string& path :
-         {std::string("/proc/drape/out"), folder.scene(), folder.scene() + "/out"}) {
+    for (const std::string& path : {std::string("/proc/drape/out"), folder.scene(), folder.scene() + "/out"}) {
         const Outcome outcome = drape({"render", folder.scene(), "-o", path});
         EXPECT_EQ(outcome.code, 1) << path;
         EXPECT_THAT(outcome.err, AllOf(testing::StartsWith("drape: "), HasSubstr("output folder"))) << path;
@@ -45,15 +44,12 @@ TEST(OutputFolderOption, OverwriteReplacesARunAndKeepsForeignFiles) {
     write_text(folder / "out/notes.txt", "mine");
     // A run that fails while starting loses nothing.
     const auto before = everything_below(folder.path());
-    EXPECT_EQ(
-        drape({"render", folder.scene(), "-o", folder.out(), "--overwrite", "--device", "none such"}).code,
-        4);
+    EXPECT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "--overwrite", "--device", "none such"}).code, 4);
     EXPECT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "--overwrite", "-s", "9"}).code, 2);
     EXPECT_EQ(everything_below(folder.path()), before);
 
     ASSERT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "-e", "1"}).code, 0);
-    EXPECT_THAT(names_in(folder.out()),
-                ElementsAre("frame_0000.png", "frame_0001.png", "manifest.json", "notes.txt"));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("frame_0000.png", "frame_0001.png", "manifest.json", "notes.txt"));
     EXPECT_EQ(read_text(folder / "out/notes.txt"), "mine");
     EXPECT_EQ(read_text(folder / "out/frame_0001.png"), before.at("out/frame_0001.png"));
 }

@@ -22,8 +22,8 @@ std::string content(std::FILE* file) {
 }
 
 /// In the child: only calls that are safe after fork.
-[[noreturn]] void become(const std::string& program, char* const* arguments, const StartOptions& options,
-                         int out, int err) {
+[[noreturn]] void become(const std::string& program, char* const* arguments, const StartOptions& options, int out,
+                         int err) {
     // What a test ignores must not be ignored in the program.
     for (const int signal : {SIGPIPE, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);

@@ -53,8 +53,7 @@ TEST(Results, FramesAreThoseAskedForAndTheirBytesDoNotDependOnIt) {
     run({"render", folder.scene(), "-o", folder.out("some"), "-s", "2", "-e", "10", "-j", "3", "-q"});
     EXPECT_THAT(frame_numbers(folder / "some"), ElementsAre(2, 5, 8));
     for (const int frame : {2, 5, 8})
-        EXPECT_EQ(read_text(folder / "some" / frame_name(frame)),
-                  read_text(folder / "all" / frame_name(frame)));
+        EXPECT_EQ(read_text(folder / "some" / frame_name(frame)), read_text(folder / "all" / frame_name(frame)));
     const Json::Value frames = lasting_manifest(folder / "some")["frames"];
     EXPECT_EQ(frames["start"].asInt(), 2);
     EXPECT_EQ(frames["end"].asInt(), 10);
@@ -84,13 +83,14 @@ TEST(Results, EveryFrameStatesItsStatistics) {
 TEST(Results, TheProgressLineStatesTheStretch) {
     const SceneFolder folder(small_scene(2));
     const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out()});
-    EXPECT_THAT(outcome.err, testing::ContainsRegex("ETA 0:00  stretch .* % RMS, .* % max, stretch error .* % RMS, energy .* J, 0 mm deep\n"));
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex(
+                    "ETA 0:00  stretch .* % RMS, .* % max, stretch error .* % RMS, energy .* J, 0 mm deep\n"));
 }
 
 TEST(Results, ATooLargeEndIsClampedWithAWarning) {
     const SceneFolder folder(small_scene(3));
-    const Outcome outcome =
-        drape({"render", folder.scene(), "-o", folder.out(), "-e", "1000", "-s", "1", "-q"});
+    const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "-e", "1000", "-s", "1", "-q"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "warning: the scene ends at frame 2: --end 1000 is clamped\n");
     EXPECT_THAT(frame_numbers(folder.out()), ElementsAre(1, 2));
@@ -123,8 +123,7 @@ TEST(Results, ASceneMayComeFromAPipe) {
     const std::string command = "cat scene.json | '" DRAPE_PROGRAM "' simulate /dev/stdin -o pipe -q";
     EXPECT_EQ(Running("/bin/sh", {"-c", command}, {.folder = folder.path()}).wait().code, 0);
     EXPECT_EQ(read_text(folder / "pipe/positions.npy"), read_text(folder / "file/positions.npy"));
-    EXPECT_EQ(lasting_manifest(folder / "pipe")["scene"]["hash"],
-              lasting_manifest(folder / "file")["scene"]["hash"]);
+    EXPECT_EQ(lasting_manifest(folder / "pipe")["scene"]["hash"], lasting_manifest(folder / "file")["scene"]["hash"]);
 }
 
 TEST(Results, SeveralClothsGiveAnArrayEachThatNumPyReads) {
@@ -135,8 +134,7 @@ TEST(Results, SeveralClothsGiveAnArrayEachThatNumPyReads) {
              {"name": "right", "grid": [4, 5], "size": [1, 1], "placement": {"origin": [1, 3, 0]}}]
 })");
     run({"simulate", folder.scene(), "-o", folder.out(), "-j", "2"});
-    EXPECT_THAT(names_in(folder.out()),
-                ElementsAre("manifest.json", "positions_left.npy", "positions_right.npy"));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("manifest.json", "positions_left.npy", "positions_right.npy"));
     EXPECT_THAT(read_text(folder / "out/positions_left.npy"), HasSubstr("'shape': (4, 3, 8, 3)"));
     const std::string python = "/usr/bin/python3";
     if (access(python.c_str(), X_OK) != 0 || Running(python, {"-c", "import numpy"}).wait().code != 0)

@@ -38,8 +38,7 @@ TEST_P(Resume, GivesTheBytesOfAnUndisturbedRun) {
     // A gap, whatever the moment of the signal.
     fs::remove(folder / "out/frame_0003.png");
     std::map<int, ino_t> kept;
-    for (const int frame : frame_numbers(folder.out()))
-        kept[frame] = file_number(folder / "out" / frame_name(frame));
+    for (const int frame : frame_numbers(folder.out())) kept[frame] = file_number(folder / "out" / frame_name(frame));
     ASSERT_GE(kept.size(), 3u);
     const int last = kept.rbegin()->first + 4;
     const std::string end = std::to_string(last);
@@ -62,9 +61,8 @@ TEST_P(Resume, GivesTheBytesOfAnUndisturbedRun) {
     EXPECT_EQ(whole.size(), static_cast<std::size_t>(last) + 1);
     EXPECT_EQ(files, whole);
 }
-INSTANTIATE_TEST_SUITE_P(After, Resume, testing::Values(SIGINT, SIGKILL), [](const auto& test) {
-    return std::string(test.param == SIGINT ? "SIGINT" : "SIGKILL");
-});
+INSTANTIATE_TEST_SUITE_P(After, Resume, testing::Values(SIGINT, SIGKILL),
+                         [](const auto& test) { return std::string(test.param == SIGINT ? "SIGINT" : "SIGKILL"); });
 
 TEST(ResumeGuard, AnotherRunsPicturesAreRefusedAndNothingIsLost) {
     const SceneFolder folder(small_scene(3));
@@ -111,8 +109,7 @@ TEST(ResumeGuard, AnotherScenesArraysAreRefusedAndNothingIsLost) {
     const SceneFolder folder(small_scene(3));
     ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q"}).code, 0);
     const auto before = everything_below(folder.out());
-    const Outcome other =
-        drape({"simulate", folder.scene(), "-o", folder.out(), "--resume", "--set", "/time/fps=30"});
+    const Outcome other = drape({"simulate", folder.scene(), "-o", folder.out(), "--resume", "--set", "/time/fps=30"});
     EXPECT_EQ(other.code, 1);
     EXPECT_THAT(other.err, HasSubstr("manifest.json' is that of another run"));
     EXPECT_EQ(everything_below(folder.out()), before);

@@ -55,9 +55,7 @@ const BadScene bad_scenes[] = {
     {"NegativeMass",
      cloth("\"areal_density\": -0.2"),
      {"2:18: /cloths/0/areal_density: expected a number > 0 (single precision), got -0.2"}},
-    {"ZeroGrid",
-     cloth("\"grid\": [0, 8]"),
-     {"2:10: /cloths/0/grid/0: expected an integer from 2 to 16384, got 0"}},
+    {"ZeroGrid", cloth("\"grid\": [0, 8]"), {"2:10: /cloths/0/grid/0: expected an integer from 2 to 16384, got 0"}},
     {"BillionParticles",
      cloth("\"grid\": [40000, 25000]"),
      {"2:9: /cloths/0/grid: expected at most 16000000 particles in all cloths together, got 1000000000",
@@ -88,8 +86,7 @@ TEST(SceneErrors, AMissingFileIsAFileError) {
 TEST(SceneErrors, AnOverrideIsCheckedLikeTheFile) {
     const SceneFolder folder(small_scene(2));
     const auto refusal = [&](const std::string& value) {
-        const Outcome outcome =
-            drape({"render", "scene.json", "-o", "out", "--set", value}, {.folder = folder.path()});
+        const Outcome outcome = drape({"render", "scene.json", "-o", "out", "--set", value}, {.folder = folder.path()});
         EXPECT_EQ(outcome.code, 3) << value;
         return outcome.err;
     };
@@ -99,8 +96,7 @@ TEST(SceneErrors, AnOverrideIsCheckedLikeTheFile) {
     EXPECT_THAT(refusal("/cloths/3/damping=1"),
                 HasSubstr("expected an index into the 1 elements of /cloths, got \"3\""));
     EXPECT_THAT(refusal("/gravity=NaN"), HasSubstr("/gravity: expected an array of 3 numbers, got \"NaN\""));
-    EXPECT_THAT(refusal("/solver/substep=3"),
-                HasSubstr("expected \"substeps\", got the unknown key \"substep\""));
+    EXPECT_THAT(refusal("/solver/substep=3"), HasSubstr("expected \"substeps\", got the unknown key \"substep\""));
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
 }
 

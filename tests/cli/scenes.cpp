@@ -58,8 +58,7 @@ Json::Value lasting_manifest(const fs::path& folder) {
     std::istringstream stream(read_text(folder / "manifest.json"));
     Json::Value manifest;
     std::string errors;
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &manifest, &errors))
-        throw std::runtime_error(errors);
+    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &manifest, &errors)) throw std::runtime_error(errors);
     if (!manifest.isMember("run")) throw std::runtime_error("no \"run\" in the manifest");
     manifest.removeMember("run");
     return manifest;

@@ -26,8 +26,7 @@ class Signals : public testing::TestWithParam<Stop> {};
 TEST_P(Signals, EndARenderWithWholePicturesAndNoManifest) {
     const SceneFolder folder(small_scene(endless));
     Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out()});
-    ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "out/frame_0003.png"); }))
-        << program.wait().err;
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "out/frame_0003.png"); })) << program.wait().err;
     program.send(GetParam().signal);
     const Outcome outcome = program.wait();
     EXPECT_EQ(outcome.code, GetParam().code);
@@ -59,8 +58,7 @@ TEST_P(Signals, EndASimulationWithoutItsIncompleteArray) {
     EXPECT_THAT(names_in(folder.path()), ElementsAre("scene.json"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Signals,
-                         testing::Values(Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}),
+INSTANTIATE_TEST_SUITE_P(Both, Signals, testing::Values(Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

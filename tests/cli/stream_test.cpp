@@ -24,8 +24,7 @@ TEST(Streams, ARunSaysNothingOnStdoutAndQuietSaysNothing) {
     const Outcome normal = drape({"render", folder.scene(), "-o", folder.out("a")});
     EXPECT_EQ(normal.code, 0);
     EXPECT_THAT(normal.out, IsEmpty());
-    EXPECT_THAT(normal.err,
-                AllOf(HasSubstr("frame 1 (2/2, 100 %)"), HasSubstr("2 frames in " + folder.out("a"))));
+    EXPECT_THAT(normal.err, AllOf(HasSubstr("frame 1 (2/2, 100 %)"), HasSubstr("2 frames in " + folder.out("a"))));
     EXPECT_THAT(normal.err, Not(HasSubstr("\x1b")));  // no terminal, no escape sequences
     const Outcome quiet = drape({"render", folder.scene(), "-o", folder.out("b"), "-q"});
     EXPECT_EQ(quiet.code, 0);
@@ -37,12 +36,11 @@ TEST(Streams, VerboseNamesDeviceDriverPlanAndMemory) {
     const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-v"});
     EXPECT_EQ(outcome.code, 0);
     const Json::Value device = lasting_manifest(folder.out())["device"];
-    EXPECT_THAT(
-        outcome.err,
-        AllOf(HasSubstr(device["name"].asString()), HasSubstr(device["driver_version"].asString()),
-              HasSubstr(device["uuid"].asString()), HasSubstr("48 particles, 4 substeps x 1 iterations"),
-              testing::ContainsRegex("plan: [0-9]+ passes, [0-9]+ barriers"),
-              testing::ContainsRegex("device memory: [0-9.]+ [KMG]iB of at most [0-9.]+ [KMG]iB")));
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr(device["name"].asString()), HasSubstr(device["driver_version"].asString()),
+                      HasSubstr(device["uuid"].asString()), HasSubstr("48 particles, 4 substeps x 1 iterations"),
+                      testing::ContainsRegex("plan: [0-9]+ passes, [0-9]+ barriers"),
+                      testing::ContainsRegex("device memory: [0-9.]+ [KMG]iB of at most [0-9.]+ [KMG]iB")));
 }
 
 TEST(Streams, AGraphIsDataInEveryFormat) {

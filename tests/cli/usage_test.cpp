@@ -26,9 +26,8 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
                                     HasSubstr("Exit codes: 0 ok, 1 file")))
             << command;
     }
-    EXPECT_THAT(
-        drape({"render", "-h"}).out,
-        AllOf(HasSubstr("--resume"), HasSubstr("default: 0, the initial state"), HasSubstr("in pixels")));
+    EXPECT_THAT(drape({"render", "-h"}).out,
+                AllOf(HasSubstr("--resume"), HasSubstr("default: 0, the initial state"), HasSubstr("in pixels")));
     EXPECT_THAT(drape({"simulate", "-h"}).out, HasSubstr("float32 [frame, row, column, 3], metres"));
 }
 
@@ -86,15 +85,9 @@ const WrongUsage wrong_usages[] = {
     {"StartAfterEnd",
      {"render", "SCENE", "-o", "OUT", "-s", "3", "-e", "2"},
      "no frame to write: --start 3 is after the last frame 2"},
-    {"StartAfterTheScene",
-     {"render", "SCENE", "-o", "OUT", "-s", "4"},
-     "--start 4 is after the last frame 3"},
-    {"SetWithoutPointer",
-     {"render", "SCENE", "-o", "OUT", "--set", "a=1"},
-     "--set: expected /json/pointer=value"},
-    {"SetWithoutValue",
-     {"check", "SCENE", "--set", "/time/fps"},
-     "expected /json/pointer=value, got '/time/fps'"},
+    {"StartAfterTheScene", {"render", "SCENE", "-o", "OUT", "-s", "4"}, "--start 4 is after the last frame 3"},
+    {"SetWithoutPointer", {"render", "SCENE", "-o", "OUT", "--set", "a=1"}, "--set: expected /json/pointer=value"},
+    {"SetWithoutValue", {"check", "SCENE", "--set", "/time/fps"}, "expected /json/pointer=value, got '/time/fps'"},
     {"SetWithNothing", {"render", "SCENE", "-o", "OUT", "--set"}, "--set: 1 required /POINTER=VALUE missing"},
     {"OverwriteAndResume", {"render", "SCENE", "-o", "OUT", "--overwrite", "--resume"}, "excludes"},
     {"QuietAndVerbose", {"render", "SCENE", "-o", "OUT", "-q", "-v"}, "excludes"},

@@ -79,8 +79,8 @@ TEST_P(DirectionTable, HoldsEveryBendingElementOnceAndNoParticleTwiceInAPass) {
             }
     }
     const auto inner = [](int count) { return static_cast<std::size_t>(std::max(count - 2, 0)); };
-    EXPECT_EQ(seen.size(), inner(grid.x) * static_cast<std::size_t>(grid.y) +
-                               inner(grid.y) * static_cast<std::size_t>(grid.x));
+    EXPECT_EQ(seen.size(),
+              inner(grid.x) * static_cast<std::size_t>(grid.y) + inner(grid.y) * static_cast<std::size_t>(grid.x));
     for (const auto& [element, count] : seen) EXPECT_EQ(count, 1);
 }
 
@@ -106,8 +106,8 @@ TEST_P(DirectionTable, HoldsEveryCellsTwistOnceAndNoParticleTwiceInAPass) {
 
 INSTANTIATE_TEST_SUITE_P(Grids, DirectionTable,
                          testing::Values(glsl::ivec2{2, 2}, glsl::ivec2{2, 7}, glsl::ivec2{8, 2}, glsl::ivec2{3, 3},
-                                         glsl::ivec2{9, 5}, glsl::ivec2{8, 8}, glsl::ivec2{16, 9},
-                                         glsl::ivec2{33, 64}, glsl::ivec2{65, 3}));
+                                         glsl::ivec2{9, 5}, glsl::ivec2{8, 8}, glsl::ivec2{16, 9}, glsl::ivec2{33, 64},
+                                         glsl::ivec2{65, 3}));
 
 TEST(DirectionTableTest, NeighboursAreTheSpringsOfTheTableFromBothEnds) {
     std::set<std::tuple<int, int, int, int>> expected;  // offset, direction, whether this particle is the first

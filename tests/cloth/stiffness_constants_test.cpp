@@ -29,7 +29,8 @@ TEST(StiffnessConstantsTest, FollowTheCells) {
 
 TEST(ExplicitStiffnessTest, SmallStepsUseAllOfIt) {
     const double mass = 2e-5, h = 1e-5;
-    const ExplicitStiffness used = explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, 0.2);
+    const ExplicitStiffness used =
+        explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, 0.2);
     EXPECT_FALSE(used.softened());
     EXPECT_DOUBLE_EQ(used.spring[0], 1000 * h * h / mass);
     EXPECT_DOUBLE_EQ(used.spring[3], 100 * h * h / mass);
@@ -54,7 +55,8 @@ TEST(ExplicitStiffnessTest, LargeStepsAreSoftenedToTheStatedLimit) {
 TEST(ExplicitStiffnessTest, EachAxisIsSoftenedAsFarAsItMustBe) {
     const StiffnessConstants wanted = stiffness_constants({false, 1000, 100, 0}, oblong);
     const double mass = 4e-5;
-    const double h = std::sqrt(0.45 * mass / 1000);  // the long cells' springs (500 N/m) still fit, the short ones' do not
+    const double h =
+        std::sqrt(0.45 * mass / 1000);  // the long cells' springs (500 N/m) still fit, the short ones' do not
     const ExplicitStiffness used = explicit_stiffness(wanted, oblong, mass, h, 0);
     EXPECT_EQ(used.columns_share, 1);
     EXPECT_LT(used.rows_share, 0.5);

@@ -25,14 +25,18 @@ std::vector<std::uint32_t> compare_iterations(const SceneDescription& scene) {
     FrameLoop loop(test::gpu().device, model, options);
     Twin twin(model);
     std::vector<std::uint32_t> counts;
-    loop.run(frame_count, [](std::uint32_t frame) { return frame > 0; }, [&](const FinishedFrame& frame) {
-        twin.run_frame(frame.frame);
-        const TwinCloth& expected = twin.cloth(0);
-        EXPECT_EQ(std::memcmp(frame.positions[0].data(), expected.position.data(),
-                              expected.position.size() * sizeof(glsl::vec4)), 0) << "frame " << frame.frame;
-        EXPECT_EQ(frame.statistics[0].iteration_count, expected.iteration_count) << "frame " << frame.frame;
-        counts.push_back(frame.statistics[0].iteration_count.value_or(0));
-    });
+    loop.run(
+        frame_count, [](std::uint32_t frame) { return frame > 0; },
+        [&](const FinishedFrame& frame) {
+            twin.run_frame(frame.frame);
+            const TwinCloth& expected = twin.cloth(0);
+            EXPECT_EQ(std::memcmp(frame.positions[0].data(), expected.position.data(),
+                                  expected.position.size() * sizeof(glsl::vec4)),
+                      0)
+                << "frame " << frame.frame;
+            EXPECT_EQ(frame.statistics[0].iteration_count, expected.iteration_count) << "frame " << frame.frame;
+            counts.push_back(frame.statistics[0].iteration_count.value_or(0));
+        });
     return counts;
 }
 

@@ -55,9 +55,8 @@ class TwinWithCuts {
         for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) {
             ClothModel& model = model_.cloths[cloth];
             const CutFindings found = find_cuts(model, twin_.cloth(cloth).position, cutters);
-            const bool hit = std::ranges::any_of(found.fractions, [](const glsl::vec4& f) {
-                return f.x >= 0 || f.y >= 0 || f.z >= 0 || f.w >= 0;
-            });
+            const bool hit = std::ranges::any_of(
+                found.fractions, [](const glsl::vec4& f) { return f.x >= 0 || f.y >= 0 || f.z >= 0 || f.w >= 0; });
             if (!hit) continue;
             const CutCounts counts = topologies[cloth].apply(model, found);
             sum.springs += counts.springs;
@@ -198,17 +197,19 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
     idle.cutters = {blade({-5, -0.5, -3}, {5, -0.5, -3}, {0, -0.5, 6}, 90, 100)};
     std::vector<std::vector<glsl::vec4>> without, with;
     FrameLoop plain_loop(test::gpu().device, SimulationModel(scene), positions_only());
-    plain_loop.run(19, [](std::uint32_t) { return true; },
-                   [&](const FinishedFrame& frame) { without.push_back(texels(frame.positions[0])); });
+    plain_loop.run(
+        19, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) { without.push_back(texels(frame.positions[0])); });
     FrameLoopOptions options = positions_only();
     options.timestamps = graph::TimestampMode::passes;
     std::vector<std::string> timed;
     FrameLoop idle_loop(test::gpu().device, SimulationModel(idle), options);
-    idle_loop.run(19, [](std::uint32_t) { return true; },
-                  [&](const FinishedFrame& frame) {
-                      with.push_back(texels(frame.positions[0]));
-                      for (const graph::Timing& timing : frame.timings) timed.push_back(timing.name);
-                  });
+    idle_loop.run(
+        19, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            with.push_back(texels(frame.positions[0]));
+            for (const graph::Timing& timing : frame.timings) timed.push_back(timing.name);
+        });
     ASSERT_EQ(with.size(), without.size());
     std::string where;
     for (std::size_t frame = 0; frame < with.size(); ++frame)
@@ -290,12 +291,13 @@ TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
         cut_frames.push_back(event.frame);
     };
     FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
-    loop.run(3, [](std::uint32_t) { return true; },
-             [&](const FinishedFrame& frame) {
-                 twin.run_frame(frame.frame);
-                 std::string where;
-                 EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
-             });
+    loop.run(
+        3, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            twin.run_frame(frame.frame);
+            std::string where;
+            EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
+        });
     EXPECT_EQ(cut_frames, std::vector<std::uint32_t>{0});
 }
 
@@ -314,8 +316,9 @@ TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
     int cuts = 0;
     options.on_cut = [&](const CutEvent&, const ClothModel&, const CutTopology&) { ++cuts; };
     FrameLoop loop(test::gpu().device, SimulationModel(scene), options);
-    loop.run(7, [](std::uint32_t) { return true; },
-             [&](const FinishedFrame& frame) { pictures.emplace_back(frame.rgba.begin(), frame.rgba.end()); });
+    loop.run(
+        7, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) { pictures.emplace_back(frame.rgba.begin(), frame.rgba.end()); });
     EXPECT_EQ(cuts, 2);
     // Nothing moves: the cut sheet, drawn in parts, covers the pixels that the whole one did.
     std::size_t different = 0, covered = 0;

@@ -59,10 +59,9 @@ std::vector<glsl::vec4> DeviceRun::image(std::size_t cloth, const std::string& p
 
 std::vector<float> DeviceRun::tension(std::size_t cloth, std::size_t direction) const {
     std::vector<float> texels(model_.cloths[cloth].grid.particle_count());
-    vulkan::download(device_,
-                     pool_->image(model_.cloths[cloth].name + "/tension " +
-                                  std::string(spring_directions[direction].name)),
-                     std::as_writable_bytes(std::span(texels)));
+    vulkan::download(
+        device_, pool_->image(model_.cloths[cloth].name + "/tension " + std::string(spring_directions[direction].name)),
+        std::as_writable_bytes(std::span(texels)));
     return texels;
 }
 

@@ -55,8 +55,8 @@ class ValidationListener : public testing::EmptyTestEventListener {
 };
 
 Gpu::Gpu()
-    : instance_(std::make_unique<vulkan::Instance>(
-          vulkan::InstanceOptions{.validation = true, .print_messages = false})),
+    : instance_(
+          std::make_unique<vulkan::Instance>(vulkan::InstanceOptions{.validation = true, .print_messages = false})),
       device_(std::make_unique<vulkan::Device>(*instance_, environment("DRAPE_TEST_DEVICE"))),
       instance(*instance_),
       device(*device_) {}

@@ -75,8 +75,7 @@ struct GraphExecution : ::testing::Test {
             [input, written](PassContext& context) {
                 const VkBufferImageCopy region = whole_image();
                 vkCmdCopyBufferToImage(context.commands(), context.buffer(input).handle(),
-                                       context.image(*written).handle(), context.layout(*written), 1,
-                                       &region);
+                                       context.image(*written).handle(), context.layout(*written), 1, &region);
             });
     }
 
@@ -90,8 +89,8 @@ struct GraphExecution : ::testing::Test {
             },
             [source, written](PassContext& context) {
                 const VkBufferImageCopy region = whole_image();
-                vkCmdCopyImageToBuffer(context.commands(), context.image(source).handle(),
-                                       context.layout(source), context.buffer(*written).handle(), 1, &region);
+                vkCmdCopyImageToBuffer(context.commands(), context.image(source).handle(), context.layout(source),
+                                       context.buffer(*written).handle(), 1, &region);
             });
     }
 
@@ -172,9 +171,8 @@ TEST_F(GraphExecution, EveryMissingBarrierOfAChainIsReported) {
     // barrier, so each is planted by dropping all of its pass.
     for (const std::uint32_t pass : {1u, 2u}) {
         const test::ExpectValidationMessages expected;
-        const RecordedPlan broken(
-            graph, plan, pool, TimestampMode::none,
-            [&](const PlannedPass& planned, const Barrier&) { return planned.pass != pass; });
+        const RecordedPlan broken(graph, plan, pool, TimestampMode::none,
+                                  [&](const PlannedPass& planned, const Barrier&) { return planned.pass != pass; });
         EXPECT_THAT(expected.messages(), Contains(HasSubstr("SYNC-HAZARD-READ-AFTER-WRITE"))) << pass;
     }
 }
@@ -201,8 +199,7 @@ TEST_F(GraphExecution, AttachmentsKeepTheirContentsBetweenPlansAndComeBackToGene
         {"clear", "raster", "clear"},
         [&](PassSetup& setup) { *drawn = color = setup.write(color, Access::color_write); },
         [drawn](PassContext& context) {
-            auto attachment =
-                vulkan::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+            auto attachment = vulkan::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
             attachment.imageView = context.image(*drawn).view();
             attachment.imageLayout = context.layout(*drawn);
             attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
@@ -309,43 +306,42 @@ TEST_P(GraphBinding, MistakeIsRefusedByName) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, GraphBinding,
-    ::testing::Values(
-        BindingMistake{"BindingNotDeclared",
-                       [](PassSetup& setup, Handle, Handle& target, Handle, Handle) {
-                           target = setup.write(target, Access::compute_write, 1);
-                       },
-                       {"binding 0", "'source'"}},
-        BindingMistake{"BindingThePipelineLacks",
-                       [](PassSetup& setup, Handle good, Handle& target, Handle wrong_format, Handle) {
-                           setup.read(good, Access::compute_read, 0);
-                           target = setup.write(target, Access::compute_write, 1);
-                           setup.read(wrong_format, Access::compute_read, 2);
-                       },
-                       {"'wrong format'", "binding 2"}},
-        BindingMistake{"ReadDeclaredWhereTheShaderWrites",
-                       [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
-                           setup.read(good, Access::compute_read, 1);
-                           target = setup.write(target, Access::compute_write, 0);
-                       },
-                       {"'good'", "binding 1", "writes"}},
-        BindingMistake{"WrongFormat",
-                       [](PassSetup& setup, Handle, Handle& target, Handle wrong_format, Handle) {
-                           setup.read(wrong_format, Access::compute_read, 0);
-                           target = setup.write(target, Access::compute_write, 1);
-                       },
-                       {"'wrong format'", "VkFormat 100", "109"}},
-        BindingMistake{"BufferForAnImage",
-                       [](PassSetup& setup, Handle, Handle& target, Handle, Handle some_buffer) {
-                           setup.read(some_buffer, Access::compute_read, 0);
-                           target = setup.write(target, Access::compute_write, 1);
-                       },
-                       {"'buffer'", "not an image"}},
-        BindingMistake{"VertexReadInACompute",
-                       [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
-                           setup.read(good, Access::vertex_read, 0);
-                           target = setup.write(target, Access::compute_write, 1);
-                       },
-                       {"'good'", "vertex_read"}}),
+    ::testing::Values(BindingMistake{"BindingNotDeclared",
+                                     [](PassSetup& setup, Handle, Handle& target, Handle, Handle) {
+                                         target = setup.write(target, Access::compute_write, 1);
+                                     },
+                                     {"binding 0", "'source'"}},
+                      BindingMistake{"BindingThePipelineLacks",
+                                     [](PassSetup& setup, Handle good, Handle& target, Handle wrong_format, Handle) {
+                                         setup.read(good, Access::compute_read, 0);
+                                         target = setup.write(target, Access::compute_write, 1);
+                                         setup.read(wrong_format, Access::compute_read, 2);
+                                     },
+                                     {"'wrong format'", "binding 2"}},
+                      BindingMistake{"ReadDeclaredWhereTheShaderWrites",
+                                     [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
+                                         setup.read(good, Access::compute_read, 1);
+                                         target = setup.write(target, Access::compute_write, 0);
+                                     },
+                                     {"'good'", "binding 1", "writes"}},
+                      BindingMistake{"WrongFormat",
+                                     [](PassSetup& setup, Handle, Handle& target, Handle wrong_format, Handle) {
+                                         setup.read(wrong_format, Access::compute_read, 0);
+                                         target = setup.write(target, Access::compute_write, 1);
+                                     },
+                                     {"'wrong format'", "VkFormat 100", "109"}},
+                      BindingMistake{"BufferForAnImage",
+                                     [](PassSetup& setup, Handle, Handle& target, Handle, Handle some_buffer) {
+                                         setup.read(some_buffer, Access::compute_read, 0);
+                                         target = setup.write(target, Access::compute_write, 1);
+                                     },
+                                     {"'buffer'", "not an image"}},
+                      BindingMistake{"VertexReadInACompute",
+                                     [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
+                                         setup.read(good, Access::vertex_read, 0);
+                                         target = setup.write(target, Access::compute_write, 1);
+                                     },
+                                     {"'good'", "vertex_read"}}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST_F(GraphExecution, PushConstantsOfTheWrongSizeAreRefused) {
@@ -414,8 +410,7 @@ TEST_F(GraphExecution, DifferentDeclarationsOfOneNameAreRefused) {
     const Handle source = image("source", Lifetime::constant);
     copy("copy", "s", source, one);
     Graph other;
-    (void)other.image(
-        {.name = "shared", .width = width + 1, .height = height, .lifetime = Lifetime::persistent});
+    (void)other.image({.name = "shared", .width = width + 1, .height = height, .lifetime = Lifetime::persistent});
     const Plan plan = make_plan(graph), other_plan = make_plan(other);
     const Plans plans{{&graph, &plan}, {&other, &other_plan}};
     EXPECT_THAT([&] { const ResourcePool pool(gpu().device, plans); },
@@ -425,8 +420,7 @@ TEST_F(GraphExecution, DifferentDeclarationsOfOneNameAreRefused) {
 TEST_F(GraphExecution, BudgetIsCheckedForAllTogetherBeforeAnythingIsMade) {
     const std::uint64_t half = gpu().device.budget().limit() / 2 & ~std::uint64_t{3};
     Handle first = graph.buffer({.name = "first", .byte_count = half, .lifetime = Lifetime::persistent});
-    Handle second =
-        graph.buffer({.name = "second", .byte_count = half + 64, .lifetime = Lifetime::persistent});
+    Handle second = graph.buffer({.name = "second", .byte_count = half + 64, .lifetime = Lifetime::persistent});
     graph.add_pass({"fill", "s", "fill"},
                    [&](PassSetup& setup) {
                        first = setup.write(first, Access::transfer_write);

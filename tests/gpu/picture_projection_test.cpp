@@ -121,8 +121,8 @@ TEST(PictureProjectionTest, MarkedParticlesAreFoundAtTheirPixels) {
             for (std::size_t i = 0; i < markers.size(); ++i) {
                 const Center expected = projected(scene, frame.positions[1 + i]);
                 const std::optional<Center> found = find(frame.rgba, markers[i].color);
-                ASSERT_TRUE(found) << "marker " << i << ", frame " << frame.frame << " expected at "
-                                   << expected.x << " " << expected.y;
+                ASSERT_TRUE(found) << "marker " << i << ", frame " << frame.frame << " expected at " << expected.x
+                                   << " " << expected.y;
                 worst = std::max({worst, std::abs(found->x - expected.x), std::abs(found->y - expected.y)});
                 EXPECT_NEAR(found->x, expected.x, 1) << "marker " << i << ", frame " << frame.frame;
                 EXPECT_NEAR(found->y, expected.y, 1) << "marker " << i << ", frame " << frame.frame;

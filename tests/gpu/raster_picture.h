@@ -26,9 +26,7 @@ inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s *
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vec3 unit(const Vec3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
-inline double linear(double srgb) {
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
+inline double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 inline double srgb_byte(double radiance) {
     const double x = std::clamp(radiance, 0.0, 1.0);
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
@@ -49,11 +47,10 @@ inline glsl::vec4 texel(const Vec3& v) {
 
 /// Flat grid around `center`, `u` and `v` the full edges along columns and rows; `normal`: what its image
 /// says.
-inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& normal,
-                             const Vec3& front, const Vec3& back, std::uint32_t particles = 2) {
+inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& normal, const Vec3& front,
+                             const Vec3& back, std::uint32_t particles = 2) {
     DrawnCloth cloth{
-        particles, particles, std::sqrt(dot(u, u)), std::sqrt(dot(v, v)), {front, back, Pattern::plain}, {},
-        {},        {}};
+        particles, particles, std::sqrt(dot(u, u)), std::sqrt(dot(v, v)), {front, back, Pattern::plain}, {}, {}, {}};
     for (std::uint32_t row = 0; row < particles; ++row) {
         for (std::uint32_t column = 0; column < particles; ++column) {
             const double s = column / (particles - 1.0) - 0.5, t = row / (particles - 1.0) - 0.5;

@@ -190,8 +190,8 @@ struct Shading {
                 const double arriving = linear(light.color[k]) * light.intensity;
                 const double facing = dot(normal, to_light);
                 const double shine = std::pow(std::max(0.0, dot(normal, unit(to_light + to_eye))), 32);
-                radiance += arriving * (facing > 0 ? albedo[k] * facing + gloss * shine
-                                                   : albedo[k] * transmission * -facing);
+                radiance +=
+                    arriving * (facing > 0 ? albedo[k] * facing + gloss * shine : albedo[k] * transmission * -facing);
             }
             result[k] = srgb_byte(radiance);
         }
@@ -209,8 +209,7 @@ TEST_F(Raster, ClothIsShadedByTheFormula) {
     SceneDescription scene = dark_room();
     scene.ambient = {0.2, 0.25, 0.3};
     const Vec3 front{0.8, 0.3, 0.2}, back{0.3, 0.5, 0.7};
-    const DirectionalLight key{{-0.4, -0.5, -1}, {1, 0.9, 0.8}, 0.6},
-        behind{{0.2, -0.3, 1}, {0.7, 0.8, 1}, 0.5};
+    const DirectionalLight key{{-0.4, -0.5, -1}, {1, 0.9, 0.8}, 0.6}, behind{{0.2, -0.3, 1}, {0.7, 0.8, 1}, 0.5};
     for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0.5, 0.3, 0.6}, Vec3{0.1, -0.9, 0.2}}) {
         const Vec3 normal = unit(direction);
         const DrawnCloth facing = flat_cloth({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, normal, front, back);
@@ -226,8 +225,8 @@ TEST_F(Raster, ClothIsShadedByTheFormula) {
                 expect_color(draw(scene, {facing}, {.samples = samples}).at(160, 119),
                              front_shading.pixel_color(lights), "front, " + what);
                 const Shading back_shading{linear_color_of(back), normal, to_eye, scene.ambient};
-                expect_color(draw(scene, {turned}, {.samples = samples}).at(160, 119),
-                             back_shading.pixel_color(lights), "back, " + what);
+                expect_color(draw(scene, {turned}, {.samples = samples}).at(160, 119), back_shading.pixel_color(lights),
+                             "back, " + what);
             }
         }
     }
@@ -336,8 +335,7 @@ TEST_F(Raster, CollidersCastShadowsWithoutACloth) {
     SceneDescription scene = floor_scene();
     scene.colliders.spheres.push_back({painted(red), {0, 1, 0}, 0.3});
     const Picture picture = draw(scene, {}, {.options = {.shadow = true}});
-    EXPECT_LT(picture.at(pixel(scene, {0.07, 0, 0.07}))[0] + 30,
-              picture.at(pixel(scene, {0.43, 0, 0.07}))[0]);
+    EXPECT_LT(picture.at(pixel(scene, {0.07, 0, 0.07}))[0] + 30, picture.at(pixel(scene, {0.43, 0, 0.07}))[0]);
     // The lit half of the sphere has no specks of its own shadow.
     const Picture plain = draw(scene, {});
     for (int step = -5; step <= 5; ++step) {

@@ -38,14 +38,12 @@ void no_lift(SimulationModel& model) {
     for_each_cloth(model, [](ClothModel& cloth) { cloth.wind.lift_coefficient = 0; });
 }
 void no_wind(SimulationModel& model) {
-    for_each_cloth(model,
-                   [](ClothModel& cloth) { cloth.wind.drag_coefficient = cloth.wind.lift_coefficient = 0; });
+    for_each_cloth(model, [](ClothModel& cloth) { cloth.wind.drag_coefficient = cloth.wind.lift_coefficient = 0; });
 }
 /// k h^2 becomes k h: the springs are 1 / h times too soft.
 void compliance_lacks_a_step(SimulationModel& model) {
     for_each_cloth(model, [](ClothModel& cloth) {
-        for (SpringWork& spring : cloth.springs)
-            spring.push.compliance /= static_cast<float>(cloth.substep_length);
+        for (SpringWork& spring : cloth.springs) spring.push.compliance /= static_cast<float>(cloth.substep_length);
     });
 }
 void no_shear_springs(SimulationModel& model) {

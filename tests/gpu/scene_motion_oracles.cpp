@@ -34,8 +34,7 @@ Vec3 flown(const SceneDescription& scene, const Cloth& cloth, double t) {
 /// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error`
 /// metres.
 Verdict falls(const SceneRun& run, const Limits& limits) {
-    const std::size_t index = limits.index("cloth"),
-                      last = std::min(limits.index("until_frame"), run.last_frame());
+    const std::size_t index = limits.index("cloth"), last = std::min(limits.index("until_frame"), run.last_frame());
     const Cloth& cloth = run.scene.cloths.at(index);
     double worst = 0;
     for (std::size_t frame = 1; frame <= last; ++frame)
@@ -85,8 +84,8 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
         lost += step;
     }
     return {share >= limits["least"] && share <= limits["most"],
-            fmt::format("{:.4f} of the work is motion at {:.3f} s ({:.3f} J), allowed {} to {}", share, when,
-                        fastest, limits["least"], limits["most"])};
+            fmt::format("{:.4f} of the work is motion at {:.3f} s ({:.3f} J), allowed {} to {}", share, when, fastest,
+                        limits["least"], limits["most"])};
 }
 
 /// Torque of the wind about the vertical through `pole`, N m: the scene format's force law on every triangle.
@@ -100,26 +99,24 @@ double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corner
         for (std::size_t k = 0; k < 3; ++k) {
             x[k] = run.at(frame, 0, corners[first + k]);
             center = plus(center, times(1.0 / 3, x[k]));
-            velocity = plus(velocity,
-                            times(run.scene.time.fps / 6, minus(run.at(frame + 1, 0, corners[first + k]),
-                                                                run.at(frame - 1, 0, corners[first + k]))));
+            velocity = plus(velocity, times(run.scene.time.fps / 6, minus(run.at(frame + 1, 0, corners[first + k]),
+                                                                          run.at(frame - 1, 0, corners[first + k]))));
         }
         const Vec3 relative = minus(air, velocity), doubled = cross(minus(x[1], x[0]), minus(x[2], x[0]));
         const double area = 0.5 * norm(doubled);
         if (area == 0) continue;
         Vec3 normal = times(0.5 / area, doubled);
         if (dot(normal, relative) < 0) normal = times(-1, normal);
-        const Vec3 force = times(0.5 * wind.air_density * area,
-                                 plus(times((wind.drag - wind.lift) * dot(relative, normal), relative),
-                                      times(wind.lift * dot(relative, relative), normal)));
+        const Vec3 force =
+            times(0.5 * wind.air_density * area, plus(times((wind.drag - wind.lift) * dot(relative, normal), relative),
+                                                      times(wind.lift * dot(relative, relative), normal)));
         torque += cross(minus(center, pole), force)[1];
     }
     return torque;
 }
 
 /// Angular momentum about the vertical through `pole`, kg m^2/s, between a frame and the next.
-double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::size_t frame,
-                        const Vec3& pole) {
+double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, const Vec3& pole) {
     double sum = 0;
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
         const Vec3 x = times(0.5, plus(run.at(frame, 0, particle), run.at(frame + 1, 0, particle)));
@@ -138,19 +135,17 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
     const double dt = 1 / run.scene.time.fps, c = run.scene.cloths[0].damping;
     const std::size_t first = limits.index("from_frame"),
                       last = std::min(limits.index("until_frame"), run.last_frame());
-    double before = angular_momentum(run, measure, first - 1, pole), expected = before, impulse = 0,
-           worst = 0;
+    double before = angular_momentum(run, measure, first - 1, pole), expected = before, impulse = 0, worst = 0;
     for (std::size_t frame = first; frame < last; ++frame) {
-        const double now = angular_momentum(run, measure, frame, pole),
-                     wind = wind_torque(run, corners, frame, pole);
+        const double now = angular_momentum(run, measure, frame, pole), wind = wind_torque(run, corners, frame, pole);
         expected += dt * (wind - 0.5 * c * (before + now));
         impulse += dt * std::abs(wind);
         worst = std::max(worst, std::abs(now - expected));
         before = now;
     }
     return {worst <= limits["relative_error"] * impulse && impulse > 0,
-            fmt::format("off by {:.2f} % of an impulse of {:.4f} kg m^2/s, allowed {:.2f} %",
-                        100 * worst / impulse, impulse, 100 * limits["relative_error"])};
+            fmt::format("off by {:.2f} % of an impulse of {:.4f} kg m^2/s, allowed {:.2f} %", 100 * worst / impulse,
+                        impulse, 100 * limits["relative_error"])};
 }
 
 /// From `from_frame` on the flag streams along the wind: its centre lies, in the mean over time, within
@@ -177,8 +172,8 @@ Verdict blown(const SceneRun& run, const Limits& limits) {
     for (double& value : sideways) value -= center;
     const double flutter = root_mean_square(sideways);
     return {std::abs(angle) <= limits["degrees"] && flutter >= limits["flutter"],
-            fmt::format("{:+.2f} degrees beside the wind, allowed {}; edge swings {:.4f} m, at least {}",
-                        angle, limits["degrees"], flutter, limits["flutter"])};
+            fmt::format("{:+.2f} degrees beside the wind, allowed {}; edge swings {:.4f} m, at least {}", angle,
+                        limits["degrees"], flutter, limits["flutter"])};
 }
 
 /// What is mirrored in the plane x = 0 stays so until `until_frame`: RMS distance of a particle from its
@@ -198,8 +193,7 @@ Verdict mirror(const SceneRun& run, const Limits& limits) {
             }
         worst = std::max(worst, root_mean_square(gaps));
     }
-    return {worst <= limits["error"],
-            fmt::format("RMS asymmetry {:.2e} m, allowed {:.2e} m", worst, limits["error"])};
+    return {worst <= limits["error"], fmt::format("RMS asymmetry {:.2e} m, allowed {:.2e} m", worst, limits["error"])};
 }
 
 /// The cap of cloth on top of the first sphere (rest distance from its middle under `radius` metres) turns
@@ -226,8 +220,8 @@ Verdict carried(const SceneRun& run, const Limits& limits) {
         worst = std::max(worst, std::abs(cloth_turn - sphere_turn));
     }
     return {worst <= limits["lag"] && sphere_turn > 10,
-            fmt::format("cloth turned {:.2f}, sphere {:.2f} degrees, apart by {:.2f} at most, allowed {}",
-                        cloth_turn, sphere_turn, worst, limits["lag"])};
+            fmt::format("cloth turned {:.2f}, sphere {:.2f} degrees, apart by {:.2f} at most, allowed {}", cloth_turn,
+                        sphere_turn, worst, limits["lag"])};
 }
 
 }  // namespace

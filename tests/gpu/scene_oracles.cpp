@@ -54,20 +54,18 @@ void for_each_pinned(const SceneDescription& scene, const Visit& visit) {
 }
 
 bool same_place(const SceneRun& run, std::size_t frame, std::size_t cloth, std::size_t particle) {
-    return std::memcmp(&run.frames[frame][cloth][particle], &run.frames[0][cloth][particle],
-                       3 * sizeof(float)) == 0;
+    return std::memcmp(&run.frames[frame][cloth][particle], &run.frames[0][cloth][particle], 3 * sizeof(float)) == 0;
 }
 
 /// Mean strain 0.65 and RMS strain 0.83 of the stretch law once the sheet hangs still (all eight passes).
 Verdict stretch_law_holds(const SceneRun& run, const Limits& limits) {
     const std::vector<double> strains = spring_strains(run, run.last_frame(), 0, true);
     const double law = stretch_law(run.scene, 0);
-    const double average = mean(strains) / (0.65 * law) - 1,
-                 spread = root_mean_square(strains) / (0.83 * law) - 1;
+    const double average = mean(strains) / (0.65 * law) - 1, spread = root_mean_square(strains) / (0.83 * law) - 1;
     const double allowed = limits["relative_error"];
     return {std::abs(average) <= allowed && std::abs(spread) <= allowed,
-            fmt::format("law {:.4e}, mean off by {:.2f} %, RMS by {:.2f} %, allowed {:.2f} %", law,
-                        100 * average, 100 * spread, 100 * allowed)};
+            fmt::format("law {:.4e}, mean off by {:.2f} %, RMS by {:.2f} %, allowed {:.2f} %", law, 100 * average,
+                        100 * spread, 100 * allowed)};
 }
 
 /// RMS strain of all row and column springs in the last frame, every cloth, in units of the stretch law.
@@ -78,8 +76,7 @@ Verdict stretch_within_law(const SceneRun& run, const Limits& limits) {
         std::ranges::copy(spring_strains(run, run.last_frame(), cloth, false), std::back_inserter(strains));
         const double measured = root_mean_square(strains), of_law = measured / stretch_law(run.scene, cloth);
         verdict.met = verdict.met && of_law <= limits["of_law"];
-        verdict.text +=
-            fmt::format("; {}: {:.3f} (strain {:.4f})", run.scene.cloths[cloth].name, of_law, measured);
+        verdict.text += fmt::format("; {}: {:.3f} (strain {:.4f})", run.scene.cloths[cloth].name, of_law, measured);
     }
     return verdict;
 }
@@ -142,9 +139,8 @@ Verdict drawn(const SceneRun& run, const Limits& limits) {
     }
     const double offset = moment / mass - hooks / hook_count, width = (hem_right - hem_left) / (right - left);
     return {std::abs(offset) <= limits["offset"] && width <= limits["width"],
-            fmt::format(
-                "centre {:+.4f} m beside the hooks', allowed {}; hem {:.3f} of the hooks' width, allowed {}",
-                offset, limits["offset"], width, limits["width"])};
+            fmt::format("centre {:+.4f} m beside the hooks', allowed {}; hem {:.3f} of the hooks' width, allowed {}",
+                        offset, limits["offset"], width, limits["width"])};
 }
 
 /// A pin holds to the bit until its release, and then its particle falls: `least` to `most` times what it
@@ -155,21 +151,19 @@ Verdict released(const SceneRun& run, const Limits& limits) {
     for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
         if (!pin.release) return;
         ++count;
-        for (std::size_t frame = 1; frame < run.frames.size() && run.time(frame) <= *pin.release + 1e-9;
-             ++frame)
+        for (std::size_t frame = 1; frame < run.frames.size() && run.time(frame) <= *pin.release + 1e-9; ++frame)
             early += same_place(run, frame, cloth, particle) ? 0 : 1;
         const auto then =
             static_cast<std::size_t>(std::lround((*pin.release + limits["seconds"]) * run.scene.time.fps));
         const double dropped =
             run.at(0, cloth, particle)[1] - run.at(std::min(then, run.last_frame()), cloth, particle)[1];
-        const double ratio =
-            dropped / (0.5 * norm(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
+        const double ratio = dropped / (0.5 * norm(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
         slowest = std::min(slowest, ratio);
         fastest = std::max(fastest, ratio);
     });
     return {count > 0 && early == 0 && slowest >= limits["least"] && fastest <= limits["most"],
-            fmt::format("{} pins, {} times early, {:.3f} to {:.3f} of free fall after {} s, allowed {} to {}",
-                        count, early, slowest, fastest, limits["seconds"], limits["least"], limits["most"])};
+            fmt::format("{} pins, {} times early, {:.3f} to {:.3f} of free fall after {} s, allowed {} to {}", count,
+                        early, slowest, fastest, limits["seconds"], limits["least"], limits["most"])};
 }
 
 /// Something was cut, and so many pieces are left in the end.
@@ -204,9 +198,8 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
             worst = std::max(worst, std::abs(cut.drawn_area / area - 1));
         }
     }
-    return {
-        worst <= limits["relative_error"] && !run.cuts.empty(),
-        fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
+    return {worst <= limits["relative_error"] && !run.cuts.empty(),
+            fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
 }
 
 double size_of(const PlaneCollider&) { return 1; }
@@ -237,8 +230,7 @@ double deepest(const SceneRun& run, const List& colliders) {
                     if (run.frames[frame][cloth][particle].w == 0) continue;
                     const Vec3 x = run.at(frame, cloth, particle);
                     if (out_of_reach(collider, time, x, thickness)) continue;
-                    depth = std::max(depth,
-                                     (thickness - surface_distance(collider, time, x)) / size_of(collider));
+                    depth = std::max(depth, (thickness - surface_distance(collider, time, x)) / size_of(collider));
                 }
             }
     return depth;
@@ -251,9 +243,8 @@ Verdict penetration(const SceneRun& run, const Limits& limits) {
     // Something must touch, else the statement is empty.
     const double worst = *std::ranges::max_element(depths);
     return {worst <= limits["depth"] && worst > -1e-3,
-            fmt::format(
-                "deepest {:.2e} (plane), {:.2e} (sphere), {:.2e} (box), {:.2e} (ellipsoid), allowed {:.2e}",
-                depths[0], depths[1], depths[2], depths[3], limits["depth"])};
+            fmt::format("deepest {:.2e} (plane), {:.2e} (sphere), {:.2e} (box), {:.2e} (ellipsoid), allowed {:.2e}",
+                        depths[0], depths[1], depths[2], depths[3], limits["depth"])};
 }
 
 /// The top of the cloth lies where the collider below puts it: `height` is the collider's top and the cloth's
@@ -265,8 +256,8 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
         if (x.w != 0) top = std::max(top, static_cast<double>(x.y));
     const double above = top - limits["height"];
     return {above <= limits["above"] && above >= -limits["below"],
-            fmt::format("top at {:.6f} m, {:+.2e} m from {}, allowed -{:.1e} to +{:.1e}", top, above,
-                        limits["height"], limits["below"], limits["above"])};
+            fmt::format("top at {:.6f} m, {:+.2e} m from {}, allowed -{:.1e} to +{:.1e}", top, above, limits["height"],
+                        limits["below"], limits["above"])};
 }
 
 }  // namespace

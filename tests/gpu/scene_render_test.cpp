@@ -82,8 +82,8 @@ TEST_P(SceneRenderTest, DrawsEveryClothAtBothSampleCounts) {
             for (const Cloth& cloth : scene.cloths) {
                 const double share = share_of_hue(frames.pictures[i], cloth.appearance.front) +
                                      share_of_hue(frames.pictures[i], cloth.appearance.back);
-                EXPECT_GT(share, 0.01)
-                    << cloth.name << " in frame " << frames.numbers[i] << ", " << samples << " samples";
+                EXPECT_GT(share, 0.01) << cloth.name << " in frame " << frames.numbers[i] << ", " << samples
+                                       << " samples";
             }
         }
         EXPECT_NE(frames.pictures.front(), frames.pictures.back());

@@ -26,8 +26,7 @@ Vec3 SceneRun::velocity_after(std::size_t frame, std::size_t cloth, std::size_t 
 SceneRun SceneRun::until(std::size_t last) const {
     const auto end = std::min(last + 1, frames.size());
     SceneRun part{scene, {frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(end)}, {}};
-    std::ranges::copy_if(cuts, std::back_inserter(part.cuts),
-                         [&](const CutRecord& cut) { return cut.frame < end; });
+    std::ranges::copy_if(cuts, std::back_inserter(part.cuts), [&](const CutRecord& cut) { return cut.frame < end; });
     return part;
 }
 
@@ -83,8 +82,7 @@ ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
             if (grid.cell(static_cast<int>(column), static_cast<int>(row)) == 0) continue;
             const double share = 0.25 * cloth.areal_density * spacing[0] * spacing[1];
             for (const std::uint32_t below : {0u, 1u})
-                for (const std::uint32_t right : {0u, 1u})
-                    mass[grid.particle(column + right, row + below)] += share;
+                for (const std::uint32_t right : {0u, 1u}) mass[grid.particle(column + right, row + below)] += share;
         }
 }
 
@@ -97,8 +95,7 @@ std::vector<double> spring_strains(const SceneRun& run, std::size_t frame, std::
             const glsl::vec4 shares = grid.spring_shares(column, row);
             if ((down ? shares.y : shares.x) == 0) continue;
             const Vec3 first = run.at(frame, cloth, grid.particle(column, row));
-            const Vec3 second =
-                run.at(frame, cloth, grid.particle(column + (down ? 0 : 1), row + (down ? 1 : 0)));
+            const Vec3 second = run.at(frame, cloth, grid.particle(column + (down ? 0 : 1), row + (down ? 1 : 0)));
             strains.push_back(norm(minus(second, first)) / measure.spacing[down ? 1 : 0] - 1);
         }
     return strains;
@@ -119,8 +116,7 @@ double root_mean_square(const std::vector<double>& values) {
 double stretch_law(const SceneDescription& scene, std::size_t cloth) {
     const double links = scene.cloths[cloth].grid[1] - 1.0;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    return links * links * norm(scene.gravity) * h * h /
-           (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
+    return links * links * norm(scene.gravity) * h * h / (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
 }
 
 }  // namespace drape::test

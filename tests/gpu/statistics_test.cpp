@@ -1,5 +1,7 @@
 // The statistics of a frame: the device's record equals the twin's bit for bit, and its numbers are those of a
 // plain evaluation of the downloaded state in double precision.
+#include "reference/statistics.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include "frame_loop.h"
 #include "gpu_test.h"
 #include "passes/statistics_pass.h"
-#include "reference/statistics.h"
 #include "run_statistics.h"
 #include "support/sheets.h"
 
@@ -113,7 +114,8 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
                 const float all[] = {shares.x, shares.y, shares.z, shares.w};
                 if (all[direction] == 0) continue;
                 const double length = difference(state.position[particle_at(model.grid, column, row)],
-                                                 state.position[particle_at(model.grid, column + i, row + j)]).length();
+                                                 state.position[particle_at(model.grid, column + i, row + j)])
+                                          .length();
                 const double value = (length - rest) / rest;
                 ++strain.spring_count;
                 strain.rms += value * value;
@@ -353,8 +355,7 @@ TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {
             if (kind == 3) scene.colliders.ellipsoids = all.ellipsoids;
             const SimulationModel model(scene);
             const TwinCloth state = Twin(model).cloth(0);
-            const auto statistics =
-                cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame));
+            const auto statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame));
             ASSERT_TRUE(statistics.penetration.has_value());
             EXPECT_GT(*statistics.penetration, 0.003) << "kind " << kind;
         }
@@ -400,27 +401,29 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
     FrameLoop loop(test::gpu().device, model, options);
     Twin twin(model);
     std::uint32_t next = 0;
-    loop.run(8, [](std::uint32_t frame) { return frame % 2 == 0; }, [&](const FinishedFrame& frame) {
-        ASSERT_EQ(frame.frame, next);
-        ASSERT_EQ(frame.statistics.size(), 2u);
-        EXPECT_TRUE(frame.positions.empty());
-        for (std::size_t cloth = 0; cloth < 2; ++cloth) {
-            if (model.cloths[cloth].gathers) twin.tension(cloth);
-            const ClothStatistics expected = cloth_statistics(
-                model, model.cloths[cloth],
-                twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)));
-            EXPECT_EQ(frame.statistics[cloth].stretch.rms, expected.stretch.rms);
-            EXPECT_EQ(frame.statistics[cloth].stretch_error_rms, expected.stretch_error_rms);
-            EXPECT_EQ(frame.statistics[cloth].stretch_error_max, expected.stretch_error_max);
-            EXPECT_EQ(frame.statistics[cloth].kinetic_energy, expected.kinetic_energy);
-            EXPECT_EQ(frame.statistics[cloth].potential_energy, expected.potential_energy);
-            EXPECT_EQ(frame.statistics[cloth].penetration, expected.penetration);
-            EXPECT_EQ(frame.statistics[cloth].largest_speed, expected.largest_speed);
-        }
-        twin.run_frame(next + 1);
-        twin.run_frame(next + 2);
-        next += 2;
-    });
+    loop.run(
+        8, [](std::uint32_t frame) { return frame % 2 == 0; },
+        [&](const FinishedFrame& frame) {
+            ASSERT_EQ(frame.frame, next);
+            ASSERT_EQ(frame.statistics.size(), 2u);
+            EXPECT_TRUE(frame.positions.empty());
+            for (std::size_t cloth = 0; cloth < 2; ++cloth) {
+                if (model.cloths[cloth].gathers) twin.tension(cloth);
+                const ClothStatistics expected = cloth_statistics(
+                    model, model.cloths[cloth],
+                    twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)));
+                EXPECT_EQ(frame.statistics[cloth].stretch.rms, expected.stretch.rms);
+                EXPECT_EQ(frame.statistics[cloth].stretch_error_rms, expected.stretch_error_rms);
+                EXPECT_EQ(frame.statistics[cloth].stretch_error_max, expected.stretch_error_max);
+                EXPECT_EQ(frame.statistics[cloth].kinetic_energy, expected.kinetic_energy);
+                EXPECT_EQ(frame.statistics[cloth].potential_energy, expected.potential_energy);
+                EXPECT_EQ(frame.statistics[cloth].penetration, expected.penetration);
+                EXPECT_EQ(frame.statistics[cloth].largest_speed, expected.largest_speed);
+            }
+            twin.run_frame(next + 1);
+            twin.run_frame(next + 2);
+            next += 2;
+        });
     EXPECT_EQ(next, 10u);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, FrameStatistics,
@@ -430,7 +433,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, FrameStatistics,
 
 TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
     // A soft sheet hangs: it stretches truly by gL/c^2/sqrt(3) RMS, which full-stiffness micro-steps follow exactly and
-    // softened ones by the share of the stiffness that they use; relaxation errs by its law: 0.83 of it RMS over columns, rows hardly.
+    // softened ones by the share of the stiffness that they use; relaxation errs by its law: 0.83 of it RMS over
+    // columns, rows hardly.
     SceneDescription scene = test::sheet(25, 25, 1, 1, 64);
     Cloth& cloth = scene.cloths[0];
     cloth.areal_density = 0.2;
@@ -446,8 +450,9 @@ TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
         options.statistics = true;
         FrameLoop loop(test::gpu().device, model, options);
         ClothStatistics last;
-        loop.run(120, [](std::uint32_t frame) { return frame == 120; },
-                 [&](const FinishedFrame& frame) { last = frame.statistics[0]; });
+        loop.run(
+            120, [](std::uint32_t frame) { return frame == 120; },
+            [&](const FinishedFrame& frame) { last = frame.statistics[0]; });
         return last;
     };
     const double truly = 9.81 * 0.2 / 300;
@@ -463,8 +468,8 @@ TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
     const ClothStatistics relaxed = at_rest();
     scene.solver.method = SolverMethod::line;
     const ClothStatistics solved = at_rest();
-    std::printf("[ measured ] line, 4 substeps: stretch error %.2e of a stretch of %.2e, RMS\n", solved.stretch_error_rms,
-                solved.stretch.rms);
+    std::printf("[ measured ] line, 4 substeps: stretch error %.2e of a stretch of %.2e, RMS\n",
+                solved.stretch_error_rms, solved.stretch.rms);
     EXPECT_LT(solved.stretch_error_rms, 0.01 * solved.stretch.rms);
     EXPECT_GT(solved.stretch.rms, 0.3 * truly);
     const double law = 0.83 / std::sqrt(2.0) * 24 * 24 * 9.81 / (2 * 240.0 * 240.0);

@@ -62,7 +62,7 @@ inline SceneDescription everything() {
 }
 
 inline void expect_same(const char* what, const std::vector<glsl::vec4>& device, const std::vector<glsl::vec4>& twin,
-                 std::uint32_t frame) {
+                        std::uint32_t frame) {
     std::string where;
     EXPECT_TRUE(same_bits(device, twin, where)) << what << " after frame " << frame << ": " << where;
 }

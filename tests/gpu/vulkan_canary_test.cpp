@@ -29,9 +29,9 @@ constexpr DescriptorDeclaration copy_descriptors[] = {
     {1, "target", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32G32B32A32_SFLOAT}};
 
 Image make_image(const char* name) {
-    return Image(gpu().device, {name, VK_FORMAT_R32G32B32A32_SFLOAT, width, height,
-                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    return Image(gpu().device,
+                 {name, VK_FORMAT_R32G32B32A32_SFLOAT, width, height,
+                  VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
 /// Three images, first filled with `texels`, the others with zero.
@@ -44,8 +44,7 @@ struct Chain {
         for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i) + 0.25f;
         const std::vector<float> zeros(texels.size());
         upload(gpu().device, first, std::as_bytes(std::span(texels)));
-        for (const Image* image : {&second, &third})
-            upload(gpu().device, *image, std::as_bytes(std::span(zeros)));
+        for (const Image* image : {&second, &third}) upload(gpu().device, *image, std::as_bytes(std::span(zeros)));
     }
 
     void record_copy(VkCommandBuffer commands, const Image& from, const Image& to) const {
@@ -144,8 +143,8 @@ TEST(VulkanCanary, the_filter_for_copies_in_general_lets_real_layout_errors_thro
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.imageExtent = {width, height, 1};
         // The image rests in GENERAL: this layout is a lie.
-        vkCmdCopyImageToBuffer(commands, chain.first.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                               target.handle(), 1, &region);
+        vkCmdCopyImageToBuffer(commands, chain.first.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(), 1,
+                               &region);
     });
     EXPECT_THAT(expected.messages(), Contains(HasSubstr("TRANSFER_SRC_OPTIMAL")));
 }

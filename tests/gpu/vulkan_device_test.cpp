@@ -62,8 +62,7 @@ DeviceInfo device(std::uint32_t index, std::string name, std::string type, std::
 
 const std::vector<DeviceInfo> machine = {
     device(0, "llvmpipe (LLVM)", "cpu"), device(1, "Ancient GPU", "discrete", "Vulkan 1.3 is needed"),
-    device(2, "Small GPU", "integrated"), device(3, "Big GPU", "discrete"),
-    device(4, "Big GPU Plus", "discrete")};
+    device(2, "Small GPU", "integrated"), device(3, "Big GPU", "discrete"), device(4, "Big GPU Plus", "discrete")};
 
 }  // namespace
 
@@ -84,12 +83,11 @@ TEST(VulkanDeviceSelection, understands_cpu_index_uuid_and_name) {
 
 TEST(VulkanDeviceSelection, refuses_what_is_unknown_ambiguous_or_unusable) {
     EXPECT_THAT(error_of([] { select_device(machine, "voodoo"); }),
-                AllOf(HasSubstr("no device matches \"voodoo\""), HasSubstr("2: Small GPU"),
-                      HasSubstr("Ancient GPU"), HasSubstr("cannot be used: Vulkan 1.3 is needed")));
+                AllOf(HasSubstr("no device matches \"voodoo\""), HasSubstr("2: Small GPU"), HasSubstr("Ancient GPU"),
+                      HasSubstr("cannot be used: Vulkan 1.3 is needed")));
     EXPECT_THAT(error_of([] { select_device(machine, "big"); }), HasSubstr("ambiguous (2 devices match)"));
     EXPECT_THAT(error_of([] { select_device(machine, "5"); }), HasSubstr("there is no device 5"));
-    EXPECT_THAT(error_of([] { select_device(machine, "99999999999999999999"); }),
-                HasSubstr("there is no device 9"));
+    EXPECT_THAT(error_of([] { select_device(machine, "99999999999999999999"); }), HasSubstr("there is no device 9"));
     EXPECT_THAT(error_of([] { select_device(machine, "1"); }),
                 HasSubstr("device 1 (Ancient GPU) cannot be used: Vulkan 1.3 is needed"));
     EXPECT_THAT(error_of([] { select_device(std::span(machine).subspan(2), "cpu"); }),
@@ -136,10 +134,10 @@ TEST(VulkanDevice, lives_beside_devices_without_validation) {
     EXPECT_FALSE(plain_instance.validation());
     const vulkan::Device plain(plain_instance, validated.info().uuid_text());
     for (const vulkan::Device* device : {&plain, &validated, &plain}) {
-        const vulkan::Buffer buffer(
-            *device, {.name = "pair",
-                      .byte_count = 8,
-                      .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+        const vulkan::Buffer buffer(*device,
+                                    {.name = "pair",
+                                     .byte_count = 8,
+                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
         const std::array<std::uint32_t, 2> sent = {1, 2};
         std::array<std::uint32_t, 2> received{};
         upload(*device, buffer, std::as_bytes(std::span(sent)));
@@ -149,8 +147,7 @@ TEST(VulkanDevice, lives_beside_devices_without_validation) {
 }
 
 TEST(VulkanInstance, without_a_driver_says_so) {
-    const Environment files("VK_ICD_FILENAMES", "/nonexistent.json"),
-        newer("VK_DRIVER_FILES", "/nonexistent.json");
+    const Environment files("VK_ICD_FILENAMES", "/nonexistent.json"), newer("VK_DRIVER_FILES", "/nonexistent.json");
     EXPECT_THAT(error_of([] { vulkan::Instance({.validation = false}); }),
                 HasSubstr("vkCreateInstance(no Vulkan driver found): VK_ERROR_INCOMPATIBLE_DRIVER"));
 }
@@ -187,9 +184,9 @@ TEST(VulkanMemoryBudget, refuses_what_does_not_fit_and_keeps_its_count) {
     vulkan::MemoryBudget budget(100);
     budget.reserve(60, "first");
     EXPECT_NO_THROW(budget.require(40, "exact"));
-    EXPECT_THAT(error_of([&] { budget.reserve(41, "image banner/position"); }),
-                AllOf(HasSubstr("image banner/position needs 41 bytes"), HasSubstr("40 bytes"),
-                      HasSubstr("100 bytes")));
+    EXPECT_THAT(
+        error_of([&] { budget.reserve(41, "image banner/position"); }),
+        AllOf(HasSubstr("image banner/position needs 41 bytes"), HasSubstr("40 bytes"), HasSubstr("100 bytes")));
     EXPECT_THROW(budget.require(std::numeric_limits<std::uint64_t>::max(), "wraps"), VulkanError);
     EXPECT_EQ(budget.used(), 60u);
     budget.release(60);

@@ -81,13 +81,9 @@ constexpr VkResult no_memory = VK_ERROR_OUT_OF_DEVICE_MEMORY;
 }  // namespace
 
 TEST(VulkanFaults, an_image_is_whole_or_not_at_all) {
-    const auto make = [] {
-        vulkan::Image(gpu().device, {.name = "flag/normal", .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-    };
-    EXPECT_EQ(error_with<&vkCreateImage>(no_memory, make),
-              "vkCreateImage(flag/normal): VK_ERROR_OUT_OF_DEVICE_MEMORY");
-    EXPECT_THAT(error_with<&vkAllocateMemory>(no_memory, make),
-                HasSubstr("vkAllocateMemory(image flag/normal)"));
+    const auto make = [] { vulkan::Image(gpu().device, {.name = "flag/normal", .usage = VK_IMAGE_USAGE_STORAGE_BIT}); };
+    EXPECT_EQ(error_with<&vkCreateImage>(no_memory, make), "vkCreateImage(flag/normal): VK_ERROR_OUT_OF_DEVICE_MEMORY");
+    EXPECT_THAT(error_with<&vkAllocateMemory>(no_memory, make), HasSubstr("vkAllocateMemory(image flag/normal)"));
     EXPECT_THAT(error_with<&vkBindImageMemory>(no_memory, make), HasSubstr("vkBindImageMemory(flag/normal)"));
     EXPECT_THAT(error_with<&vkCreateImageView>(no_memory, make), HasSubstr("vkCreateImageView(flag/normal)"));
     EXPECT_THAT(error_with<&vkGetPhysicalDeviceImageFormatProperties>(VK_ERROR_OUT_OF_HOST_MEMORY, make),
@@ -96,8 +92,7 @@ TEST(VulkanFaults, an_image_is_whole_or_not_at_all) {
 
 TEST(VulkanFaults, a_buffer_is_whole_or_not_at_all) {
     const auto make = [] {
-        vulkan::Buffer(gpu().device,
-                       {"pins", 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, vulkan::BufferHome::upload});
+        vulkan::Buffer(gpu().device, {"pins", 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, vulkan::BufferHome::upload});
     };
     EXPECT_THAT(error_with<&vkCreateBuffer>(no_memory, make), HasSubstr("vkCreateBuffer(pins)"));
     EXPECT_THAT(error_with<&vkAllocateMemory>(no_memory, make), HasSubstr("vkAllocateMemory(buffer pins)"));
@@ -111,16 +106,11 @@ TEST(VulkanFaults, a_compute_pipeline_is_whole_or_not_at_all) {
          VK_FORMAT_R32G32B32A32_SFLOAT},
         {1, "target", vulkan::DescriptorKind::storage_image, vulkan::DescriptorAccess::write,
          VK_FORMAT_R32G32B32A32_SFLOAT}};
-    const auto make = [&] {
-        vulkan::ComputePipeline(gpu().device, "copy", {"canary.comp", descriptors}, {});
-    };
-    EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make),
-                HasSubstr("vkCreateShaderModule(canary.comp)"));
+    const auto make = [&] { vulkan::ComputePipeline(gpu().device, "copy", {"canary.comp", descriptors}, {}); };
+    EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make), HasSubstr("vkCreateShaderModule(canary.comp)"));
     EXPECT_THAT(error_with<&vkCreateDescriptorSetLayout>(no_memory, make), HasSubstr("(copy)"));
-    EXPECT_THAT(error_with<&vkCreatePipelineLayout>(no_memory, make),
-                HasSubstr("vkCreatePipelineLayout(copy)"));
-    EXPECT_THAT(error_with<&vkCreateComputePipelines>(no_memory, make),
-                HasSubstr("vkCreateComputePipelines(copy)"));
+    EXPECT_THAT(error_with<&vkCreatePipelineLayout>(no_memory, make), HasSubstr("vkCreatePipelineLayout(copy)"));
+    EXPECT_THAT(error_with<&vkCreateComputePipelines>(no_memory, make), HasSubstr("vkCreateComputePipelines(copy)"));
 }
 
 TEST(VulkanFaults, a_graphics_pipeline_is_whole_or_not_at_all) {
@@ -133,11 +123,9 @@ TEST(VulkanFaults, a_graphics_pipeline_is_whole_or_not_at_all) {
     state.vertex = {"triangle.vert", descriptors, nullptr, test_shader("triangle.vert")};
     state.fragment = {"triangle.frag", {}, &push, test_shader("triangle.frag")};
     const auto make = [&] { vulkan::GraphicsPipeline(gpu().device, "cloth", state); };
-    EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make),
-                HasSubstr("vkCreateShaderModule(triangle.vert)"));
+    EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make), HasSubstr("vkCreateShaderModule(triangle.vert)"));
     EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make, 1), HasSubstr("(triangle.frag)"));
-    EXPECT_THAT(error_with<&vkCreateGraphicsPipelines>(no_memory, make),
-                HasSubstr("vkCreateGraphicsPipelines(cloth)"));
+    EXPECT_THAT(error_with<&vkCreateGraphicsPipelines>(no_memory, make), HasSubstr("vkCreateGraphicsPipelines(cloth)"));
 }
 
 TEST(VulkanFaults, frame_slots_are_whole_or_not_at_all) {
@@ -148,8 +136,7 @@ TEST(VulkanFaults, frame_slots_are_whole_or_not_at_all) {
 
 TEST(VulkanFaults, a_device_and_an_instance_are_whole_or_not_at_all) {
     const auto make_device = [] { vulkan::Device(gpu().instance, gpu().device.info().uuid_text()); };
-    EXPECT_THAT(error_with<&vkCreateDevice>(VK_ERROR_INITIALIZATION_FAILED, make_device),
-                HasSubstr("vkCreateDevice"));
+    EXPECT_THAT(error_with<&vkCreateDevice>(VK_ERROR_INITIALIZATION_FAILED, make_device), HasSubstr("vkCreateDevice"));
     EXPECT_THAT(error_with<&vkCreateCommandPool>(no_memory, make_device), HasSubstr("vkCreateCommandPool"));
     const auto make_instance = [] { vulkan::Instance({.validation = true}); };
     EXPECT_THAT(error_with<&vkCreateInstance>(VK_ERROR_OUT_OF_HOST_MEMORY, make_instance),

@@ -26,13 +26,11 @@ class Fills {
         const vulkan::Device& device = gpu().device;
         auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
         pool.queueFamilyIndex = device.queue_family();
-        vulkan::create_handle(vkCreateCommandPool, device.handle(), pool, pool_, "vkCreateCommandPool",
-                              "test");
+        vulkan::create_handle(vkCreateCommandPool, device.handle(), pool, pool_, "vkCreateCommandPool", "test");
         auto info = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
         info.commandPool = pool_;
         info.commandBufferCount = vulkan::frame_slot_count;
-        vulkan::check(vkAllocateCommandBuffers(device.handle(), &info, commands_.data()),
-                      "vkAllocateCommandBuffers");
+        vulkan::check(vkAllocateCommandBuffers(device.handle(), &info, commands_.data()), "vkAllocateCommandBuffers");
         for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot) record(slot);
     }
     ~Fills() { vkDestroyCommandPool(gpu().device.handle(), pool_, nullptr); }
@@ -40,9 +38,7 @@ class Fills {
     Fills& operator=(const Fills&) = delete;
 
     VkCommandBuffer commands(std::uint32_t slot) const { return commands_[slot]; }
-    std::uint32_t& word(std::uint32_t slot) {
-        return reinterpret_cast<std::uint32_t*>(target_.mapped().data())[slot];
-    }
+    std::uint32_t& word(std::uint32_t slot) { return reinterpret_cast<std::uint32_t*>(target_.mapped().data())[slot]; }
 
   private:
     void record(std::uint32_t slot) {

@@ -44,9 +44,7 @@ constexpr DescriptorDeclaration scale_descriptors[] = {
     {1, "Target", DescriptorKind::storage_buffer, DescriptorAccess::write, VK_FORMAT_UNDEFINED, nullptr, 4},
     {0, "Source", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, nullptr, 4}};
 
-ShaderInterface scale_shader() {
-    return {"scale.comp", scale_descriptors, &scale_push, test_shader("scale.comp")};
-}
+ShaderInterface scale_shader() { return {"scale.comp", scale_descriptors, &scale_push, test_shader("scale.comp")}; }
 
 template <class Function>
 std::string error_of(Function function) {
@@ -147,9 +145,9 @@ class TriangleFrame {
         vkCmdEndRendering(commands);
     }
 
-    Image corners_{gpu().device,
-                   {"corners", VK_FORMAT_R32G32B32A32_SFLOAT, 3, 1,
-                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
+    Image corners_{
+        gpu().device,
+        {"corners", VK_FORMAT_R32G32B32A32_SFLOAT, 3, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
     Image color_{gpu().device,
                  {"color", VK_FORMAT_R8G8B8A8_SRGB, side, side,
                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
@@ -160,23 +158,21 @@ class TriangleFrame {
 /// What scale.comp makes of `source`.
 std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<float>& source, float term) {
     const vulkan::Device& device = gpu().device;
-    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    constexpr VkBufferUsageFlags usage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const std::uint64_t bytes = source.size() * sizeof(float);
     const Buffer from(device, {"from", bytes, usage}), to(device, {"to", bytes, usage});
     upload(device, from, std::as_bytes(std::span(source)));
     device.run_once([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, pipeline.bind_point(), pipeline.handle());
-        const VkDescriptorBufferInfo buffers[] = {{from.handle(), 0, VK_WHOLE_SIZE},
-                                                  {to.handle(), 0, VK_WHOLE_SIZE}};
+        const VkDescriptorBufferInfo buffers[] = {{from.handle(), 0, VK_WHOLE_SIZE}, {to.handle(), 0, VK_WHOLE_SIZE}};
         auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.descriptorCount = 2;  // runs on from binding 0 into binding 1
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers;
         vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
         const ScalePush push{static_cast<std::uint32_t>(source.size()), term};
-        vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0, sizeof(push),
-                           &push);
+        vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0, sizeof(push), &push);
         const std::uint32_t x = pipeline.local_size()[0];
         vkCmdDispatch(commands, (push.count + x - 1) / x, 1, 1);
     });
@@ -212,8 +208,7 @@ TEST(VulkanComputePipeline, refuses_a_constant_that_the_shader_lacks) {
 }
 
 TEST(VulkanComputePipeline, refuses_a_workgroup_that_the_device_cannot_have) {
-    EXPECT_THAT(compute_error(scale_shader(), {{3, 1u << 20}}),
-                HasSubstr("cannot have workgroups of 1048576 x 1 x 1"));
+    EXPECT_THAT(compute_error(scale_shader(), {{3, 1u << 20}}), HasSubstr("cannot have workgroups of 1048576 x 1 x 1"));
     EXPECT_THAT(compute_error(scale_shader(), {{3, 0}}), HasSubstr("cannot have workgroups of 0 x 1 x 1"));
 }
 
@@ -226,8 +221,7 @@ TEST(VulkanComputePipeline, refuses_a_shader_that_differs_from_its_declaration) 
 TEST(VulkanComputePipeline, refuses_another_stages_shader_and_unknown_modules) {
     EXPECT_THAT(compute_error(triangle_state().vertex),
                 HasSubstr("shader module triangle.vert is a vertex shader, not a compute shader"));
-    EXPECT_THAT(compute_error({"no such module", {}}),
-                HasSubstr("there is no shader module \"no such module\""));
+    EXPECT_THAT(compute_error({"no such module", {}}), HasSubstr("there is no shader module \"no such module\""));
 }
 
 TEST(VulkanGraphicsPipeline, draws_what_the_vertex_image_says) {

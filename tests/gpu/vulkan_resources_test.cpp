@@ -22,8 +22,7 @@ using vulkan::VulkanError;
 namespace {
 
 constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-constexpr VkBufferUsageFlags copied_buffer =
-    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkBufferUsageFlags copied_buffer = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 template <class Function>
 std::string error_of(Function function) {
@@ -86,19 +85,19 @@ TEST_P(VulkanImageRoundTrip, gives_back_every_byte) {
     EXPECT_EQ(gpu().device.budget().used(), used);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    formats_and_odd_sizes, VulkanImageRoundTrip,
-    testing::Values(Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT},
-                    Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 97, 61, VK_IMAGE_USAGE_STORAGE_BIT},
-                    Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 513, 3, VK_IMAGE_USAGE_STORAGE_BIT},
-                    Shape{VK_FORMAT_R32_SFLOAT, 3, 257, VK_IMAGE_USAGE_STORAGE_BIT},
-                    Shape{VK_FORMAT_R32_UINT, 65, 1, VK_IMAGE_USAGE_STORAGE_BIT},
-                    Shape{VK_FORMAT_R8G8B8A8_SRGB, 31, 17, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
-                    Shape{VK_FORMAT_R8G8B8A8_UNORM, 7, 5, 0}, Shape{VK_FORMAT_R8_UNORM, 13, 11, 0}));
+INSTANTIATE_TEST_SUITE_P(formats_and_odd_sizes, VulkanImageRoundTrip,
+                         testing::Values(Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT},
+                                         Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 97, 61, VK_IMAGE_USAGE_STORAGE_BIT},
+                                         Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 513, 3, VK_IMAGE_USAGE_STORAGE_BIT},
+                                         Shape{VK_FORMAT_R32_SFLOAT, 3, 257, VK_IMAGE_USAGE_STORAGE_BIT},
+                                         Shape{VK_FORMAT_R32_UINT, 65, 1, VK_IMAGE_USAGE_STORAGE_BIT},
+                                         Shape{VK_FORMAT_R8G8B8A8_SRGB, 31, 17, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+                                         Shape{VK_FORMAT_R8G8B8A8_UNORM, 7, 5, 0},
+                                         Shape{VK_FORMAT_R8_UNORM, 13, 11, 0}));
 
 TEST(VulkanImage, round_trips_depth) {
-    const Image image(gpu().device, {"depth", VK_FORMAT_D32_SFLOAT, 33, 9,
-                                     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | copied});
+    const Image image(gpu().device,
+                      {"depth", VK_FORMAT_D32_SFLOAT, 33, 9, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | copied});
     EXPECT_EQ(image.aspect(), VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT});
     std::vector<float> sent(33 * 9), received(33 * 9);
     for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<float>(i) / 297.0f;
@@ -122,23 +121,17 @@ TEST(VulkanImage, beyond_the_devices_limits_is_refused_before_it_is_made) {
     const std::uint64_t used = gpu().device.budget().used();
     const std::uint32_t side = gpu().device.limits().maxImageDimension2D;
     const auto make = [](std::uint32_t width, std::uint32_t height, VkFormat format = VK_FORMAT_R32_SFLOAT,
-                         VkImageUsageFlags usage = copied,
-                         VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT) {
-        return error_of([&] {
-            Image(gpu().device, {"banner/position", format, width, height, usage, samples});
-        });
+                         VkImageUsageFlags usage = copied, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT) {
+        return error_of([&] { Image(gpu().device, {"banner/position", format, width, height, usage, samples}); });
     };
-    EXPECT_THAT(make(side + 1, 1),
-                AllOf(HasSubstr("image banner/position"), HasSubstr("the device's limit is")));
+    EXPECT_THAT(make(side + 1, 1), AllOf(HasSubstr("image banner/position"), HasSubstr("the device's limit is")));
     EXPECT_THAT(make(1, UINT32_MAX), HasSubstr("the device's limit is"));
     EXPECT_THAT(make(0, 4), HasSubstr("at least 1"));
     EXPECT_THAT(make(4, 4, VK_FORMAT_R8G8B8A8_SRGB, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT),
                 HasSubstr("no images of VkFormat 43"));
-    EXPECT_THAT(
-        make(4, 4, VK_FORMAT_R8G8B8A8_SRGB, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_SAMPLE_COUNT_64_BIT),
-        HasSubstr("no 64 samples"));
-    EXPECT_THAT(make(4, 4, VK_FORMAT_BC1_RGB_UNORM_BLOCK), testing::StartsWith("VkFormat 131 is none"))
-        << "texel size";
+    EXPECT_THAT(make(4, 4, VK_FORMAT_R8G8B8A8_SRGB, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_SAMPLE_COUNT_64_BIT),
+                HasSubstr("no 64 samples"));
+    EXPECT_THAT(make(4, 4, VK_FORMAT_BC1_RGB_UNORM_BLOCK), testing::StartsWith("VkFormat 131 is none")) << "texel size";
     EXPECT_EQ(gpu().device.budget().used(), used);
 }
 
@@ -170,11 +163,10 @@ TEST(VulkanImage, transfers_of_another_size_or_usage_are_refused) {
     std::vector<std::byte> bytes(64), less(63);
     EXPECT_THAT(error_of([&] { upload(gpu().device, image, less); }),
                 HasSubstr("image small holds 64 bytes, the transfer has 63"));
-    EXPECT_THAT(error_of([&] { download(gpu().device, image, bytes); }),
-                HasSubstr("without the transfer usage"));
-    const Image several(gpu().device, {"several", VK_FORMAT_R8G8B8A8_SRGB, 4, 4,
-                                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                       VK_SAMPLE_COUNT_4_BIT});
+    EXPECT_THAT(error_of([&] { download(gpu().device, image, bytes); }), HasSubstr("without the transfer usage"));
+    const Image several(gpu().device,
+                        {"several", VK_FORMAT_R8G8B8A8_SRGB, 4, 4,
+                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_SAMPLE_COUNT_4_BIT});
     EXPECT_THAT(error_of([&] { download(gpu().device, several, bytes); }), HasSubstr("several samples"));
 }
 
@@ -204,8 +196,7 @@ TEST(VulkanBuffer, beyond_limits_or_budget_is_refused) {
     EXPECT_THAT(make(0, copied_buffer), HasSubstr("buffer pins (0 bytes): the size must be at least 1"));
     EXPECT_THAT(make(UINT64_MAX, copied_buffer), HasSubstr("buffer pins"));
     if (range < gpu().device.max_buffer_size()) {
-        EXPECT_THAT(make(range + 1, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-                    HasSubstr("limit for a storage buffer"));
+        EXPECT_THAT(make(range + 1, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT), HasSubstr("limit for a storage buffer"));
     }
     const TightBudget tight(1000);
     EXPECT_THAT(make(1001, copied_buffer), HasSubstr("buffer pins needs 1001 bytes"));
@@ -214,10 +205,8 @@ TEST(VulkanBuffer, beyond_limits_or_budget_is_refused) {
 TEST(VulkanBuffer, transfers_of_another_size_or_usage_are_refused) {
     const Buffer buffer(gpu().device, {"one way", 16, VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     std::vector<std::byte> bytes(16), more(17);
-    EXPECT_THAT(error_of([&] { upload(gpu().device, buffer, more); }),
-                HasSubstr("buffer one way holds 16 bytes"));
-    EXPECT_THAT(error_of([&] { download(gpu().device, buffer, bytes); }),
-                HasSubstr("without the transfer usage"));
+    EXPECT_THAT(error_of([&] { upload(gpu().device, buffer, more); }), HasSubstr("buffer one way holds 16 bytes"));
+    EXPECT_THAT(error_of([&] { download(gpu().device, buffer, bytes); }), HasSubstr("without the transfer usage"));
 }
 
 TEST(VulkanDevice, refuses_memory_types_nobody_has) {

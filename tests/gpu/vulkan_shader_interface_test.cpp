@@ -32,12 +32,9 @@ struct Declaration {
     std::vector<DescriptorDeclaration> descriptors = {
         {0, "source", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT},
         {1, "target", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32_SFLOAT},
-        {2, "Elements", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED,
-         &element},
-        {3, "Sums", DescriptorKind::storage_buffer, DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
-         nullptr, 8},
-        {4, "Flags", DescriptorKind::storage_buffer, DescriptorAccess::write, VK_FORMAT_UNDEFINED, nullptr,
-         4}};
+        {2, "Elements", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, &element},
+        {3, "Sums", DescriptorKind::storage_buffer, DescriptorAccess::read_write, VK_FORMAT_UNDEFINED, nullptr, 8},
+        {4, "Flags", DescriptorKind::storage_buffer, DescriptorAccess::write, VK_FORMAT_UNDEFINED, nullptr, 4}};
     bool has_push = true;
 
     Declaration() = default;
@@ -67,21 +64,19 @@ TEST(VulkanShaderInterface, a_true_declaration_is_accepted) {
 TEST(VulkanShaderInterface, the_module_is_named) {
     Declaration declaration;
     declaration.descriptors.pop_back();
-    EXPECT_THAT(declaration.error(),
-                testing::StartsWith("shader module interface.comp differs from its declaration:"));
+    EXPECT_THAT(declaration.error(), testing::StartsWith("shader module interface.comp differs from its declaration:"));
 }
 
 TEST(VulkanShaderInterface, an_undeclared_descriptor_is_named) {
     Declaration declaration;
     declaration.descriptors.erase(declaration.descriptors.begin() + 3);
-    EXPECT_THAT(declaration.error(),
-                HasSubstr("binding 3 (Sums) is used by the shader as a storage buffer, but not"));
+    EXPECT_THAT(declaration.error(), HasSubstr("binding 3 (Sums) is used by the shader as a storage buffer, but not"));
 }
 
 TEST(VulkanShaderInterface, a_declared_descriptor_that_is_not_used_is_named) {
     Declaration declaration;
-    declaration.descriptors.push_back({7, "never_used", DescriptorKind::storage_image, DescriptorAccess::read,
-                                       VK_FORMAT_R32G32B32A32_SFLOAT});
+    declaration.descriptors.push_back(
+        {7, "never_used", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT});
     EXPECT_THAT(declaration.error(),
                 HasSubstr("binding 7 (never_used) is declared as a storage image, but the shader"));
 }
@@ -102,17 +97,15 @@ TEST(VulkanShaderInterface, another_name_is_named) {
 TEST(VulkanShaderInterface, another_kind_is_named) {
     Declaration declaration;
     declaration.descriptors[1].kind = DescriptorKind::storage_buffer;
-    EXPECT_THAT(
-        declaration.error(),
-        HasSubstr("binding 1 (target) kind: the shader has storage image, declared is storage buffer"));
+    EXPECT_THAT(declaration.error(),
+                HasSubstr("binding 1 (target) kind: the shader has storage image, declared is storage buffer"));
 }
 
 TEST(VulkanShaderInterface, another_access_is_named_for_images) {
     for (const DescriptorAccess access : {DescriptorAccess::write, DescriptorAccess::read_write}) {
         Declaration declaration;
         declaration.descriptors[0].access = access;
-        EXPECT_THAT(declaration.error(),
-                    HasSubstr("binding 0 (source) access: the shader has readonly, declared is"));
+        EXPECT_THAT(declaration.error(), HasSubstr("binding 0 (source) access: the shader has readonly, declared is"));
     }
     Declaration declaration;
     declaration.descriptors[1].access = DescriptorAccess::read;
@@ -125,18 +118,16 @@ TEST(VulkanShaderInterface, another_access_is_named_for_buffers) {
     declaration.descriptors[2].access = DescriptorAccess::read_write;
     declaration.descriptors[3].access = DescriptorAccess::read;
     declaration.descriptors[4].access = DescriptorAccess::read;
-    EXPECT_THAT(
-        declaration.error(),
-        AllOf(HasSubstr("binding 2 (Elements) access: the shader has readonly, declared is read and write"),
-              HasSubstr("binding 3 (Sums) access: the shader has read and write, declared is readonly"),
-              HasSubstr("binding 4 (Flags) access: the shader has writeonly, declared is readonly")));
+    EXPECT_THAT(declaration.error(),
+                AllOf(HasSubstr("binding 2 (Elements) access: the shader has readonly, declared is read and write"),
+                      HasSubstr("binding 3 (Sums) access: the shader has read and write, declared is readonly"),
+                      HasSubstr("binding 4 (Flags) access: the shader has writeonly, declared is readonly")));
 }
 
 TEST(VulkanShaderInterface, another_format_is_named) {
     Declaration declaration;
     declaration.descriptors[1].format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    EXPECT_THAT(declaration.error(),
-                HasSubstr("binding 1 (target) format: the shader has r32f, declared is rgba32f"));
+    EXPECT_THAT(declaration.error(), HasSubstr("binding 1 (target) format: the shader has r32f, declared is rgba32f"));
 }
 
 TEST(VulkanShaderInterface, another_stride_is_named) {
@@ -152,10 +143,9 @@ TEST(VulkanShaderInterface, a_struct_for_a_scalar_is_named_both_ways) {
     Declaration declaration;
     declaration.descriptors[2].element = nullptr;
     declaration.descriptors[3].element = &declaration.element;
-    EXPECT_THAT(
-        declaration.error(),
-        AllOf(HasSubstr("binding 2 (Elements) element: the shader has struct Element, declared is a scalar"),
-              HasSubstr("binding 3 (Sums) element: the shader has a scalar or vector, declared is struct")));
+    EXPECT_THAT(declaration.error(),
+                AllOf(HasSubstr("binding 2 (Elements) element: the shader has struct Element, declared is a scalar"),
+                      HasSubstr("binding 3 (Sums) element: the shader has a scalar or vector, declared is struct")));
 }
 
 TEST(VulkanShaderInterface, a_member_that_moved_is_named) {
@@ -179,9 +169,8 @@ TEST(VulkanShaderInterface, other_push_constants_are_named) {
     Declaration moved;
     moved.push_members[1].offset = 12;
     moved.push.size = 20;
-    EXPECT_THAT(moved.error(),
-                AllOf(HasSubstr("push constants size of Push: the shader has 12, declared is 20"),
-                      HasSubstr("offset of member Push.scale: the shader has 8, declared is 12")));
+    EXPECT_THAT(moved.error(), AllOf(HasSubstr("push constants size of Push: the shader has 12, declared is 20"),
+                                     HasSubstr("offset of member Push.scale: the shader has 8, declared is 12")));
     Declaration missing;
     missing.has_push = false;
     EXPECT_THAT(missing.error(), HasSubstr("push constants are in the shader (Push), but not declared"));
@@ -206,30 +195,24 @@ TEST(VulkanShaderInterface, what_drape_does_not_use_is_named) {
     Declaration declaration;
     declaration.has_push = false;
     declaration.descriptors = {
-        {0, "Settings", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, nullptr,
-         16},
+        {0, "Settings", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, nullptr, 16},
         {2, "several", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32G32B32A32_SFLOAT},
-        {3, "Mixed", DescriptorKind::storage_buffer, DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
-         nullptr, 4}};
-    EXPECT_THAT(
-        declaration.error("refused.comp"),
-        AllOf(
-            HasSubstr("binding 0 (Settings) kind: the shader has uniform buffer, declared is storage buffer"),
-            HasSubstr("binding 1 (Elsewhere) is in set 1; only set 0 is used"),
-            HasSubstr("binding 2 (several) is an array of descriptors"),
-            HasSubstr("binding 3 (Mixed) is no block of one runtime array")));
+        {3, "Mixed", DescriptorKind::storage_buffer, DescriptorAccess::read_write, VK_FORMAT_UNDEFINED, nullptr, 4}};
+    EXPECT_THAT(declaration.error("refused.comp"),
+                AllOf(HasSubstr("binding 0 (Settings) kind: the shader has uniform buffer, declared is storage buffer"),
+                      HasSubstr("binding 1 (Elsewhere) is in set 1; only set 0 is used"),
+                      HasSubstr("binding 2 (several) is an array of descriptors"),
+                      HasSubstr("binding 3 (Mixed) is no block of one runtime array")));
 }
 
 TEST(VulkanShaderInterface, local_size_is_read_from_the_module) {
     EXPECT_EQ(vulkan::local_size(test_shader("interface.comp")), (std::array<std::uint32_t, 3>{8, 4, 1}));
-    EXPECT_EQ(vulkan::local_size(vulkan::spirv_module("canary.comp")),
-              (std::array<std::uint32_t, 3>{64, 1, 1}));
+    EXPECT_EQ(vulkan::local_size(vulkan::spirv_module("canary.comp")), (std::array<std::uint32_t, 3>{64, 1, 1}));
     EXPECT_THROW(vulkan::local_size(test_shader("triangle.vert")), VulkanError);
 }
 
 TEST(VulkanShaderInterface, words_that_are_no_spirv_are_refused) {
-    auto words = std::vector<std::uint32_t>(test_shader("interface.comp").begin(),
-                                            test_shader("interface.comp").end());
+    auto words = std::vector<std::uint32_t>(test_shader("interface.comp").begin(), test_shader("interface.comp").end());
     EXPECT_THROW(vulkan::local_size(std::span(words).first(3)), VulkanError);
     words[0] = 0xdeadbeef;
     EXPECT_THROW(vulkan::local_size(words), VulkanError);

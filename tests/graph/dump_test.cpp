@@ -14,11 +14,10 @@ struct Dumping : ::testing::Test {
     Plan plan;
 
     void SetUp() override {
-        Handle position = graph.image(
-            {.name = "banner/position", .width = 96, .height = 64, .lifetime = Lifetime::persistent});
+        Handle position =
+            graph.image({.name = "banner/position", .width = 96, .height = 64, .lifetime = Lifetime::persistent});
         Handle normal = graph.image({.name = "banner/normal", .width = 96, .height = 64});
-        const Handle frame =
-            graph.buffer({.name = "frame", .byte_count = 256, .lifetime = Lifetime::host_input});
+        const Handle frame = graph.buffer({.name = "frame", .byte_count = 256, .lifetime = Lifetime::host_input});
         for (int substep = 0; substep < 20; ++substep) {
             const std::string number = " (substep " + std::to_string(substep) + ")";
             for (const std::string label : {"force", "spring row even", "spring row odd"}) {

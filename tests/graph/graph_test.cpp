@@ -69,17 +69,13 @@ TEST_F(GraphBuilding, ReadAfterOwnWriteIsRefused) {
         },
         {"bad pass", "cloth/position", "read after this pass wrote it"});
     expect_refused(
-        [&](PassSetup& setup) {
-            setup.read(setup.write(image, Access::compute_write), Access::compute_read);
-        },
+        [&](PassSetup& setup) { setup.read(setup.write(image, Access::compute_write), Access::compute_read); },
         {"bad pass", "cloth/position", "read after this pass wrote it"});
 }
 
 TEST_F(GraphBuilding, SecondWriteInOnePassIsRefused) {
     expect_refused(
-        [&](PassSetup& setup) {
-            (void)setup.write(setup.write(image, Access::compute_write), Access::transfer_write);
-        },
+        [&](PassSetup& setup) { (void)setup.write(setup.write(image, Access::compute_write), Access::transfer_write); },
         {"bad pass", "cloth/position", "written twice"});
     expect_refused(
         [&](PassSetup& setup) {
@@ -109,12 +105,10 @@ TEST_F(GraphBuilding, AccessThatDoesNotFitTheKindIsRefused) {
                    {"bad pass", "cloth/position", "indirect_read"});
     expect_refused([&](PassSetup& setup) { setup.read(image, Access::host_read); },
                    {"bad pass", "cloth/position", "host_read"});
-    expect_refused([&](PassSetup& setup) { setup.read(buffer, Access::host_read); },
-                   {"flags", "host_output"});
+    expect_refused([&](PassSetup& setup) { setup.read(buffer, Access::host_read); }, {"flags", "host_output"});
     expect_refused([&](PassSetup& setup) { (void)setup.write(image, Access::depth_write); },
                    {"cloth/position", "no depth format"});
-    expect_refused([&](PassSetup& setup) { setup.read(depth, Access::compute_read); },
-                   {"depth", "depth format"});
+    expect_refused([&](PassSetup& setup) { setup.read(depth, Access::compute_read); }, {"depth", "depth format"});
     expect_refused([&](PassSetup& setup) { setup.read(samples, Access::compute_read); },
                    {"samples", "no storage image"});
     expect_refused([&](PassSetup& setup) { (void)setup.write(samples, Access::resolve_write); },

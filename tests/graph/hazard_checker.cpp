@@ -8,22 +8,22 @@ namespace drape::graph {
 namespace {
 
 constexpr std::array<VkPipelineStageFlags2, 10> all_stages = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                                             VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-                                                             VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
-                                                             VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
-                                                             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                                                             VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                                                             VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                                             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                                             VK_PIPELINE_STAGE_2_TRANSFER_BIT,
-                                                             VK_PIPELINE_STAGE_2_HOST_BIT};
+                                                              VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+                                                              VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                                                              VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
+                                                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                                              VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                                                              VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                                              VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                                              VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                                              VK_PIPELINE_STAGE_2_HOST_BIT};
 
-constexpr VkAccessFlags2 all_reads =
-    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
-constexpr VkAccessFlags2 all_writes =
-    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+constexpr VkAccessFlags2 all_reads = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
+                                     VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                                     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                                     VK_ACCESS_2_HOST_READ_BIT;
+constexpr VkAccessFlags2 all_writes = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
 
 VkPipelineStageFlags2 expand_stages(VkPipelineStageFlags2 stages) {
     if (!(stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT)) return stages;
@@ -87,8 +87,7 @@ Event use_event(Access access, std::string name, std::size_t command) {
             break;
         case Access::depth_write:
             set(VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
+                VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
             event.layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
             break;
         case Access::resolve_write:
@@ -144,12 +143,9 @@ class Track {
     }
 
   private:
-    bool ordered_at(const Barrier& barrier) const {
-        return (barrier.source_stages & (stage_ | ordered_)) != 0;
-    }
+    bool ordered_at(const Barrier& barrier) const { return (barrier.source_stages & (stage_ | ordered_)) != 0; }
     bool available_at(const Barrier& barrier) const {
-        const bool directly =
-            (barrier.source_stages & stage_) != 0 && (barrier.source_accesses & write_) != 0;
+        const bool directly = (barrier.source_stages & stage_) != 0 && (barrier.source_accesses & write_) != 0;
         return directly || (barrier.source_stages & available_) != 0;
     }
     void see(const Barrier& barrier) {
@@ -264,10 +260,8 @@ class History {
         event.barrier.source_accesses = expand_accesses(barrier.source_accesses);
         event.barrier.destination_accesses = expand_accesses(barrier.destination_accesses);
         if (event.changes_layout()) {
-            if (barrier.old_layout == VK_IMAGE_LAYOUT_UNDEFINED ? holds_contents_
-                                                                : barrier.old_layout != layout_) {
-                layout_hazards_.push_back(
-                    {name_, "layout", event.name, "changed from a layout it is not in"});
+            if (barrier.old_layout == VK_IMAGE_LAYOUT_UNDEFINED ? holds_contents_ : barrier.old_layout != layout_) {
+                layout_hazards_.push_back({name_, "layout", event.name, "changed from a layout it is not in"});
             }
             layout_ = barrier.new_layout;
         }

@@ -27,8 +27,7 @@ TEST(RandomPlans, HaveNoHazardInThreeConsecutiveExecutions) {
         const Plan plan = make_plan(graph);
         const Execution executions[] = {{&graph, &plan}, {&graph, &plan}, {&graph, &plan}};
         const auto hazards = find_hazards(executions);
-        ASSERT_TRUE(hazards.empty()) << "seed " << seed << "\n"
-                                     << report(hazards) << dump(graph, plan, "text");
+        ASSERT_TRUE(hazards.empty()) << "seed " << seed << "\n" << report(hazards) << dump(graph, plan, "text");
         barriers += barrier_places(plan).size();
         culled += plan.skipped.size();
     }
@@ -92,11 +91,11 @@ TEST(RandomPlans, NeedEveryFlagOfEveryBarrier) {
                 weaken(barrier_at(weaker, place));
                 const Barrier weak = barrier_at(weaker, place);
                 EXPECT_FALSE(clean_when_run_twice(graph, weaker, resource.name))
-                    << "seed " << seed << ": " << whole.reason << std::hex << "\n source stages "
-                    << whole.source_stages << " -> " << weak.source_stages << ", accesses "
-                    << whole.source_accesses << " -> " << weak.source_accesses << "\n destination stages "
-                    << whole.destination_stages << " -> " << weak.destination_stages << ", accesses "
-                    << whole.destination_accesses << " -> " << weak.destination_accesses;
+                    << "seed " << seed << ": " << whole.reason << std::hex << "\n source stages " << whole.source_stages
+                    << " -> " << weak.source_stages << ", accesses " << whole.source_accesses << " -> "
+                    << weak.source_accesses << "\n destination stages " << whole.destination_stages << " -> "
+                    << weak.destination_stages << ", accesses " << whole.destination_accesses << " -> "
+                    << weak.destination_accesses;
                 barrier_at(weaker, place) = whole;
                 ++checked;
             }
@@ -212,8 +211,7 @@ TEST_F(HazardChecker, AcceptsAHostReadDeclaredByAPass) {
     Handle result = graph.buffer({.name = "result", .byte_count = 4, .lifetime = Lifetime::host_output});
     graph.add_pass({"reduce", "s", "reduce"},
                    [&](PassSetup& setup) { result = setup.write(result, Access::compute_write); }, {});
-    graph.add_pass({"report", "s", "report"},
-                   [&](PassSetup& setup) { setup.read(result, Access::host_read); }, {});
+    graph.add_pass({"report", "s", "report"}, [&](PassSetup& setup) { setup.read(result, Access::host_read); }, {});
     const Plan plan = make_plan(graph);
     EXPECT_EQ(plan.passes.size(), 2u) << "the host's read is wanted";
     EXPECT_TRUE(plan.final_barriers.empty()) << "already visible to the host";

@@ -72,8 +72,7 @@ TEST_F(Planning, WriteAfterReadGetsAnExecutionBarrier) {
     write("force", position, Access::compute_write);
     const auto barriers = barriers_of(make_plan(graph), 2, position);
     ASSERT_EQ(barriers.size(), 1u);
-    EXPECT_EQ(barriers[0].source_stages,
-              VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
+    EXPECT_EQ(barriers[0].source_stages, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
     EXPECT_EQ(barriers[0].source_accesses, 0u) << "reads have nothing to make available";
     EXPECT_EQ(barriers[0].destination_stages, compute);
 }
@@ -107,8 +106,7 @@ TEST_F(Planning, ReadAtAnotherStageGetsItsOwnBarrierFromTheWriter) {
     const auto barriers = barriers_of(make_plan(graph), 2, position);
     ASSERT_EQ(barriers.size(), 1u);
     EXPECT_EQ(barriers[0].source_stages, compute);
-    EXPECT_EQ(barriers[0].source_accesses, 0u)
-        << "the first reader, at the writer's stage, made it available";
+    EXPECT_EQ(barriers[0].source_accesses, 0u) << "the first reader, at the writer's stage, made it available";
     EXPECT_EQ(barriers[0].destination_stages, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT);
 }
 
@@ -253,8 +251,7 @@ TEST_F(Planning, ReadOfATransientNobodyWroteIsRefusedOnlyWhenWanted) {
         (void)make_plan(graph);
         FAIL() << "not refused";
     } catch (const GraphError& error) {
-        EXPECT_NE(std::string(error.what()).find("'wanted', resource 'scratch'"), std::string::npos)
-            << error.what();
+        EXPECT_NE(std::string(error.what()).find("'wanted', resource 'scratch'"), std::string::npos) << error.what();
     }
 }
 

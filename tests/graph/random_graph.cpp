@@ -5,8 +5,8 @@
 namespace drape::graph {
 namespace {
 
-constexpr Lifetime lifetimes[] = {Lifetime::transient, Lifetime::persistent, Lifetime::constant,
-                                  Lifetime::host_input, Lifetime::host_output};
+constexpr Lifetime lifetimes[] = {Lifetime::transient, Lifetime::persistent, Lifetime::constant, Lifetime::host_input,
+                                  Lifetime::host_output};
 
 bool readable(const Resource& resource) {
     if (resource.version > 0) return true;
@@ -26,8 +26,7 @@ void RandomGraphs::declare(Graph& graph, std::uint32_t kind, std::uint32_t index
         handles_.push_back(graph.buffer({.name = name, .byte_count = 64, .lifetime = lifetimes[kind]}));
         return;
     }
-    constexpr std::array formats = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM,
-                                    VK_FORMAT_D32_SFLOAT};
+    constexpr std::array formats = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT};
     handles_.push_back(graph.image({.name = name,
                                     .format = formats[(kind - 5) % formats.size()],
                                     .width = 8,
@@ -36,8 +35,8 @@ void RandomGraphs::declare(Graph& graph, std::uint32_t kind, std::uint32_t index
 }
 
 void RandomGraphs::use_something(Graph& graph, PassSetup& setup) {
-    constexpr std::array reads = {Access::compute_read, Access::vertex_read, Access::fragment_read,
-                                  Access::index_read, Access::indirect_read, Access::transfer_read};
+    constexpr std::array reads = {Access::compute_read, Access::vertex_read,   Access::fragment_read,
+                                  Access::index_read,   Access::indirect_read, Access::transfer_read};
     constexpr std::array writes = {Access::compute_write, Access::color_write, Access::depth_write,
                                    Access::resolve_write, Access::transfer_write};
     const std::uint32_t r = below(static_cast<std::uint32_t>(handles_.size()));

@@ -89,10 +89,9 @@ TEST(AtomicFile, ReportsAFileSizeLimitAndKeepsEarlierFiles) {
         const rlimit limit{65536, 65536};
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
         write_file(folder, "frame_0000.png", bytes_of(std::string(65536, 'x')));
-        const std::string text = error_text<OutputError>(
-            [&] { write_file(folder, "frame_0001.png", bytes_of(std::string(65537, 'x'))); });
-        const std::string expected =
-            "cannot write '" + folder.path_of("frame_0001.png") + "': File too large";
+        const std::string text =
+            error_text<OutputError>([&] { write_file(folder, "frame_0001.png", bytes_of(std::string(65537, 'x'))); });
+        const std::string expected = "cannot write '" + folder.path_of("frame_0001.png") + "': File too large";
         return text == expected ? 0 : 1;
     });
     EXPECT_EQ(wait_for(child), 0);
@@ -127,8 +126,7 @@ TEST(AtomicFile, NoFileIsTornWhenTheWriterIsKilled) {
         }
         // The next run clears the dead one's temporary away.
         OutputFolder(temporary / "out", ExistingFiles::resume).begin_writing();
-        for (const std::string& name : names_in(temporary / "out"))
-            EXPECT_FALSE(is_temporary_file_name(name));
+        for (const std::string& name : names_in(temporary / "out")) EXPECT_FALSE(is_temporary_file_name(name));
     }
     EXPECT_GE(finished_count, 20u);
     EXPECT_GT(temporary_count, 0u) << "no round hit a file being written, so the test showed nothing";

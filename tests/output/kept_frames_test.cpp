@@ -64,7 +64,8 @@ TEST(KeptFrames, GiveTheirValuesBackToTheLastBit) {
     }
     EXPECT_EQ(kept_frames(folder, key).at("frame_0012.png").values, values);
     fs::rename(temporary / "out/frame_0012.png", temporary / "out/frame_0013.png");
-    EXPECT_THAT(error_text<OutputError>([&] { kept_frames(folder, key); }), HasSubstr("frame_0013.png' holds frame 12: "));
+    EXPECT_THAT(error_text<OutputError>([&] { kept_frames(folder, key); }),
+                HasSubstr("frame_0013.png' holds frame 12: "));
 }
 
 TEST(KeptFrames, ValuesThatAreNoNumbersAreDamage) {
@@ -137,8 +138,7 @@ TEST(KeptFrames, AnotherRunsManifestIsRefused) {
         write_manifest(folder, manifest);
     }
     EXPECT_EQ(refusal(temporary / "out"), "");
-    EXPECT_THAT(refusal(temporary / "out", run_key({"other"})),
-                HasSubstr("manifest.json' is that of another run"));
+    EXPECT_THAT(refusal(temporary / "out", run_key({"other"})), HasSubstr("manifest.json' is that of another run"));
 }
 
 TEST(RunKey, TellsWhereOnePartEnds) {

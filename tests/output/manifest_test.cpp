@@ -20,8 +20,7 @@ using testing::HasSubstr;
 Manifest example() {
     Manifest manifest;
     manifest.program_version = "0.1.0";
-    manifest.scene = {
-        "scenes/flag.json", "flag \"red\"\n", "0123456789abcdef0123456789abcdef", {"/gravity/1=-1.62"}};
+    manifest.scene = {"scenes/flag.json", "flag \"red\"\n", "0123456789abcdef0123456789abcdef", {"/gravity/1=-1.62"}};
     manifest.device = {"llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe", "Mesa 22.3.6", "1.3.230", "6d657361"};
     manifest.frames = {0, 239, 2, 120, 60};
     manifest.run_key = "00112233445566778899aabbccddeeff";
@@ -92,8 +91,7 @@ Json::Value parse(const std::string& text) {
     std::istringstream stream(text);
     Json::Value value;
     std::string errors;
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &value, &errors))
-        throw std::runtime_error(errors);
+    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &value, &errors)) throw std::runtime_error(errors);
     return value;
 }
 
@@ -117,8 +115,7 @@ TEST(Manifest, TimesAndCommandLineTouchOnlyTheRunKey) {
 }
 
 TEST(Manifest, RefusesNumbersThatAreNone) {
-    for (const double value :
-         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Manifest manifest = example();
         manifest.statistics[1].values["max_stretch"] = value;
         EXPECT_THAT(error_text<OutputError>([&] { manifest_json(manifest); }),
@@ -150,8 +147,7 @@ TEST(Manifest, DoublesReadBackExactlyAndAreShort) {
     EXPECT_THAT(text, testing::StartsWith("[\n  0.1,\n  0.3333333333333333,\n  5e-324,"));
     const Json::Value back = parse(text);
     ASSERT_EQ(back.size(), numbers.size());
-    for (Json::ArrayIndex i = 0; i < numbers.size(); ++i)
-        EXPECT_EQ(back[i].asDouble(), numbers[i].asDouble());
+    for (Json::ArrayIndex i = 0; i < numbers.size(); ++i) EXPECT_EQ(back[i].asDouble(), numbers[i].asDouble());
 }
 
 TEST(Manifest, AnyTextIsEscaped) {

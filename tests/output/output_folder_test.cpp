@@ -54,8 +54,8 @@ TEST(OutputFolder, RefusesANonEmptyFolderNamingTheOptions) {
     write_text(temporary / "thesis.tex", "x");
     write_text(temporary / "zebra", "x");
     EXPECT_THAT(open_error(temporary.path()),
-                AllOf(HasSubstr("'" + temporary.path().string() + "' is not empty"),
-                      HasSubstr("thesis.tex and 1 more"), HasSubstr("--overwrite"), HasSubstr("--resume")));
+                AllOf(HasSubstr("'" + temporary.path().string() + "' is not empty"), HasSubstr("thesis.tex and 1 more"),
+                      HasSubstr("--overwrite"), HasSubstr("--resume")));
 }
 
 TEST(OutputFolder, RefusesWhatIsNoFolder) {
@@ -102,10 +102,8 @@ TEST(OutputFolder, RefusesAFolderItMayNotWrite) {
             return open_error(path).find(text) != std::string::npos ? 0 : 1;
         }));
     };
-    EXPECT_EQ(
-        denied_with(locked, "cannot write to output folder '" + locked.string() + "': Permission denied"), 0);
-    EXPECT_EQ(denied_with(locked / "new/deep", "cannot create output folder '" + (locked / "new").string()),
-              0);
+    EXPECT_EQ(denied_with(locked, "cannot write to output folder '" + locked.string() + "': Permission denied"), 0);
+    EXPECT_EQ(denied_with(locked / "new/deep", "cannot create output folder '" + (locked / "new").string()), 0);
     EXPECT_THAT(names_in(locked), IsEmpty());
 }
 
@@ -124,8 +122,7 @@ TEST(OutputFolder, KeepsASecondProcessOut) {
     char byte = 0;
     ASSERT_EQ(read(ready[0], &byte, 1), 1);
     for (const auto existing : {ExistingFiles::refuse, ExistingFiles::overwrite, ExistingFiles::resume}) {
-        EXPECT_THAT(open_error(temporary / "out", existing),
-                    HasSubstr("another drape is writing to output folder"));
+        EXPECT_THAT(open_error(temporary / "out", existing), HasSubstr("another drape is writing to output folder"));
     }
     ASSERT_EQ(write(release[1], &byte, 1), 1);
     ASSERT_EQ(wait_for(child), 1);
@@ -142,12 +139,11 @@ void fill_with_a_run(const fs::path& path) {
          {"frame_0000.png", "frame_12345.png", "positions.npy", "positions_flag.npy", "profile.json"}) {
         write_byte(folder, name);
     }
-    for (const char* name : {"profile.json", "../outside", "sub", ".."})
-        manifest.files.push_back({name, 1, ""});
+    for (const char* name : {"profile.json", "../outside", "sub", ".."}) manifest.files.push_back({name, 1, ""});
     write_manifest(folder, manifest);
     for (const char* name :
-         {"frame_0001.png.tmp-77", "notes.txt", "frame_1.png", "frame_0001.png.bak", "frame_000x.png",
-          "positionsX.npy", "positions.npy.tmp-", "xframe_0001.png", "letter.tmp-12"}) {
+         {"frame_0001.png.tmp-77", "notes.txt", "frame_1.png", "frame_0001.png.bak", "frame_000x.png", "positionsX.npy",
+          "positions.npy.tmp-", "xframe_0001.png", "letter.tmp-12"}) {
         write_text(path / name, "x");
     }
     fs::create_directory(path / "frame_0002.png");
@@ -167,10 +163,10 @@ TEST(OutputFolder, OverwriteRemovesOnlyOurFilesAndOnlyAtTheFirstWrite) {
                 ElementsAre("frame_0000.png", "frame_0001.png.tmp-77", "frame_0003.png", "frame_12345.png",
                             "manifest.json", "positions.npy", "positions_flag.npy", "profile.json"));
     write_byte(folder, "frame_0009.png");
-    EXPECT_THAT(names_in(temporary / "out"),
-                ElementsAre("frame_0001.png.bak", "frame_0002.png", "frame_0009.png", "frame_000x.png",
-                            "frame_1.png", "letter.tmp-12", "notes.txt", "positions.npy.tmp-",
-                            "positionsX.npy", "sub", "xframe_0001.png"));
+    EXPECT_THAT(
+        names_in(temporary / "out"),
+        ElementsAre("frame_0001.png.bak", "frame_0002.png", "frame_0009.png", "frame_000x.png", "frame_1.png",
+                    "letter.tmp-12", "notes.txt", "positions.npy.tmp-", "positionsX.npy", "sub", "xframe_0001.png"));
     EXPECT_TRUE(fs::exists(temporary / "outside"));
     EXPECT_EQ(read_text(temporary / "linked"), "precious");
 }
@@ -190,13 +186,11 @@ TEST(OutputFolder, ResumeKeepsFramesButNotTheManifest) {
 TEST(OutputFolder, RefusesToReplaceAnotherProgramsManifest) {
     const TemporaryFolder temporary;
     const std::string deep(100000, '[');
-    for (const std::string& text :
-         {std::string("{\"name\": \"web app\", \"files\": []}"), std::string("[1, 2]"),
-          std::string("{\"format\": \"drape manifest 1\""), std::string(), deep}) {
+    for (const std::string& text : {std::string("{\"name\": \"web app\", \"files\": []}"), std::string("[1, 2]"),
+                                    std::string("{\"format\": \"drape manifest 1\""), std::string(), deep}) {
         write_text(temporary / "manifest.json", text);
         for (const auto existing : {ExistingFiles::overwrite, ExistingFiles::resume}) {
-            EXPECT_THAT(open_error(temporary.path(), existing),
-                        HasSubstr("manifest.json' was not written by drape"));
+            EXPECT_THAT(open_error(temporary.path(), existing), HasSubstr("manifest.json' was not written by drape"));
         }
         EXPECT_EQ(read_text(temporary / "manifest.json"), text);
     }

@@ -151,8 +151,7 @@ TEST(PngSequence, EndsWithoutFinish) {
         PngSequence sequence(folder, 4, 2);
         submit_frames(sequence, 5);
     }
-    for (const std::string& name : names_in(temporary.path()))
-        EXPECT_FALSE(is_temporary_file_name(name)) << name;
+    for (const std::string& name : names_in(temporary.path())) EXPECT_FALSE(is_temporary_file_name(name)) << name;
 }
 
 }  // namespace

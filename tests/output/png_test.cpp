@@ -33,13 +33,11 @@ std::vector<std::uint8_t> without_alpha(const std::vector<std::uint8_t>& rgba) {
 std::vector<std::uint8_t> decode_with_libpng(const std::vector<std::uint8_t>& png) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_memory(&image, png.data(), png.size()))
-        throw std::runtime_error(image.message);
+    if (!png_image_begin_read_from_memory(&image, png.data(), png.size())) throw std::runtime_error(image.message);
     EXPECT_EQ(image.format, PNG_FORMAT_RGB);
     EXPECT_EQ(image.flags & PNG_IMAGE_FLAG_COLORSPACE_NOT_sRGB, 0u);
     std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
-    if (!png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr))
-        throw std::runtime_error(image.message);
+    if (!png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) throw std::runtime_error(image.message);
     return rgb;
 }
 

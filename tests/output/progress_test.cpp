@@ -17,8 +17,7 @@ struct Screen {
     std::string text;
 
     Progress::Options options(bool is_terminal, bool is_quiet = false) {
-        return {is_quiet, is_terminal, [this] { return now; },
-                [this](std::string_view part) { text += part; }};
+        return {is_quiet, is_terminal, [this] { return now; }, [this](std::string_view part) { text += part; }};
     }
 };
 
@@ -58,8 +57,7 @@ TEST(Progress, FileGetsALineEveryTenPerCent) {
     }
     progress.finish();
     EXPECT_EQ(std::ranges::count(screen.text, '\n'), 10);
-    EXPECT_EQ(screen.text.substr(0, screen.text.find('\n')),
-              "frame 3 (4/40, 10 %)  250.0 ms/frame  ETA 0:09");
+    EXPECT_EQ(screen.text.substr(0, screen.text.find('\n')), "frame 3 (4/40, 10 %)  250.0 ms/frame  ETA 0:09");
     EXPECT_EQ(screen.text.find('\x1b'), std::string::npos);
     EXPECT_EQ(screen.text.find('\r'), std::string::npos);
     EXPECT_TRUE(screen.text.ends_with("frame 39 (40/40, 100 %)  250.0 ms/frame  ETA 0:00\n"));
@@ -110,9 +108,9 @@ TEST(Progress, ALineIsNoLongerThanTheTerminalIsWide) {
         Progress progress(1, options);
         screen.now += 1;
         progress.frame_done(0, "stretch 0.52 % RMS, 3.1 % max");
-        EXPECT_EQ(screen.text, is_terminal
-                                   ? "\rframe 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.\x1b[K"
-                                   : "frame 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.52 % RMS, 3.1 % max\n");
+        EXPECT_EQ(screen.text,
+                  is_terminal ? "\rframe 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.\x1b[K"
+                              : "frame 0 (1/1, 100 %)  1000.0 ms/frame  ETA 0:00  stretch 0.52 % RMS, 3.1 % max\n");
     }
 }
 

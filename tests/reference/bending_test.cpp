@@ -43,8 +43,8 @@ double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape
     double energy = 0;
     for (std::size_t i = 0; i < shape.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            energy -= 0.5 / (h * h) * shape[i][k] * test::mass_of(model.cloths[0], i) *
-                      test::displacement_of(state, i)[k];
+            energy -=
+                0.5 / (h * h) * shape[i][k] * test::mass_of(model.cloths[0], i) * test::displacement_of(state, i)[k];
     return energy;
 }
 

@@ -65,7 +65,7 @@ TEST(ClosedFormsTest, Pendulum) {
     EXPECT_NEAR(pendulum_angle(0.7, 9.81, 1.5, 0), 1.5, 1e-12);
     EXPECT_NEAR(pendulum_angle(0.7, 9.81, 1.5, period / 4), 0, 1e-12);
     EXPECT_NEAR(pendulum_angle(0.7, 9.81, 1.5, period / 2), -1.5, 1e-7);  // sqrt of rounding at the turning point
-    for (const double t : {0.1, 0.33, 0.9, 2.0}) {  // angle'' = -(g/L) sin(angle)
+    for (const double t : {0.1, 0.33, 0.9, 2.0}) {                        // angle'' = -(g/L) sin(angle)
         const auto angle = [](double at) { return pendulum_angle(0.7, 9.81, 1.5, at); };
         const double e = 1e-4, second = (angle(t + e) - 2 * angle(t) + angle(t - e)) / (e * e);
         EXPECT_NEAR(second, -9.81 / 0.7 * std::sin(angle(t)), 1e-5);
@@ -132,7 +132,8 @@ TEST(ClosedFormsTest, ElasticCatenary) {
     EXPECT_NEAR(elastic_catenary_point(curve, elastic, 0.5).x, 0.4, 1e-13);
     // The curve's local stretch is 1 + tension/EA.
     const double s = 0.3, e = 1e-5;
-    const PlanePoint p = elastic_catenary_point(curve, elastic, s - e), q = elastic_catenary_point(curve, elastic, s + e);
+    const PlanePoint p = elastic_catenary_point(curve, elastic, s - e),
+                     q = elastic_catenary_point(curve, elastic, s + e);
     EXPECT_NEAR(std::hypot(q.x - p.x, q.y - p.y) / (2 * e), 1 + std::hypot(curve.a, s) / elastic, 1e-9);
 }
 

@@ -103,7 +103,8 @@ Colliders one_box() {
     return colliders;
 }
 
-const MotionPath moving{{{0, {0, 0, 0}, {0, 0, 0}}, {1, {0.2, 0.1, -0.1}, {30, 200, -40}}, {2, {0, 0.2, 0.1}, {0, 360, 0}}}};
+const MotionPath moving{
+    {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0.2, 0.1, -0.1}, {30, 200, -40}}, {2, {0, 0.2, 0.1}, {0, 360, 0}}}};
 
 TEST(ContactTest, Plane) {
     Colliders colliders;

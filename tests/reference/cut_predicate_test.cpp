@@ -60,7 +60,8 @@ Decision intersect(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
 glsl::vec3 single(const Vec3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 
 bool device_intersects(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
-    return glsl::triangles_intersect(single(s[0]), single(s[1]), single(s[2]), single(t[0]), single(t[1]), single(t[2]));
+    return glsl::triangles_intersect(single(s[0]), single(s[1]), single(s[2]), single(t[0]), single(t[1]),
+                                     single(t[2]));
 }
 
 TEST(CutPredicateTest, EqualsDoublePrecisionOnRandomPairsOutsideARoundingBand) {
@@ -69,7 +70,8 @@ TEST(CutPredicateTest, EqualsDoublePrecisionOnRandomPairsOutsideARoundingBand) {
     const auto triangle = [&](double size, const Vec3& at) {
         std::array<Vec3, 3> t;
         for (Vec3& corner : t)  // single precision inputs: the reference decides about the same triangles
-            corner = {double(float(at[0] + size * double(unit(random)))), double(float(at[1] + size * double(unit(random)))),
+            corner = {double(float(at[0] + size * double(unit(random)))),
+                      double(float(at[1] + size * double(unit(random)))),
                       double(float(at[2] + size * double(unit(random))))};
         return t;
     };

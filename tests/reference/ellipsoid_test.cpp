@@ -34,9 +34,10 @@ TEST(EllipsoidTest, FootPointsMatchDoublePrecision) {
         const glsl::vec3 p{float(point[0]), float(point[1]), float(point[2])};
         const glsl::vec3 r{float(radii[0]), float(radii[1]), float(radii[2])};
         const glsl::vec3 foot = glsl::ellipsoid_foot(p, r);
-        const Vec3 exact = test::ellipsoid_foot({double(p.x), double(p.y), double(p.z)},
-                                                {double(r.x), double(r.y), double(r.z)});
-        worst = std::max(worst, test::norm(test::minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
+        const Vec3 exact =
+            test::ellipsoid_foot({double(p.x), double(p.y), double(p.z)}, {double(r.x), double(r.y), double(r.z)});
+        worst =
+            std::max(worst, test::norm(test::minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
         ++checked;
     }
     std::printf("[ measured ] worst foot error over %d points: %.2e of the largest radius\n", checked, worst);

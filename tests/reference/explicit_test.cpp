@@ -148,14 +148,20 @@ TEST_P(ExplicitStress, NoStartGainsEnergy) {
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(32, 0, 32, 0)};
     std::mt19937 random(7);
     std::uniform_real_distribution<float> noise(-0.5f, 0.5f);
-    const double tangled = energy_growth(
-        scene, [&](const glsl::vec4& x) { return glsl::vec4{noise(random), noise(random), noise(random), x.w}; });
-    const double collapsed =
-        energy_growth(scene, [&](const glsl::vec4& x) { return glsl::vec4{0.5f, -0.2f, 0.0f, x.w}; });
-    const double pulled = energy_growth(
-        scene, [&](const glsl::vec4& x) { return glsl::vec4{10 * x.x, 10 * x.y, 1e-3f * noise(random), x.w}; });
-    std::printf("[ measured ] %u substeps, %g N/m, shear %g, bend %g: energy after 1..2 s / start %.3f (tangled), %.3f (collapsed), "
-                "%.3f (pulled)\n", substeps, stretch, shear_ratio, bend, tangled, collapsed, pulled);
+    const double tangled = energy_growth(scene, [&](const glsl::vec4& x) {
+        return glsl::vec4{noise(random), noise(random), noise(random), x.w};
+    });
+    const double collapsed = energy_growth(scene, [&](const glsl::vec4& x) {
+        return glsl::vec4{0.5f, -0.2f, 0.0f, x.w};
+    });
+    const double pulled = energy_growth(scene, [&](const glsl::vec4& x) {
+        return glsl::vec4{10 * x.x, 10 * x.y, 1e-3f * noise(random), x.w};
+    });
+    std::printf(
+        "[ measured ] %u substeps, %g N/m, shear %g, bend %g: energy after 1..2 s / start %.3f (tangled), %.3f "
+        "(collapsed), "
+        "%.3f (pulled)\n",
+        substeps, stretch, shear_ratio, bend, tangled, collapsed, pulled);
     for (const double growth : {tangled, collapsed, pulled}) EXPECT_LE(growth, 1);
 }
 

@@ -21,8 +21,8 @@ SceneDescription incline(double mu) {
     Cloth& cloth = scene.cloths[0];
     cloth.friction = mu;
     cloth.thickness = 0.01;
-    cloth.placement = {{0.01 * plane.normal[0], 0.01 * plane.normal[1], 0}, {std::cos(angle), std::sin(angle), 0},
-                       {0, 0, 1}};
+    cloth.placement = {
+        {0.01 * plane.normal[0], 0.01 * plane.normal[1], 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
     return scene;
 }
 

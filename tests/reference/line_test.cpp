@@ -41,8 +41,10 @@ TEST_P(LineSwing, ConvergesInSecondOrder) {
     const double coarse = swing_error(scene, 10, reference), middle = swing_error(scene, 20, reference),
                  fine = swing_error(scene, 40, reference);
     const double order = std::log2(coarse / fine) / 2;
-    std::printf("[ measured ] swing 32^2, damping %g, RMS error after 0.5 s: %.2e %.2e %.2e m at 10, 20, 40 substeps; "
-                "order %.2f\n", GetParam(), coarse, middle, fine, order);
+    std::printf(
+        "[ measured ] swing 32^2, damping %g, RMS error after 0.5 s: %.2e %.2e %.2e m at 10, 20, 40 substeps; "
+        "order %.2f\n",
+        GetParam(), coarse, middle, fine, order);
     EXPECT_LE(middle, 1e-4);
     // Fitted over a factor of four: 2 but for the springs' own vibrations, which no such step resolves.
     EXPECT_GE(order, 1.3);

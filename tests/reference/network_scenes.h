@@ -24,8 +24,8 @@ inline SpringNetwork chain(std::uint32_t links, double length, double density, d
         network.mass.push_back(density * length / links * (p == 0 || p == links ? 0.5 : 1.0));
         network.pin_of.push_back(p == 0 ? 0 : -1);
         if (p > 0)
-            network.springs.push_back({p - 1, p, axial_stiffness * links / length, length / links,
-                                       SpringFamily::stretch});
+            network.springs.push_back(
+                {p - 1, p, axial_stiffness * links / length, length / links, SpringFamily::stretch});
     }
     return network;
 }

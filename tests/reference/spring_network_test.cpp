@@ -179,8 +179,8 @@ double rolled_energy(double angle) {
 }
 
 TEST(SpringNetworkTest, BendingIsAsStiffInEveryDirection) {
-    const double across_angle = std::numbers::pi / 4, axes = rolled_energy(0), between = rolled_energy(across_angle / 2),
-                 across = rolled_energy(across_angle);
+    const double across_angle = std::numbers::pi / 4, axes = rolled_energy(0),
+                 between = rolled_energy(across_angle / 2), across = rolled_energy(across_angle);
     std::printf("[ measured ] rigidity over B: axes %.4f, 22.5 degrees %.4f, 45 degrees %.4f\n", axes, between, across);
     // Borders: the outermost half cells of the bent axis carry no curvature, a share 1/64 of the area. Across the axes
     // half of the rigidity is the twist's, which every cell has.

@@ -27,8 +27,7 @@ TEST(StaticReferenceTest, HangingColumnHasTheTensionOfTheWeightBelow) {
         const Vec3 &a = result.position[spring.first], &b = result.position[spring.second];
         const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         const double tension = spring.stiffness * (length - spring.rest_length);
-        const double expected =
-            closed_forms::hanging_link_tension(16, spring.first / 2, network.mass[4], 9.81, true);
+        const double expected = closed_forms::hanging_link_tension(16, spring.first / 2, network.mass[4], 9.81, true);
         worst = std::max(worst, std::abs(tension / expected - 1));
     }
     std::printf("[ measured ] hanging column: worst tension error %.1e, %u iterations, residual %.1e N\n", worst,
@@ -151,8 +150,7 @@ TEST(StaticReferenceTest, HangingChainModesConvergeWithOrderTwo) {
     const std::vector<double> links{16, 32, 64, 128};
     std::vector<Eigen::VectorXd> found;
     for (const double count : links)
-        found.push_back(transverse_frequencies(
-            test::chain(static_cast<std::uint32_t>(count), 1, 1, 1e9, {0, -1, 0})));
+        found.push_back(transverse_frequencies(test::chain(static_cast<std::uint32_t>(count), 1, 1, 1e9, {0, -1, 0})));
     for (std::uint32_t n = 1; n <= 4; ++n) {
         std::vector<double> errors;
         for (const Eigen::VectorXd& frequencies : found)
@@ -201,10 +199,11 @@ TEST(StaticReferenceTest, CantileverFollowsTheHeavyElastica) {
             tip.push_back(std::hypot(last.reach - exact.reach, last.drop - exact.drop));
             ratio.push_back(std::abs(last.drop / last.reach / exact.ratio() - 1));
         }
-        std::printf("[ measured ] gamma %g: H/W %.6f (exact %.6f), relative errors at 16 32 64 segments "
-                    "%.2e %.2e %.2e, tip %.2e %.2e %.2e L, worst strain %.1e, %u iterations\n",
-                    gamma, last.drop / last.reach, exact.ratio(), ratio[0], ratio[1], ratio[2], tip[0], tip[1], tip[2],
-                    last.worst_strain, last.iterations);
+        std::printf(
+            "[ measured ] gamma %g: H/W %.6f (exact %.6f), relative errors at 16 32 64 segments "
+            "%.2e %.2e %.2e, tip %.2e %.2e %.2e L, worst strain %.1e, %u iterations\n",
+            gamma, last.drop / last.reach, exact.ratio(), ratio[0], ratio[1], ratio[2], tip[0], tip[1], tip[2],
+            last.worst_strain, last.iterations);
         EXPECT_LT(ratio[2], 0.02);
         // The tip, not H/W: at gamma = 10 the leading errors of H and W nearly cancel in their ratio.
         EXPECT_NEAR(std::log(tip[0] / tip[2]) / std::log(4.0), 2, 0.1);

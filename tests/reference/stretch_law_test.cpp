@@ -29,8 +29,8 @@ Stretch hanging_stretch(std::uint32_t links, std::uint32_t substeps, std::uint32
         for (std::uint32_t column = 0; column <= links; ++column) {
             const glsl::vec4 a = twin.cloth(0).position[grid.particle(column, row)];
             const glsl::vec4 b = twin.cloth(0).position[grid.particle(column, row + 1)];
-            const double strain = std::hypot(double(b.x) - double(a.x), double(b.y) - double(a.y),
-                                             double(b.z) - double(a.z)) * links - 1;
+            const double strain =
+                std::hypot(double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z)) * links - 1;
             sum += strain;
             squares += strain * strain;
         }

@@ -71,8 +71,7 @@ TEST(SymplecticReferenceTest, FirstModeOfAHangingChainSwingsAtItsFrequency) {
         SpringNetwork network = at_rest;
         network.rest_position = find_equilibrium(at_rest).position;
         const double amplitude = 1e-5, omega = closed_forms::hanging_chain_frequency(1, 1, 9.81);
-        for (Vec3& x : network.rest_position)
-            x[2] += amplitude * closed_forms::hanging_chain_shape(1, 1, 1 + x[1]);
+        for (Vec3& x : network.rest_position) x[2] += amplitude * closed_forms::hanging_chain_shape(1, 1, 1 + x[1]);
         // The free end at a quarter period crosses the middle: z there, over its speed, is the error in phase.
         const double quarter[] = {std::numbers::pi / 2 / omega};
         const NetworkState state = symplectic_states(network, quarter, symplectic_step(network))[0];

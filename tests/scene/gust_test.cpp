@@ -29,8 +29,7 @@ TEST(Gust, FollowsTheFormulaOfTheSchema) {
     for (const double t : {0.0, 0.3, 1.5, 12.25}) {
         const double turn = 2 * std::numbers::pi * t / 1.5;
         const double expected =
-            2.0 *
-            (std::sin(turn + p[0]) + 0.5 * std::sin(2.3 * turn + p[1]) + 0.25 * std::sin(5.1 * turn + p[2])) /
+            2.0 * (std::sin(turn + p[0]) + 0.5 * std::sin(2.3 * turn + p[1]) + 0.25 * std::sin(5.1 * turn + p[2])) /
             1.75;
         EXPECT_NEAR(gust_speed(gust, t), expected, 1e-12);
     }

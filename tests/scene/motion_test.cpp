@@ -18,8 +18,7 @@ Vec3 turned(const std::array<double, 9>& r, const Vec3& x) {
 double translation_x(const MotionPath& path, double time) { return motion_at(path, time).translation[0]; }
 
 // Uneven times on purpose.
-const MotionPath uneven{
-    {{0.0, {0, 0, 0}, {}}, {1.0, {2, 0, 0}, {}}, {4.0, {3, 0, 0}, {}}, {5.0, {-1, 0, 0}, {}}}};
+const MotionPath uneven{{{0.0, {0, 0, 0}, {}}, {1.0, {2, 0, 0}, {}}, {4.0, {3, 0, 0}, {}}, {5.0, {-1, 0, 0}, {}}}};
 
 TEST(Motion, EmptyPathIsExactlyTheIdentity) { EXPECT_EQ(motion_at({}, 3.0), RigidTransform{}); }
 
@@ -69,10 +68,8 @@ TEST(Motion, IsContinuousInValueAndSlope) {
 }
 
 TEST(Motion, ConstantPathStaysPut) {
-    const MotionPath rest{
-        {{0.0, {0.1, 0.7, 0.3}, {}}, {1.0, {0.1, 0.7, 0.3}, {}}, {3.0, {0.1, 0.7, 0.3}, {}}}};
-    for (double t = -0.5; t < 4.0; t += 0.0625)
-        EXPECT_EQ(motion_at(rest, t).translation, (Vec3{0.1, 0.7, 0.3}));
+    const MotionPath rest{{{0.0, {0.1, 0.7, 0.3}, {}}, {1.0, {0.1, 0.7, 0.3}, {}}, {3.0, {0.1, 0.7, 0.3}, {}}}};
+    for (double t = -0.5; t < 4.0; t += 0.0625) EXPECT_EQ(motion_at(rest, t).translation, (Vec3{0.1, 0.7, 0.3}));
 }
 
 TEST(Rotation, ZeroAndWholeTurnsAreExactlyTheIdentity) {

@@ -48,9 +48,7 @@ const Malformed syntax_cases[] = {
     {"TextAfterTheEnd", "{\"cloths\": [{}]} x", {"1:18: Extra non-whitespace after JSON value"}},
     {"TwoDocuments", "{\"cloths\": [{}]}\n{}", {"2:1: Extra non-whitespace after JSON value"}},
     {"DuplicateKey", "{\"cloths\": [{}],\r\n \"cloths\": [{}]}", {"2:2: Duplicate key: 'cloths'"}},
-    {"NotANumber",
-     scene("\"gravity\": [0, NaN, 0]"),
-     {"2:16: Syntax error: value, object or array expected"}},
+    {"NotANumber", scene("\"gravity\": [0, NaN, 0]"), {"2:16: Syntax error: value, object or array expected"}},
     {"LeadingZero", scene("\"gravity\": [0, 01, 0]"), {"2:16: expected a JSON number, got 01"}},
     {"LoneMinus", scene("\"gravity\": [0, -, 0]"), {"2:16: expected a JSON number, got -"}},
     {"MissingDecimals", scene("\"gravity\": [0, 1., 0]"), {"2:16: expected a JSON number, got 1."}},
@@ -58,12 +56,8 @@ const Malformed syntax_cases[] = {
     {"BadEscape", scene("\"name\": \"\\q\""), {"2:9: Bad escape sequence in string"}},
     {"SingleQuotes", scene("\"name\": 'x'"), {"2:9: Syntax error: value, object or array expected"}},
     {"OpenComment", scene("/* open"), {"2:1: Missing '}' or object member name"}},
-    {"ControlCharacter",
-     scene("\"name\": \"\x01\""),
-     {"2:10: expected text, got the control character 0x01"}},
-    {"ZeroByte",
-     std::string("{\"cloths\": [{}]}\0x", 18),
-     {"1:17: expected text, got the control character 0x00"}},
+    {"ControlCharacter", scene("\"name\": \"\x01\""), {"2:10: expected text, got the control character 0x01"}},
+    {"ZeroByte", std::string("{\"cloths\": [{}]}\0x", 18), {"1:17: expected text, got the control character 0x00"}},
     {"NotUtf8", scene("\"name\": \"a\xC3(\""), {"2:11: expected UTF-8 text, got the byte 0xC3"}},
     {"OverlongUtf8", scene("\"name\": \"\xC0\x80\""), {"2:10: expected UTF-8 text, got the byte 0xC0"}},
     {"TooDeep", nested(65), {"1:75: expected at most 64 nested arrays and objects"}},
@@ -72,9 +66,7 @@ const Malformed syntax_cases[] = {
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneErrors, ::testing::ValuesIn(syntax_cases), name_of);
 
 const Malformed key_cases[] = {
-    {"Misspelt",
-     scene("\"gravty\": 1"),
-     {"2:1: /gravty: expected \"gravity\", got the unknown key \"gravty\""}},
+    {"Misspelt", scene("\"gravty\": 1"), {"2:1: /gravty: expected \"gravity\", got the unknown key \"gravty\""}},
     {"MisspeltInside",
      cloth("\"pins\": [{\"edgee\": \"left\", \"corner\": \"top_left\"}]"),
      {"2:11: /cloths/0/pins/0/edgee: expected \"edge\", got the unknown key \"edgee\""}},
@@ -101,8 +93,8 @@ const Malformed setting_cases[] = {
     {"WrongTypes",
      scene("\"name\": 3, \"time\": [], \"gravity\": \"down\", \"wind\": null, \"camera\": true"),
      {"2:9: /name: expected a string, got 3", "2:20: /time: expected an object, got []",
-      "2:35: /gravity: expected an array of 3 numbers, got \"down\"",
-      "2:51: /wind: expected an object, got null", "2:67: /camera: expected an object, got true"}},
+      "2:35: /gravity: expected an array of 3 numbers, got \"down\"", "2:51: /wind: expected an object, got null",
+      "2:67: /camera: expected an object, got true"}},
     {"ShortVector",
      scene("\"gravity\": [0, -9.81]"),
      {"2:12: /gravity: expected an array of 3 numbers, got [0, -9.81]"}},
@@ -269,8 +261,7 @@ const Malformed collider_cases[] = {
      scene("\"colliders\": {\"spheres\": [{\"path\": []}]}"),
      {"2:36: /colliders/spheres/0/path: expected an array of at least 1 key, got []"}},
     {"PathTimes",
-     scene(
-         "\"colliders\": {\"spheres\": [{\"path\": [{\"t\": 1}, {\"t\": 1}, {}, {\"t\": 0}, {\"t\": -1}]}]}"),
+     scene("\"colliders\": {\"spheres\": [{\"path\": [{\"t\": 1}, {\"t\": 1}, {}, {\"t\": 0}, {\"t\": -1}]}]}"),
      {"2:53: /colliders/spheres/0/path/1/t: expected a time after the previous key's 1, got 1",
       "2:57: /colliders/spheres/0/path/2/t: expected a time in seconds, got nothing",
       "2:77: /colliders/spheres/0/path/4/t: expected a time after the previous key's 0, got -1"}},
@@ -292,8 +283,8 @@ const Malformed collider_cases[] = {
 INSTANTIATE_TEST_SUITE_P(Colliders, SceneErrors, ::testing::ValuesIn(collider_cases), name_of);
 
 TEST(SceneErrorTable, HoldsAtLeastFortyScenes) {
-    EXPECT_GE(std::size(syntax_cases) + std::size(key_cases) + std::size(setting_cases) +
-                  std::size(cloth_cases) + std::size(pin_cases) + std::size(collider_cases),
+    EXPECT_GE(std::size(syntax_cases) + std::size(key_cases) + std::size(setting_cases) + std::size(cloth_cases) +
+                  std::size(pin_cases) + std::size(collider_cases),
               40u);
 }
 

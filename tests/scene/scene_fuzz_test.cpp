@@ -59,8 +59,7 @@ TEST(SceneFuzz, DamagedScenesGiveASceneOrErrors) {
 
 TEST(SceneFuzz, DamagedOverridesGiveASceneOrErrors) {
     std::mt19937 random(42);
-    const std::vector<std::string> sound{"/cloths/0/pins/2/path/1/t=2.5",
-                                         "/solver={\"substeps\": [1, {\"a\": null}]}",
+    const std::vector<std::string> sound{"/cloths/0/pins/2/path/1/t=2.5", "/solver={\"substeps\": [1, {\"a\": null}]}",
                                          "/cloths/0/stiffness=rigid", "/a~1b~0/c=\"\\u00e4\""};
     for (int round = 0; round < 1000; ++round) {
         const std::vector<std::string> overrides{damaged(random, sound[random() % sound.size()])};

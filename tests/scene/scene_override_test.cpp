@@ -57,9 +57,8 @@ TEST(SceneOverride, MakesMissingMembers) {
 }
 
 TEST(SceneOverride, ErrorsSayWhichOverride) {
-    EXPECT_EQ(
-        errors_with({"/cloths/0/grid/0=1"}),
-        Texts{"--set '/cloths/0/grid/0=1': /cloths/0/grid/0: expected an integer from 2 to 16384, got 1"});
+    EXPECT_EQ(errors_with({"/cloths/0/grid/0=1"}),
+              Texts{"--set '/cloths/0/grid/0=1': /cloths/0/grid/0: expected an integer from 2 to 16384, got 1"});
     EXPECT_EQ(errors_with({"/time=[1"}), Texts{"--set '/time=[1': /time: expected an object, got \"[1\""});
     EXPECT_EQ(errors_with({"/tiem/frames=3"}),
               Texts{"--set '/tiem/frames=3': /tiem: expected \"time\", got the unknown key \"tiem\""});
@@ -77,12 +76,10 @@ TEST(SceneOverride, ErrorsSayWhichOverride) {
 }
 
 TEST(SceneOverride, AllErrorsOfFileAndOverridesAtOnce) {
-    EXPECT_EQ(
-        errors_with({"/solver/substeps=0", "/wind/drag=-1"},
-                    "{\"cloths\": [{}],\n \"wind\": {\"lift\": -2}}"),
-        (Texts{"scene.json:2:19: /wind/lift: expected a number >= 0 (single precision), got -2",
-               "--set '/solver/substeps=0': /solver/substeps: expected an integer from 1 to 4096, got 0",
-               "--set '/wind/drag=-1': /wind/drag: expected a number >= 0 (single precision), got -1"}));
+    EXPECT_EQ(errors_with({"/solver/substeps=0", "/wind/drag=-1"}, "{\"cloths\": [{}],\n \"wind\": {\"lift\": -2}}"),
+              (Texts{"scene.json:2:19: /wind/lift: expected a number >= 0 (single precision), got -2",
+                     "--set '/solver/substeps=0': /solver/substeps: expected an integer from 1 to 4096, got 0",
+                     "--set '/wind/drag=-1': /wind/drag: expected a number >= 0 (single precision), got -1"}));
     EXPECT_EQ(errors_with({"time=1", "/cloths/9=1"}).size(), 2u);
 }
 

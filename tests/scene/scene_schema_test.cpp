@@ -73,13 +73,11 @@ std::string pointer_of(std::string path) {
 }
 
 // The pointers of the errors of full_scene with one value replaced.
-std::set<std::string> error_pointers(std::string_view object, const std::string& path,
-                                     const Json::Value& replacement) {
+std::set<std::string> error_pointers(std::string_view object, const std::string& path, const Json::Value& replacement) {
     Json::Value scene = parsed(testing::full_scene);
     Json::Path(places.at(object) + path).make(scene) = replacement;
     std::set<std::string> pointers;
-    for (const SceneError& error : read_scene_text(written(scene), "s").errors)
-        pointers.insert(error.pointer);
+    for (const SceneError& error : read_scene_text(written(scene), "s").errors) pointers.insert(error.pointer);
     return pointers;
 }
 
@@ -139,10 +137,9 @@ TEST(SceneReader, ReadsEveryKeyOfItsTables) {
             const std::string path = fmt::format(".{}", key);
             const std::string pointer = pointer_of(places.at(object.name) + path);
             const std::set<std::string> pointers = error_pointers(object.name, path, wrong);
-            const bool is_reported =
-                std::any_of(pointers.begin(), pointers.end(), [&](const std::string& where) {
-                    return where == pointer || where == pointer + "/no such key";
-                });
+            const bool is_reported = std::any_of(pointers.begin(), pointers.end(), [&](const std::string& where) {
+                return where == pointer || where == pointer + "/no such key";
+            });
             EXPECT_TRUE(is_reported) << pointer;
         }
     }
@@ -211,8 +208,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         for (const std::string& key : properties.getMemberNames())
             if (!properties[key].isMember("default")) keys.insert(key);
         const auto expected = without.find(object.name);
-        EXPECT_EQ(keys, expected == without.end() ? std::set<std::string>{} : expected->second)
-            << object.name;
+        EXPECT_EQ(keys, expected == without.end() ? std::set<std::string>{} : expected->second) << object.name;
     }
 }
 
@@ -250,10 +246,9 @@ TEST(SceneSchema, StatesTheLimitsOfTheReader) {
             const bool is_array = properties[key].isMember("items");
             const std::string path = "." + key + (is_array ? "[1]" : "");
             for (const Probe& probe : probes_of(is_array ? properties[key]["items"] : properties[key])) {
-                const bool is_reported = error_pointers(object.name, path, probe.value)
-                                             .contains(pointer_of(places.at(object.name) + path));
-                EXPECT_EQ(is_reported, !probe.is_allowed)
-                    << object.name << path << " = " << written(probe.value);
+                const bool is_reported =
+                    error_pointers(object.name, path, probe.value).contains(pointer_of(places.at(object.name) + path));
+                EXPECT_EQ(is_reported, !probe.is_allowed) << object.name << path << " = " << written(probe.value);
                 ++probe_count;
             }
         }

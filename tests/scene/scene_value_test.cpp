@@ -74,8 +74,7 @@ TEST(SceneValues, CollidersOfTheFullScene) {
     const auto common = [](double friction, Vec3 rotate, MotionKey key, double red) {
         return ColliderCommon{friction, rotate, {{key}}, {red, 0.1, 0.2}};
     };
-    EXPECT_EQ(colliders.planes[0],
-              (PlaneCollider{common(0.6, {1, 2, 3}, {0, {}, {}}, 0.1), {0, 0, 1}, -0.5}));
+    EXPECT_EQ(colliders.planes[0], (PlaneCollider{common(0.6, {1, 2, 3}, {0, {}, {}}, 0.1), {0, 0, 1}, -0.5}));
     EXPECT_EQ(colliders.spheres[0],
               (SphereCollider{common(0.1, {4, 5, 6}, {1, {1, 1, 1}, {}}, 0.2), {0, 1, 0.5}, 0.3}));
     EXPECT_EQ(colliders.boxes[0],
@@ -88,12 +87,10 @@ TEST(SceneValues, EveryEdgeAndCorner) {
     const SceneDescription scene = scene_of(R"({"cloths": [{"grid": [4, 3], "pins": [
         {"edge": "left"}, {"edge": "right"}, {"edge": "top"}, {"edge": "bottom"},
         {"corner": "top_left"}, {"corner": "top_right"}, {"corner": "bottom_left"}, {"corner": "bottom_right"}]}]})");
-    const std::vector<IndexBox> expected{{{0, 0}, {0, 2}}, {{3, 0}, {3, 2}}, {{0, 0}, {3, 0}},
-                                         {{0, 2}, {3, 2}}, {{0, 0}, {0, 0}}, {{3, 0}, {3, 0}},
-                                         {{0, 2}, {0, 2}}, {{3, 2}, {3, 2}}};
+    const std::vector<IndexBox> expected{{{0, 0}, {0, 2}}, {{3, 0}, {3, 2}}, {{0, 0}, {3, 0}}, {{0, 2}, {3, 2}},
+                                         {{0, 0}, {0, 0}}, {{3, 0}, {3, 0}}, {{0, 2}, {0, 2}}, {{3, 2}, {3, 2}}};
     ASSERT_EQ(scene.cloths[0].pins.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i)
-        EXPECT_EQ(scene.cloths[0].pins[i].particles, expected[i]) << i;
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(scene.cloths[0].pins[i].particles, expected[i]) << i;
 }
 
 TEST(SceneValues, NamesTheNameless) {
@@ -111,8 +108,8 @@ TEST(SceneValues, NormalisesTinyAndHugeDirections) {
 }
 
 TEST(SceneValues, AcceptsBomBlockCommentsCarriageReturnsAndIntegralReals) {
-    const SceneDescription scene = scene_of(
-        "\xEF\xBB\xBF/* a */{\r\n\"name\": \"\xC3\xA4\", \"cloths\": [{\"grid\": [3.0, 1e1]}] // b\r\n}");
+    const SceneDescription scene =
+        scene_of("\xEF\xBB\xBF/* a */{\r\n\"name\": \"\xC3\xA4\", \"cloths\": [{\"grid\": [3.0, 1e1]}] // b\r\n}");
     EXPECT_EQ(scene.name, "\xC3\xA4");
     EXPECT_EQ(scene.cloths[0].grid, (std::array<std::uint32_t, 2>{3, 10}));
 }
@@ -122,8 +119,7 @@ TEST(SceneValues, EmptyLightListMeansNoLight) {
 }
 
 TEST(SceneValues, AcceptsThePublishedExtremes) {
-    scene_of(
-        R"({"cloths": [{"grid": [2, 16384]}, {"grid": [4000, 3990], "placement": {"origin": [0, 0, 5]}}]})");
+    scene_of(R"({"cloths": [{"grid": [2, 16384]}, {"grid": [4000, 3990], "placement": {"origin": [0, 0, 5]}}]})");
     scene_of(R"({"cloths": [{"stiffness": {"stretch": 0, "shear": 0}, "friction": 0, "thickness": 0}],
                  "time": {"fps": 10000, "frames": 1000000}, "solver": {"substeps": 4096, "iterations": 1024}})");
 }
@@ -166,14 +162,15 @@ TEST(SceneWarnings, SettingsThatDoNothing) {
               std::vector<std::string>{"s:1:66: /solver/strain_damping: strain_damping is ignored by method relax"});
     EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "line", "strain_damping": 0.1}})"),
               std::vector<std::string>{"s:1:65: /solver/strain_damping: strain_damping is ignored by method line"});
+    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
+              std::vector<std::string>{
+                  "s:1:35: /wind/gust: the gust does nothing: it blows along the wind's velocity, which is zero"});
     EXPECT_EQ(
-        warnings_of(R"({"cloths": [{}], "wind": {"gust": {"amplitude": 1}}})"),
-        std::vector<std::string>{
-            "s:1:35: /wind/gust: the gust does nothing: it blows along the wind's velocity, which is zero"});
-    EXPECT_EQ(warnings_of(R"({"cloths": [{}], "solver": {"method": "auto", "substeps": 9, "iterations": 2}})"),
-              (std::vector<std::string>{
-                  "s:1:59: /solver/substeps: substeps is ignored by method auto, which chooses: name a method to set it",
-                  "s:1:76: /solver/iterations: iterations is ignored by method auto, which chooses: name a method to set it"}));
+        warnings_of(R"({"cloths": [{}], "solver": {"method": "auto", "substeps": 9, "iterations": 2}})"),
+        (std::vector<std::string>{
+            "s:1:59: /solver/substeps: substeps is ignored by method auto, which chooses: name a method to set it",
+            "s:1:76: /solver/iterations: iterations is ignored by method auto, which chooses: name a method to set "
+            "it"}));
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}]})").empty());
 }
 
@@ -198,8 +195,7 @@ TEST(SceneFile, UnreadableIsNotASceneError) {
 TEST(SceneFile, RefusesMoreThanItsLimit) {
     const SceneResult endless = read_scene("/dev/zero");
     ASSERT_EQ(endless.errors.size(), 1u);
-    EXPECT_EQ(endless.errors[0].text(),
-              "/dev/zero: expected a scene of at most 16777216 bytes, got at least 16777217");
+    EXPECT_EQ(endless.errors[0].text(), "/dev/zero: expected a scene of at most 16777216 bytes, got at least 16777217");
     EXPECT_FALSE(endless.unreadable);
     std::string padded = R"({"cloths": [{}]})";
     padded.resize(scene_file_byte_limit, ' ');

@@ -16,7 +16,7 @@ namespace {
 
 /// What a module computes with.
 struct Arithmetic {
-    std::set<std::uint32_t> exact;  ///< ids decorated NoContraction
+    std::set<std::uint32_t> exact;                                 ///< ids decorated NoContraction
     std::vector<std::pair<std::uint32_t, std::uint32_t>> rounded;  ///< id, opcode of + - * on floats
     std::vector<std::string> forbidden;
 };
@@ -48,8 +48,8 @@ spv_result_t collect(void* user, const spv_parsed_instruction_t* instruction) {
 Arithmetic arithmetic_of(const SpirvModule& module) {
     Arithmetic found;
     const spv_context context = spvContextCreate(SPV_ENV_VULKAN_1_3);
-    const spv_result_t result = spvBinaryParse(context, &found, module.words.data(), module.words.size(), nullptr,
-                                               collect, nullptr);
+    const spv_result_t result =
+        spvBinaryParse(context, &found, module.words.data(), module.words.size(), nullptr, collect, nullptr);
     spvContextDestroy(context);
     EXPECT_EQ(result, SPV_SUCCESS) << module.name;
     return found;
@@ -74,7 +74,8 @@ TEST(ArithmeticTest, NoSumOrProductOfTheSimulationMayBeContracted) {
 TEST(ArithmeticTest, TheSimulationUsesNothingThatADriverRoundsItsOwnWay) {
     for (const SpirvModule& module : spirv_modules())
         if (simulates(module))
-            for (const std::string& what : arithmetic_of(module).forbidden) ADD_FAILURE() << module.name << ": " << what;
+            for (const std::string& what : arithmetic_of(module).forbidden)
+                ADD_FAILURE() << module.name << ": " << what;
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ void for_springs(const ClothModel& model, const Visit& visit) {
                 const glsl::vec4 shares = model.grid.spring_shares(column, row);
                 const float share[4] = {shares.x, shares.y, shares.z, shares.w};
                 visit(model.grid.particle(column, row),
-                      model.grid.particle(static_cast<std::uint32_t>(to.x), static_cast<std::uint32_t>(to.y)), direction,
-                      static_cast<double>(share[direction]));
+                      model.grid.particle(static_cast<std::uint32_t>(to.x), static_cast<std::uint32_t>(to.y)),
+                      direction, static_cast<double>(share[direction]));
             }
 }
 

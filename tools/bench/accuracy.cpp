@@ -19,9 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 struct PlannedSweep {
     const Problem* problem;
@@ -45,8 +43,7 @@ std::vector<PlannedSweep> planned(const std::vector<Problem>& problems, const st
             if (!chosen.settings.empty()) plan.push_back({&problem, chosen});
         }
     if (plan.empty())
-        throw UsageError(
-            fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", filter));
+        throw UsageError(fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", filter));
     std::ranges::stable_sort(plan, {}, [](const PlannedSweep& p) { return p.sweep.priority; });
     return plan;
 }
@@ -54,8 +51,7 @@ std::vector<PlannedSweep> planned(const std::vector<Problem>& problems, const st
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error)
-        throw OutputError(fmt::format("cannot make folder '{}': {}", folder.string(), error.message()));
+    if (error) throw OutputError(fmt::format("cannot make folder '{}': {}", folder.string(), error.message()));
 }
 
 std::string duration(double seconds) {
@@ -138,11 +134,10 @@ class AccuracyRun {
         forecast_.done(work, now() - start - (reference_seconds_ - before));
         const CaseResult& result = results_.back();
         const auto error = result.metrics.find(p.problem->metric);
-        say(fmt::format("{}/{} {}: {:.3g} ms/frame, {}; {:.1f} s, ETA {}", case_number_, case_count_,
-                        result.name, case_milliseconds(result),
-                        error == result.metrics.end()
-                            ? std::string(result.diverged ? "diverged" : "no reference")
-                            : fmt::format("{} {:.2e}", p.problem->metric, error->second),
+        say(fmt::format("{}/{} {}: {:.3g} ms/frame, {}; {:.1f} s, ETA {}", case_number_, case_count_, result.name,
+                        case_milliseconds(result),
+                        error == result.metrics.end() ? std::string(result.diverged ? "diverged" : "no reference")
+                                                      : fmt::format("{} {:.2e}", p.problem->metric, error->second),
                         result.seconds, duration(forecast_.seconds_left())));
     }
 
@@ -185,8 +180,7 @@ class AccuracyRun {
     Forecast forecast_;
     std::vector<CaseResult> results_;
     std::size_t case_number_ = 0, case_count_ = 0;
-    double start_ = now(), reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0,
-           last_line_ = 0;
+    double start_ = now(), reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0, last_line_ = 0;
 };
 
 void write_files(const AccuracyRequest& request, const Report& report, const std::vector<Problem>& problems) {

@@ -9,10 +9,10 @@
 namespace drape::bench {
 
 struct AccuracyRequest {
-    std::string filter;     ///< regular expression that a case's name must contain; empty: all
-    bool is_short = false;  ///< few small cases
-    std::string device;     ///< selector; empty: the best there is
-    bool validate = false;  ///< core and synchronization validation
+    std::string filter;                      ///< regular expression that a case's name must contain; empty: all
+    bool is_short = false;                   ///< few small cases
+    std::string device;                      ///< selector; empty: the best there is
+    bool validate = false;                   ///< core and synchronization validation
     std::filesystem::path folder = "bench";  ///< finished cases and references, kept for the next run
     std::string json, csv;                   ///< files; empty: none
     std::string svg;                         ///< folder of plots; empty: none

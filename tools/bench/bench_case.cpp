@@ -25,8 +25,7 @@ std::string setting_name(const Setting& setting) {
 
 std::string family_name(const std::string& method, std::uint32_t substeps, std::uint32_t iterations) {
     if (iterations == 1) return method;
-    return substeps == 1 ? method + ", 1 substep x iterations"
-                         : fmt::format("{}, {} iterations", method, iterations);
+    return substeps == 1 ? method + ", 1 substep x iterations" : fmt::format("{}, {} iterations", method, iterations);
 }
 
 }  // namespace drape::bench

@@ -31,7 +31,7 @@ struct Soonest {
     std::string metric;
     double limit = 0;
     std::string family;
-    std::string name;  ///< of the case; empty: no measured setting of the family meets the limit
+    std::string name;                     ///< of the case; empty: no measured setting of the family meets the limit
     double milliseconds = 0, passes = 0;  ///< per frame
     double measured = 0;
     /// The best `relax` setting's time and passes over these: above 1, this family is sooner. 0: one of the
@@ -47,9 +47,9 @@ std::vector<Soonest> find_soonest(std::span<const CaseResult> results);
 struct AutoRatio {
     std::string problem;
     std::uint32_t size = 0;
-    double worst_error = 0;      ///< of auto
-    double milliseconds = 0;     ///< of auto, per frame
-    std::string best;            ///< the soonest's case; empty: no other setting keeps the tolerance
+    double worst_error = 0;   ///< of auto
+    double milliseconds = 0;  ///< of auto, per frame
+    std::string best;         ///< the soonest's case; empty: no other setting keeps the tolerance
     double best_milliseconds = 0;
     bool met() const { return worst_error <= auto_tolerance; }
     double ratio() const { return best.empty() ? 0 : milliseconds / best_milliseconds; }

@@ -25,8 +25,7 @@ std::vector<std::array<double, 2>> points_of(const OrderClaim& claim, std::span<
     std::map<double, const CaseResult*> chosen;
     for (const CaseResult& result : results) {
         const auto metric = result.metrics.find(claim.metric);
-        if (result.problem != claim.problem || result.family() != claim.family ||
-            metric == result.metrics.end())
+        if (result.problem != claim.problem || result.family() != claim.family || metric == result.metrics.end())
             continue;
         if (claim.variable != OrderClaim::Variable::size && result.size != claim.size) continue;
         if (variable_of(claim, result) < claim.least_variable) continue;
@@ -35,8 +34,7 @@ std::vector<std::array<double, 2>> points_of(const OrderClaim& claim, std::span<
         if (!best || result.substeps > best->substeps) best = &result;
     }
     std::vector<std::array<double, 2>> points;
-    for (const auto& [variable, result] : chosen)
-        points.push_back({variable, result->metrics.at(claim.metric)});
+    for (const auto& [variable, result] : chosen) points.push_back({variable, result->metrics.at(claim.metric)});
     return points;
 }
 

@@ -25,9 +25,7 @@ constexpr std::uint32_t warm_up_frames = 2;  // compile shaders, fill caches
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Setting& setting) {
     SceneDescription scene = problem.scene(size, setting);
@@ -83,9 +81,7 @@ RecordedRun record(const vulkan::Device& device, const Problem& problem, const S
     FrameLoop loop(device, model, options);
     RecordedRun run;
     const std::uint32_t last = model.scene.time.frame_count - 1;
-    const auto wanted = [&](std::uint32_t frame) {
-        return frame == last || frame % problem.record_every == 0;
-    };
+    const auto wanted = [&](std::uint32_t frame) { return frame == last || frame % problem.record_every == 0; };
     const auto start = Clock::now();
     const bool complete = loop.run(
         last, wanted,
@@ -105,8 +101,8 @@ RecordedRun record(const vulkan::Device& device, const Problem& problem, const S
 }
 
 /// Repetitions without statistics and readbacks, of as many frames as a repetition's time allows.
-void measure_time(const vulkan::Device& device, const SimulationModel& model,
-                  const std::function<bool()>& stop, double estimate_ms, CaseResult& result) {
+void measure_time(const vulkan::Device& device, const SimulationModel& model, const std::function<bool()>& stop,
+                  double estimate_ms, CaseResult& result) {
     const double affordable = 1000 * repetition_seconds / std::max(estimate_ms, 1e-3);
     const auto frames = static_cast<std::uint32_t>(
         std::clamp(affordable, 5.0, static_cast<double>(std::max(model.scene.time.frame_count - 1, 5u))));
@@ -154,23 +150,18 @@ std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, s
                                    device.uuid_text(),      device.driver,
                                    device.driver_version,   case_name(problem, size, setting),
                                    hash_of(cloth.position), hash_of(cloth.displacement)};
-    for (const SpringWork& work : cloth.springs)
-        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
-    for (const BendWork& work : cloth.bends)
-        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
-    for (const TwistWork& work : cloth.twists)
-        parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    for (const SpringWork& work : cloth.springs) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    for (const BendWork& work : cloth.bends) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
+    for (const TwistWork& work : cloth.twists) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
     parts.push_back(fmt::format("{} {} {} {}", cloth.force.damping_loss, cloth.force.gravity_step.y,
                                 cloth.explicit_step.stiffness.x, cloth.explicit_step.stiffness.z));
     std::string steps;
-    for (const Step& step : model.frame_steps(cloth))
-        steps += static_cast<char>('a' + static_cast<int>(step.kind));
+    for (const Step& step : model.frame_steps(cloth)) steps += static_cast<char>('a' + static_cast<int>(step.kind));
     parts.push_back(steps);
     parts.push_back(fmt::format("tolerance {} damping {}", model.scene.solver.tolerance, problem.strain_damping));
-    parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count,
-                                model.scene.time.fps, problem.record_every));
-    for (const SpirvModule& module : spirv_modules())
-        parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count, model.scene.time.fps,
+                                problem.record_every));
+    for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
     return run_key(parts);
 }
 
@@ -178,17 +169,16 @@ double case_work(const Problem& problem, std::uint32_t size, const Setting& sett
     const SceneDescription scene = scene_of(problem, size, setting);
     const std::array<std::uint32_t, 2> grid = scene.cloths[0].grid;
     // A gather or line pass does the work of several.
-    const double passes =
-        setting.method == SolverMethod::relax  ? setting.substeps * (1.0 + 8.0 * setting.iterations)
-        : setting.method == SolverMethod::line ? setting.substeps * (1.0 + 16.0 * setting.iterations)
-                                               : 3.0 * setting.substeps;
+    const double passes = setting.method == SolverMethod::relax  ? setting.substeps * (1.0 + 8.0 * setting.iterations)
+                          : setting.method == SolverMethod::line ? setting.substeps * (1.0 + 16.0 * setting.iterations)
+                                                                 : 3.0 * setting.substeps;
     constexpr double dispatch_share = 5000;  // particles whose pass takes as long as an empty dispatch
     const double frames = scene.time.frame_count + (problem.timed ? repetition_count * 10.0 : 0);
     return passes * frames * (double(grid[0]) * grid[1] + dispatch_share);
 }
 
-CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size,
-                    const Setting& setting, References& references, const std::function<bool()>& stop) {
+CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
+                    References& references, const std::function<bool()>& stop) {
     const auto start = Clock::now();
     const SimulationModel model(scene_of(problem, size, setting));
     CaseResult result;
@@ -204,8 +194,8 @@ CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::u
     result.stiffness_share = 1;
     for (std::size_t axis = 0; axis < 2; ++axis)
         if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.used_stiffness[axis]))
-            result.stiffness_share = std::min(
-                result.stiffness_share, cloth.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
+            result.stiffness_share =
+                std::min(result.stiffness_share, cloth.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
 
     RecordedRun run = record(device, problem, model, stop);
     result.device_ms = median(run.device_ms);
@@ -218,8 +208,7 @@ CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::u
     if (!run.diverged) {
         if (problem.timed) measure_time(device, model, stop, run.wall_ms, result);
         result.metrics = problem.evaluate({model.scene, std::move(run.samples)}, references);
-        for (const auto& [name, value] : result.metrics)
-            result.diverged = result.diverged || !std::isfinite(value);
+        for (const auto& [name, value] : result.metrics) result.diverged = result.diverged || !std::isfinite(value);
         if (result.diverged) result.metrics.clear();
     }
     result.seconds = seconds_since(start);

@@ -24,7 +24,7 @@ std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, s
 double case_work(const Problem& problem, std::uint32_t size, const Setting& setting);
 
 /// Throws VulkanError, Stopped, and what the references throw. `stop` is asked before every frame.
-CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size,
-                    const Setting& setting, References& references, const std::function<bool()>& stop);
+CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
+                    References& references, const std::function<bool()>& stop);
 
 }  // namespace drape::bench

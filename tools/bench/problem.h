@@ -38,7 +38,7 @@ struct Problem {
     /// Below this the metric means nothing more: rounding, or the reference's own error.
     double floor = 0;
     bool timed = false;              ///< repetitions for the time; a plot of error against time
-    double strain_damping = 0;  ///< explicit; it is for tangled cloth, and the references have none
+    double strain_damping = 0;       ///< explicit; it is for tangled cloth, and the references have none
     std::uint32_t record_every = 1;  ///< frames between samples; frame 0 and the last are always samples
     std::function<SceneDescription(std::uint32_t size, const Setting&)> scene{};
     std::function<Metrics(const Recording&, References&)> evaluate{};
@@ -72,9 +72,8 @@ std::vector<OrderClaim> order_claims();
 
 // One function per group of rows; all_problems joins them.
 std::vector<Problem> flight_problems(bool is_short);  ///< falls, incline, momentum
-std::vector<Problem> chain_problems(
-    bool is_short);  ///< pendulum, chain modes, catenary, law of the column, cantilever
+std::vector<Problem> chain_problems(bool is_short);  ///< pendulum, chain modes, catenary, law of the column, cantilever
 std::vector<Problem> random_problems(bool is_short);  ///< what `auto` chooses
-std::vector<Problem> sheet_problems(bool is_short);  ///< swing, drum, drape, strip, hanging sheet, energy
+std::vector<Problem> sheet_problems(bool is_short);   ///< swing, drum, drape, strip, hanging sheet, energy
 
 }  // namespace drape::bench

@@ -4,8 +4,8 @@ namespace drape::bench {
 
 std::vector<Problem> all_problems(bool is_short) {
     std::vector<Problem> problems;
-    for (auto group : {flight_problems(is_short), chain_problems(is_short), sheet_problems(is_short),
-                       random_problems(is_short)})
+    for (auto group :
+         {flight_problems(is_short), chain_problems(is_short), sheet_problems(is_short), random_problems(is_short)})
         problems.insert(problems.end(), group.begin(), group.end());
     return problems;
 }
@@ -29,10 +29,8 @@ std::vector<OrderClaim> order_claims() {
         // The clamp softens by (P_full/P)^2 - 1: of second order while that is far above 0.
         {"swing", "explicit", "stretch_error", substeps, -2, 0.6, 2e-3, 0.2, 128}};
     // The third mode of eight links is no hanging chain's.
-    for (const auto& [metric, least] :
-         {std::pair{"frequency_1", 8.0}, {"frequency_2", 8.0}, {"frequency_3", 16.0}})
-        claims.push_back(
-            {"chain modes", "explicit", metric, size, -2, 0.25, 0, 1e300, 0, differences, least});
+    for (const auto& [metric, least] : {std::pair{"frequency_1", 8.0}, {"frequency_2", 8.0}, {"frequency_3", 16.0}})
+        claims.push_back({"chain modes", "explicit", metric, size, -2, 0.25, 0, 1e300, 0, differences, least});
     return claims;
 }
 

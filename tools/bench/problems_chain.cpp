@@ -67,10 +67,8 @@ Swing swing_of(const At& at, std::uint32_t last, double fps) {
 }
 
 Problem pendulum(bool is_short) {
-    Problem problem{.name = "pendulum",
-                    .title = "Pendulum released at 90 degrees",
-                    .metric = "period_error",
-                    .unit = "1"};
+    Problem problem{
+        .name = "pendulum", .title = "Pendulum released at 90 degrees", .metric = "period_error", .unit = "1"};
     problem.scene = [](std::uint32_t, const Setting&) {
         SceneDescription scene = sheet(2, 2, 1, 1, 1);
         scene.time.frame_count = 211;
@@ -89,9 +87,7 @@ Problem pendulum(bool is_short) {
         const ReferenceRun& reference = references.motion(network, times);
         const Swing own = swing_of([&](std::uint32_t k) { return run.samples[k].position[2]; }, last, fps);
         const Swing exact = swing_of(
-            [&](std::uint32_t k) {
-                return k == 0 ? network.rest_position[2] : reference.states[k - 1].position[2];
-            },
+            [&](std::uint32_t k) { return k == 0 ? network.rest_position[2] : reference.states[k - 1].position[2]; },
             last, fps);
         const double closed = closed_forms::pendulum_period(1, gravity, std::numbers::pi / 2);
         double squares = 0;
@@ -127,8 +123,7 @@ Eigen::MatrixXd modal_weights(std::uint32_t links) {
     mass[n - 1] = 0.5;
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index link = 0; link < n; ++link) {
-        const double tension =
-            closed_forms::hanging_link_tension(links, static_cast<std::uint32_t>(link), 1, 1, true);
+        const double tension = closed_forms::hanging_link_tension(links, static_cast<std::uint32_t>(link), 1, 1, true);
         stiffness(link, link) += tension;
         if (link == 0) continue;
         stiffness(link - 1, link - 1) += tension;
@@ -145,10 +140,8 @@ Eigen::MatrixXd modal_weights(std::uint32_t links) {
 /// straight, which wakes the modes that are measured.
 Problem chain_modes(bool is_short) {
     constexpr double degrees = 0.25;
-    Problem problem{.name = "chain modes",
-                    .title = "Modes of a hanging chain",
-                    .metric = "frequency_error_1",
-                    .unit = "1"};
+    Problem problem{
+        .name = "chain modes", .title = "Modes of a hanging chain", .metric = "frequency_error_1", .unit = "1"};
     problem.scene = [](std::uint32_t size, const Setting&) {
         SceneDescription scene = swing(size, 200, degrees);
         scene.time.frame_count = 301;
@@ -168,8 +161,7 @@ Problem chain_modes(bool is_short) {
             for (const Sample& sample : run.samples) {
                 double sum = 0;
                 for (std::uint32_t row = 1; row <= links; ++row)
-                    sum += weights(row - 1, mode - 1) *
-                           (sample.position[2 * row][2] + sample.position[2 * row + 1][2]);
+                    sum += weights(row - 1, mode - 1) * (sample.position[2 * row][2] + sample.position[2 * row + 1][2]);
                 amplitude.push_back(sum);
             }
             const std::vector<double> crossings = zero_crossings(amplitude);
@@ -258,8 +250,7 @@ Problem catenary(bool is_short) {
         const Cloth& cloth = run.scene.cloths[0];
         const std::uint32_t links = cloth.grid[0] - 1;
         const double elastic_length = cloth.stiffness.stretch / (cloth.areal_density * gravity);
-        const Catenary elastic = elastic_catenary(span, 1, elastic_length),
-                       stiff = closed_forms::catenary(span, 1);
+        const Catenary elastic = elastic_catenary(span, 1, elastic_length), stiff = closed_forms::catenary(span, 1);
         double squares = 0, stiff_squares = 0, lowest = 0;
         for (std::uint32_t k = 0; k <= links; ++k) {
             const double s = static_cast<double>(k) / links - 0.5;
@@ -306,8 +297,7 @@ Problem cantilever_strip(double gamma, bool is_short) {
     };
     const auto add = [&](SolverMethod method, std::initializer_list<std::uint32_t> sizes) {
         for (const std::uint32_t size : sizes)
-            problem.sweeps.push_back(
-                {size, {{method, cantilever(size, gamma, method).solver.substeps, 1}}, 4});
+            problem.sweeps.push_back({size, {{method, cantilever(size, gamma, method).solver.substeps, 1}}, 4});
     };
     if (is_short) {
         add(SolverMethod::explicit_steps, {8, 16});

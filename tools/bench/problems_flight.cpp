@@ -38,8 +38,7 @@ Vec3 center_of_mass(const SpringNetwork& network, std::span<const Vec3> position
 }
 
 /// Thrown upwards and sideways, 10 s; damping 1/s.
-Problem flight(const char* name, const char* title, double damping,
-               std::initializer_list<std::uint32_t> counts) {
+Problem flight(const char* name, const char* title, double damping, std::initializer_list<std::uint32_t> counts) {
     Problem problem{.name = name, .title = title, .metric = "position_relative", .unit = "1", .floor = 0};
     problem.record_every = 600;
     problem.scene = [damping](std::uint32_t size, const Setting&) {
@@ -56,10 +55,9 @@ Problem flight(const char* name, const char* title, double damping,
         const double time = run.samples.back().frame / run.scene.time.fps;
         double squares = 0, distance = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double moved = closed_forms::flight_displacement(cloth.velocity[k], run.scene.gravity[k],
-                                                                   cloth.damping, time);
-            const double error =
-                run.samples.back().position[0][k] - run.samples.front().position[0][k] - moved;
+            const double moved =
+                closed_forms::flight_displacement(cloth.velocity[k], run.scene.gravity[k], cloth.damping, time);
+            const double error = run.samples.back().position[0][k] - run.samples.front().position[0][k] - moved;
             squares += error * error;
             distance += moved * moved;
         }
@@ -85,9 +83,8 @@ Problem incline(const char* name, const char* title, double mu, std::initializer
         cloth.friction = mu;
         cloth.stiffness = {false, 1, 0, 0};
         cloth.thickness = 0.01;
-        cloth.placement = {{0.01 * plane.normal[0], 0.01 * plane.normal[1], 0},
-                           {std::cos(angle), std::sin(angle), 0},
-                           {0, 0, 1}};
+        cloth.placement = {
+            {0.01 * plane.normal[0], 0.01 * plane.normal[1], 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
         return scene;
     };
     problem.evaluate = [mu](const Recording& run, References&) -> Metrics {
@@ -152,10 +149,8 @@ std::vector<Problem> flight_problems(bool is_short) {
     } else {
         problems.push_back(flight("free fall", "Damped fall of 10 s", 0.5, {1, 4, 16, 64, 256}));
         problems.push_back(flight("ballistic", "Ballistic flight of 10 s", 0, {1, 4, 16, 64, 256}));
-        problems.push_back(
-            incline("incline slide", "Sliding down an incline, friction 0.3", 0.3, {1, 4, 16, 64}));
-        problems.push_back(
-            incline("incline stick", "Sticking on an incline, friction 0.6", 0.6, {1, 4, 16, 64}));
+        problems.push_back(incline("incline slide", "Sliding down an incline, friction 0.3", 0.3, {1, 4, 16, 64}));
+        problems.push_back(incline("incline stick", "Sticking on an incline, friction 0.6", 0.6, {1, 4, 16, 64}));
     }
     problems.push_back(momentum());
     return problems;

@@ -18,7 +18,9 @@ constexpr double tolerance = 0.01;
 class Draw {
   public:
     explicit Draw(std::uint32_t seed) : random_(seed) {}
-    double between(double low, double high) { return low + (high - low) * (static_cast<double>(random_()) / 4294967295.0); }
+    double between(double low, double high) {
+        return low + (high - low) * (static_cast<double>(random_()) / 4294967295.0);
+    }
     /// On a logarithmic scale.
     double scaled(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
     std::uint32_t integer(std::uint32_t low, std::uint32_t high) {
@@ -109,8 +111,7 @@ std::vector<Problem> random_problems(bool is_short) {
     problem.evaluate = worst_stretch;
     for (std::uint32_t number = 1; number <= 20; ++number) {
         std::vector<Setting> line, relax;
-        for (const std::uint32_t substeps : {2u, 4u, 7u, 12u, 20u})
-            line.push_back({SolverMethod::line, substeps, 32});
+        for (const std::uint32_t substeps : {2u, 4u, 7u, 12u, 20u}) line.push_back({SolverMethod::line, substeps, 32});
         for (const std::uint32_t substeps : {20u, 40u, 80u}) relax.push_back({SolverMethod::relax, substeps, 1});
         const SceneDescription scene = random_scene(number);
         const std::uint32_t links = std::max(scene.cloths[0].grid[0], scene.cloths[0].grid[1]) - 1;

@@ -96,8 +96,7 @@ Metrics static_errors(const Recording& run, References& references) {
 }
 
 Problem motion(const char* name, const char* title, std::function<SceneDescription(std::uint32_t)> scene) {
-    Problem problem{
-        .name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
+    Problem problem{.name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
     problem.record_every = 3;
     problem.scene = [scene](std::uint32_t size, const Setting&) {
         SceneDescription result = scene(size);
@@ -110,8 +109,7 @@ Problem motion(const char* name, const char* title, std::function<SceneDescripti
 
 /// Three seconds with damping 6/s: everything that moves has died away to 1e-4.
 Problem statics(const char* name, const char* title, std::function<SceneDescription(std::uint32_t)> scene) {
-    Problem problem{
-        .name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
+    Problem problem{.name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
     problem.record_every = 180;
     problem.scene = [scene](std::uint32_t size, const Setting&) {
         SceneDescription result = scene(size);
@@ -125,8 +123,8 @@ Problem statics(const char* name, const char* title, std::function<SceneDescript
 
 SceneDescription drum(std::uint32_t links) {
     SceneDescription scene = swing(links, wave_speed, 90);
-    scene.cloths[0].pins = {pin_box(0, 0, links, 0), pin_box(0, links, links, links),
-                            pin_box(0, 1, 0, links - 1), pin_box(links, 1, links, links - 1)};
+    scene.cloths[0].pins = {pin_box(0, 0, links, 0), pin_box(0, links, links, links), pin_box(0, 1, 0, links - 1),
+                            pin_box(links, 1, links, links - 1)};
     return scene;
 }
 
@@ -161,13 +159,11 @@ Metrics kept_energy(const Recording& run, References& references) {
         sum += energy(run.samples[k]);
         motion_sum += run.samples[k].statistics.kinetic_energy;
     }
-    for (std::size_t k = 1; k <= swing_frames; ++k)
-        first_motion_sum += run.samples[k].statistics.kinetic_energy;
+    for (std::size_t k = 1; k <= swing_frames; ++k) first_motion_sum += run.samples[k].statistics.kinetic_energy;
     const double start = network.potential_energy(run.samples.front().position) - least;
     const double kept = sum / swing_frames / start;
-    return {{"energy_kept", kept},
-            {"energy_error", std::abs(1 - kept)},
-            {"motion_kept", motion_sum / first_motion_sum}};
+    return {
+        {"energy_kept", kept}, {"energy_error", std::abs(1 - kept)}, {"motion_kept", motion_sum / first_motion_sum}};
 }
 
 Problem swing_energy(bool is_short) {
@@ -215,8 +211,7 @@ std::vector<Problem> sheet_problems(bool is_short) {
         }
         // The claims are about 64, 128 and 256.
         const int rank = is_drape ? 2 : static_cast<int>(k);
-        for (const auto& [links, importance] :
-             {std::pair{128u, 0}, {64u, 0}, {256u, 3}, {32u, 6}, {512u, 9}}) {
+        for (const auto& [links, importance] : {std::pair{128u, 0}, {64u, 0}, {256u, 3}, {32u, 6}, {512u, 9}}) {
             if (is_sheet && links > 64) continue;
             const std::vector<Sweep> sweeps = work_sweeps(links, importance + rank, importance + rank + 4);
             problems[k].sweeps.insert(problems[k].sweeps.end(), sweeps.begin(), sweeps.end());

@@ -41,9 +41,8 @@ const ReferenceRun& References::equilibrium(const SpringNetwork& network) {
                fmt::format("reference equilibrium of {} particles", network.particle_count()), [&] {
                    const StaticResult result = find_equilibrium(network);
                    if (!result.converged) throw std::runtime_error("a reference equilibrium was not found");
-                   ReferenceRun run{
-                       "Newton",           0,    {0.0}, {{result.position, network.start().velocity}},
-                       {result.last_step}, {0.0}};
+                   ReferenceRun run{"Newton",           0,    {0.0}, {{result.position, network.start().velocity}},
+                                    {result.last_step}, {0.0}};
                    for (Vec3& velocity : run.states[0].velocity) velocity = {};
                    return run;
                });

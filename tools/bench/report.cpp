@@ -25,9 +25,8 @@ std::string variable_name(const OrderClaim& claim) {
 }
 
 std::string order_subject(const OrderClaim& claim) {
-    return fmt::format("{}{}, {}: {}{} against {}", claim.problem,
-                       claim.size ? fmt::format("/{}", claim.size) : "", claim.family,
-                       claim.kind == OrderClaim::Kind::differences ? "differences of " : "", claim.metric,
+    return fmt::format("{}{}, {}: {}{} against {}", claim.problem, claim.size ? fmt::format("/{}", claim.size) : "",
+                       claim.family, claim.kind == OrderClaim::Kind::differences ? "differences of " : "", claim.metric,
                        variable_name(claim));
 }
 
@@ -40,16 +39,15 @@ std::string problem_table(const Problem& problem, const std::vector<CaseResult>&
     for (const CaseResult& result : results) {
         if (result.problem != problem.name) continue;
         if (text.empty())
-            text = fmt::format("\n{} ({}, {})\n{:<34}{:>9}{:>11}{:>11}{:>12}{}\n", problem.title,
-                               problem.metric, problem.unit, "case", "passes", "device ms", "wall ms",
-                               "error", motion ? fmt::format("{:>12}{:>12}", "stretch", "stretch err") : "");
+            text = fmt::format("\n{} ({}, {})\n{:<34}{:>9}{:>11}{:>11}{:>12}{}\n", problem.title, problem.metric,
+                               problem.unit, "case", "passes", "device ms", "wall ms", "error",
+                               motion ? fmt::format("{:>12}{:>12}", "stretch", "stretch err") : "");
         const auto metric = [&](const char* name) {
             const auto found = result.metrics.find(name);
             return found == result.metrics.end() ? std::string("-") : number(found->second);
         };
-        text += fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}{:>12}", result.name, number(result.passes),
-                            result.device_ms, result.wall_ms,
-                            result.diverged ? "diverged" : metric(problem.metric.c_str()));
+        text += fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}{:>12}", result.name, number(result.passes), result.device_ms,
+                            result.wall_ms, result.diverged ? "diverged" : metric(problem.metric.c_str()));
         if (motion) text += fmt::format("{:>12}{:>12}", metric("stretch_rms"), metric("stretch_error"));
         if (result.stiffness_share < 0.995) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
         text += "\n";
@@ -61,8 +59,8 @@ std::string orders_text(const Report& report) {
     if (report.orders.empty()) return {};
     std::string text = "\nOrders of convergence (slope of the logarithms)\n";
     for (const OrderFit& fit : report.orders)
-        text += fmt::format("{:<72}{:>8.2f}  expected {:g} +- {:g}: {}\n", order_subject(fit.claim),
-                            fit.slope, fit.claim.expected, fit.claim.tolerance, fit.met ? "met" : "NOT MET");
+        text += fmt::format("{:<72}{:>8.2f}  expected {:g} +- {:g}: {}\n", order_subject(fit.claim), fit.slope,
+                            fit.claim.expected, fit.claim.tolerance, fit.met ? "met" : "NOT MET");
     return text;
 }
 
@@ -89,12 +87,10 @@ std::string soonest_text(const Report& report) {
             text += fmt::format("  {:<32}no measured setting\n", s.family);
             continue;
         }
-        const auto ratio = [](double value) {
-            return value > 0 ? fmt::format("{:.2f}x", value) : std::string("-");
-        };
+        const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}x", value) : std::string("-"); };
         text += fmt::format("  {:<32}{:<26}{:>10.3f} ms{:>8} passes{:>12}{:>9}{:>9}\n", s.family,
-                            s.name.substr(s.name.find('/') + 1), s.milliseconds, number(s.passes),
-                            number(s.measured), ratio(s.time_ratio), ratio(s.passes_ratio));
+                            s.name.substr(s.name.find('/') + 1), s.milliseconds, number(s.passes), number(s.measured),
+                            ratio(s.time_ratio), ratio(s.passes_ratio));
     }
     return text;
 }
@@ -103,9 +99,10 @@ std::string auto_text(const Report& report) {
     if (report.auto_ratios.empty()) return {};
     std::string text = "\nWhat auto took, over the soonest measured setting that keeps its tolerance of 1 %\n";
     for (const AutoRatio& a : report.auto_ratios)
-        text += fmt::format("  {:<12}error {:>9}: {:<9}{:>9.3f} ms{:>8.2f}x  {}\n", fmt::format("{} {}", a.problem, a.size),
-                            number(a.worst_error), a.met() ? "kept" : "NOT KEPT", a.milliseconds, a.ratio(),
-                            a.best.empty() ? "no other setting keeps it" : a.best);
+        text +=
+            fmt::format("  {:<12}error {:>9}: {:<9}{:>9.3f} ms{:>8.2f}x  {}\n", fmt::format("{} {}", a.problem, a.size),
+                        number(a.worst_error), a.met() ? "kept" : "NOT KEPT", a.milliseconds, a.ratio(),
+                        a.best.empty() ? "no other setting keeps it" : a.best);
     return text;
 }
 
@@ -190,8 +187,8 @@ void evaluate(Report& report) {
 }
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems) {
-    std::string text = fmt::format("drape {} on {} ({}), {}\n", report.program_version, report.device,
-                                   report.driver, report.created);
+    std::string text =
+        fmt::format("drape {} on {} ({}), {}\n", report.program_version, report.device, report.driver, report.created);
     if (!report.complete) text += "The budget of time left cases out.\n";
     for (const Problem& problem : problems) text += problem_table(problem, report.results);
     return text + orders_text(report) + limits_text(report) + soonest_text(report) + auto_text(report);
@@ -224,9 +221,9 @@ std::string report_csv(const Report& report) {
     for (const std::string& name : metrics) text += "," + name;
     text += "\n";
     for (const CaseResult& r : report.results) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, r.method,
-                            r.substeps, r.iterations, r.passes, r.stiffness_share, r.device_ms,
-                            r.device_ms_low, r.device_ms_high, r.wall_ms, r.diverged ? 1 : 0);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, r.method, r.substeps,
+                            r.iterations, r.passes, r.stiffness_share, r.device_ms, r.device_ms_low, r.device_ms_high,
+                            r.wall_ms, r.diverged ? 1 : 0);
         for (const std::string& name : metrics) {
             const auto metric = r.metrics.find(name);
             text += metric == r.metrics.end() ? "," : fmt::format(",{}", metric->second);

@@ -32,7 +32,6 @@ std::string report_json(const Report& report);
 std::string report_csv(const Report& report);
 /// File names and plots: per timed problem and size the errors against time and against passes; for the
 /// others the error against substeps or size. Only of what has two points or more.
-std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report,
-                                                          const std::vector<Problem>& problems);
+std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report, const std::vector<Problem>& problems);
 
 }  // namespace drape::bench

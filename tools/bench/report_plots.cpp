@@ -70,14 +70,12 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
                          {{fmt::format("{:g}", error.target), error.target}}};
             if (problem.name == "strip") plot.title = fmt::format("{}, {} links long", problem.title, size);
             if (worth_drawing(plot))
-                plots.emplace_back(
-                    file_name(problem.name, fmt::format("{}_{}_{}", size, error.name, work.name)), plot);
+                plots.emplace_back(file_name(problem.name, fmt::format("{}_{}_{}", size, error.name, work.name)), plot);
         }
 }
 
 void add_order_plot(const Problem& problem, const std::vector<const CaseResult*>& results, Plots& plots) {
-    const bool by_size =
-        std::ranges::any_of(results, [&](const CaseResult* r) { return r->size != results[0]->size; });
+    const bool by_size = std::ranges::any_of(results, [&](const CaseResult* r) { return r->size != results[0]->size; });
     const LogPlot plot{problem.title,
                        by_size ? "links N" : "substeps per frame",
                        fmt::format("{}{}", problem.metric, problem.unit == "1" ? "" : ", " + problem.unit),
@@ -89,8 +87,7 @@ void add_order_plot(const Problem& problem, const std::vector<const CaseResult*>
 
 }  // namespace
 
-std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report,
-                                                          const std::vector<Problem>& problems) {
+std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report, const std::vector<Problem>& problems) {
     Plots plots;
     for (const Problem& problem : problems) {
         std::map<std::uint32_t, std::vector<const CaseResult*>> by_size;

@@ -26,9 +26,9 @@ Json::Value json_of(const CaseResult& result) {
 
 std::optional<CaseResult> result_of(const Json::Value& value) {
     if (!value.isObject() || !value["metrics"].isObject()) return std::nullopt;
-    for (const char* member : {"name", "key", "problem", "size", "method", "substeps", "iterations",
-                               "diverged", "passes_per_frame", "stiffness_share", "device_ms_per_frame",
-                               "device_ms_low", "device_ms_high", "wall_ms_per_frame", "seconds"})
+    for (const char* member :
+         {"name", "key", "problem", "size", "method", "substeps", "iterations", "diverged", "passes_per_frame",
+          "stiffness_share", "device_ms_per_frame", "device_ms_low", "device_ms_high", "wall_ms_per_frame", "seconds"})
         if (!value.isMember(member)) return std::nullopt;
     CaseResult result;
     result.name = value["name"].asString();

@@ -19,15 +19,13 @@ std::vector<Setting> slides_settings(std::initializer_list<std::uint32_t> iterat
 std::vector<Setting> explicit_settings(std::uint32_t links, std::initializer_list<double> per_link) {
     std::vector<Setting> settings;
     for (const double factor : per_link)
-        settings.push_back(
-            {SolverMethod::explicit_steps, static_cast<std::uint32_t>(std::lround(links * factor)), 1});
+        settings.push_back({SolverMethod::explicit_steps, static_cast<std::uint32_t>(std::lround(links * factor)), 1});
     return settings;
 }
 
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority) {
     std::vector<Setting> two_iterations;
-    for (const std::uint32_t substeps : {8u, 20u, 40u})
-        two_iterations.push_back({SolverMethod::line, substeps, 2});
+    for (const std::uint32_t substeps : {8u, 20u, 40u}) two_iterations.push_back({SolverMethod::line, substeps, 2});
     return {{links, explicit_settings(links, {0.5, 0.707, 1, 1.414, 2, 2.61, 3.2}), priority},
             {links, substep_settings(SolverMethod::line, {4, 8, 12, 16, 20, 30, 40, 80, 160}), priority},
             {links, two_iterations, priority + 1},

@@ -36,8 +36,7 @@ ResultStore::ResultStore(std::filesystem::path file) : file_(std::move(file)) {
     std::ifstream input(file_, std::ios::binary);
     for (std::string line; std::getline(input, line);) {
         ends_in_line_ = !input.eof();
-        if (std::optional<CaseResult> result = parsed_result(line))
-            results_[result->key] = std::move(*result);
+        if (std::optional<CaseResult> result = parsed_result(line)) results_[result->key] = std::move(*result);
     }
 }
 
