@@ -1,0 +1,1 @@
+// Nothing: the library that this file makes carries the precompiled headers of all rooms.
