@@ -1,20 +1,51 @@
-// The documented exit codes of the command line.
+// The documented exit codes of the command line: the one list of them.
 #pragma once
+
+#include <array>
+#include <string>
 
 namespace drape {
 
 enum class ExitCode : int {
     ok = 0,
-    io = 1,             ///< a file or folder could not be read or written
-    usage = 2,          ///< the command line is wrong
-    scene = 3,          ///< the scene is wrong
-    device = 4,         ///< no usable device, a failing Vulkan call, over the memory budget
-    diverged = 5,       ///< the simulation is no longer finite
-    validation = 6,     ///< a validation message was reported
-    comparison = 7,     ///< a comparison is over its limit
-    tolerance = 8,      ///< the promised accuracy cannot be reached
-    interrupted = 130,  ///< SIGINT
-    terminated = 143,   ///< SIGTERM
+    io = 1,
+    usage = 2,
+    scene = 3,
+    device = 4,
+    diverged = 5,
+    validation = 6,
+    comparison = 7,
+    tolerance = 8,
+    internal = 70,
+    interrupted = 130,
+    terminated = 143,
 };
+
+struct ExitCodeRow {
+    ExitCode code;
+    const char* name;
+    const char* meaning;
+};
+
+inline constexpr std::array<ExitCodeRow, 12> exit_code_rows{{
+    {ExitCode::ok, "ok", "everything that was asked for is done"},
+    {ExitCode::io, "file", "a file, a folder or stdout could not be read or written"},
+    {ExitCode::usage, "usage", "the command line is wrong"},
+    {ExitCode::scene, "scene", "a scene is wrong"},
+    {ExitCode::device, "device", "no usable device, a failing Vulkan call, or not enough memory"},
+    {ExitCode::diverged, "diverged", "the simulation is no longer finite"},
+    {ExitCode::validation, "validation", "a validation message was reported"},
+    {ExitCode::comparison, "comparison", "a comparison or a measurement is over its limit"},
+    {ExitCode::tolerance, "tolerance", "the stretch error is above the scene's tolerance"},
+    {ExitCode::internal, "internal error", "a defect of the program; please report the message"},
+    {ExitCode::interrupted, "interrupted", "stopped by SIGINT"},
+    {ExitCode::terminated, "terminated", "stopped by SIGTERM"},
+}};
+
+/// "0 ok, 1 file, ...", in lines of at most `columns`.
+std::string exit_code_list(std::size_t columns = 110);
+
+/// A line per code: number, name, meaning.
+std::string exit_code_table();
 
 }  // namespace drape

@@ -196,7 +196,7 @@ ExitCode report_current_exception() {
         return ExitCode::device;
     } catch (const std::exception& error) {
         print_error(fmt::format("internal error: {}", error.what()));
-        return ExitCode::device;
+        return ExitCode::internal;
     }
 }
 

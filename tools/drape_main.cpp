@@ -9,11 +9,6 @@ using drape::ExitCode;
 using drape::RunRequest;
 using drape::SceneRequest;
 
-constexpr const char* exit_codes = R"text(
-Data goes to stdout, messages to stderr. Exit codes: 0 ok, 1 file, folder or stdout, 2 usage, 3 scene, 4 device,
-5 diverged, 6 validation message, 130/143 stopped by SIGINT/SIGTERM.
-)text";
-
 constexpr const char* main_examples = R"text(
 Examples:
   drape check scenes/*.json
@@ -85,7 +80,11 @@ struct CommandLine {
     ExitCode code = ExitCode::ok;
 };
 
-std::string footer(const char* text) { return std::string(text) + exit_codes; }
+std::string footer(const char* text) {
+    return text +
+           std::string("\nData goes to stdout, messages to stderr. `drape --help` says what each exit code means.\n") +
+           "Exit codes: " + drape::exit_code_list(98) + ".\n";
+}
 
 void add_runs(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("render", "Simulate a scene and draw it: PNG files and manifest.json");
@@ -210,7 +209,8 @@ int main(int argc, char** argv) {
         CLI::App app{"drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.", "drape"};
         app.set_version_flag("--version", std::string("drape ") + drape::program_version());
         app.require_subcommand(1);
-        app.footer(footer(main_examples));
+        app.footer(std::string(main_examples) + "\nData goes to stdout, messages to stderr. Exit codes:\n" +
+                   drape::exit_code_table());
         add_runs(app, line);
         add_graph(app, line);
         add_checks(app, line);

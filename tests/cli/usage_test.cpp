@@ -1,7 +1,9 @@
 // The command line: help, and what is refused as wrong usage (exit code 2).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exit_code.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -29,6 +31,15 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     EXPECT_THAT(drape({"render", "-h"}).out,
                 AllOf(HasSubstr("--resume"), HasSubstr("default: 0, the initial state"), HasSubstr("in pixels")));
     EXPECT_THAT(drape({"simulate", "-h"}).out, HasSubstr("float32 [frame, row, column, 3], metres"));
+}
+
+TEST(Help, ExplainsEveryExitCode) {
+    const std::string general = drape({"--help"}).out, of_a_command = drape({"check", "--help"}).out;
+    for (const ExitCodeRow& row : exit_code_rows) {
+        EXPECT_THAT(general, HasSubstr(row.meaning));
+        EXPECT_THAT(of_a_command, HasSubstr(fmt::format("{} {}", static_cast<int>(row.code), row.name)));
+    }
+    EXPECT_THAT(read_text(DRAPE_SOURCE_DIR "/README.md"), HasSubstr(exit_code_list(1000)));
 }
 
 TEST(Help, VersionIsData) {
