@@ -58,28 +58,13 @@ struct LoadedScene {
     std::vector<std::string> warnings;
 };
 
-/// The file's text; nothing when it cannot be read. At most one byte more than a scene may have.
-std::optional<std::string> read_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    std::array<char, 65536> chunk;
-    while (file && text.size() <= scene_file_byte_limit) {
-        file.read(chunk.data(), std::min(chunk.size(), scene_file_byte_limit + 1 - text.size()));
-        text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    if (file.bad() || (file.fail() && !file.eof())) return std::nullopt;
-    return text;
-}
-
 LoadedScene load(const SceneRequest& request) {
     // Read once: what is hashed is what is run, also when the file changes meanwhile or is a pipe.
-    const std::optional<std::string> text = read_text(request.path);
-    SceneResult result =
-        text ? read_scene_text(*text, request.path, request.overrides) : read_scene(request.path, request.overrides);
+    SceneResult result = read_scene(request.path, request.overrides);
     if (!result.scene) throw SceneFailure(std::move(result));
     LoadedScene loaded{std::move(*result.scene), {}, {}};
     for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
-    std::vector<std::string> hashed{text.value_or("")};
+    std::vector<std::string> hashed{std::move(result.text)};
     hashed.insert(hashed.end(), request.overrides.begin(), request.overrides.end());
     loaded.hash = run_key(hashed);
     if (request.image_size) loaded.description.image.size = *request.image_size;

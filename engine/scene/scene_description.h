@@ -1,17 +1,33 @@
-// The plain values a scene file holds. No Vulkan, no parsing: `scene_reader.h` fills these, everything
-// else reads them. SI units, degrees, y up; every default here is the documented default of the schema.
+// The plain values a scene file holds. No Vulkan, no parsing: `scene_reader.h` fills these by the rows of
+// `scene_format.cpp`, everything else reads them. SI units, degrees, y up; every default here is the published one.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace drape {
 
 using Vec3 = std::array<double, 3>;
+
+/// A value of an enumeration and its word in the scene file.
+template <class T>
+struct Spelling {
+    std::string_view name;
+    T value;
+};
+
+template <class T, std::size_t count>
+constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T value) {
+    for (const Spelling<T>& candidate : spellings)
+        if (candidate.value == value) return candidate.name;
+    return {};
+}
 
 /// One key of a key-framed rigid motion. Angles in degrees about x, then y, then z; several turns are
 /// allowed because paths interpolate the angles component by component.
@@ -87,6 +103,7 @@ struct Pin {
 };
 
 enum class Pattern { plain, checker };
+inline constexpr Spelling<Pattern> pattern_spellings[] = {{"plain", Pattern::plain}, {"checker", Pattern::checker}};
 
 struct Appearance {
     Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
@@ -162,7 +179,14 @@ struct Cutter {
 };
 
 enum class SolverMethod { automatic, relax, explicit_steps, line };
+inline constexpr Spelling<SolverMethod> method_spellings[] = {{"relax", SolverMethod::relax},
+                                                              {"explicit", SolverMethod::explicit_steps},
+                                                              {"line", SolverMethod::line},
+                                                              {"auto", SolverMethod::automatic}};
+
 enum class CollideWhen { iteration, substep };
+inline constexpr Spelling<CollideWhen> collide_spellings[] = {{"iteration", CollideWhen::iteration},
+                                                              {"substep", CollideWhen::substep}};
 
 struct SolverSettings {
     SolverMethod method = SolverMethod::automatic;  ///< `auto`: solver_choice.h

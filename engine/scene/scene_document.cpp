@@ -81,8 +81,8 @@ std::optional<Json::ArrayIndex> parse_index(const std::string& token) {
 std::string unescaped_token(std::string token) {
     for (std::size_t i = token.find('~'); i != std::string::npos; i = token.find('~', i + 1)) {
         if (i + 1 == token.size()) break;
-        if (token[i + 1] == '1') token.replace(i, 2, "/");
-        if (token[i + 1] == '0') token.replace(i, 2, "~");
+        if (token[i + 1] == '1') token.replace(i, 2, 1, '/');
+        if (token[i + 1] == '0') token.replace(i, 2, 1, '~');
     }
     return token;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <vector>
 
 namespace drape {
 namespace {
@@ -23,7 +23,50 @@ std::string escaped(std::string_view token) {
     return out;
 }
 
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+std::string key_hint(const Definition& object, const std::string& misspelt) {
+    const std::string_view nearest = object.nearest_key(misspelt);
+    if (!nearest.empty()) return fmt::format("expected \"{}\"", nearest);
+    std::string keys;
+    for (const KeyText& key : object.keys) keys += (keys.empty() ? "" : ", ") + std::string(key.name);
+    return "expected one of " + keys;
+}
+
 }  // namespace
+
+bool Definition::has_key(std::string_view key) const {
+    return std::ranges::find(keys, key, &KeyText::name) != keys.end();
+}
+
+std::string_view Definition::nearest_key(std::string_view misspelt) const {
+    constexpr std::size_t farthest = 2;
+    std::string_view nearest;
+    std::size_t best = farthest + 1;
+    for (const KeyText& candidate : keys) {
+        const std::string_view key = candidate.name;
+        if (misspelt.size() > key.size() + farthest) continue;
+        const std::size_t distance = edit_distance(misspelt, key);
+        if (distance < best && distance < key.size()) {
+            best = distance;
+            nearest = key;
+        }
+    }
+    return nearest;
+}
 
 bool Range::contains(double x) const {
     const bool is_above = above_low ? x > low && (low != 0.0 || static_cast<float>(x) > 0.0f) : x >= low;
@@ -34,6 +77,19 @@ std::string Range::text() const {
     if (low == -FLT_MAX && high == FLT_MAX) return "a number of at most 3.4e38 in magnitude";
     if (high == FLT_MAX) return fmt::format("a number {} {} (single precision)", above_low ? ">" : ">=", low);
     return fmt::format("a number in {}{}, {}]", above_low ? '(' : '[', low, high);
+}
+
+std::string Range::schema() const {
+    std::string members = "\"type\": \"number\"";
+    if (low != -FLT_MAX) members += fmt::format(", \"{}\": {}", above_low ? "exclusiveMinimum" : "minimum", low);
+    if (high != FLT_MAX) members += fmt::format(", \"maximum\": {}", high);
+    return members;
+}
+
+std::string Range::words() const {
+    if (low == -FLT_MAX && high == FLT_MAX) return "number";
+    if (high == FLT_MAX) return fmt::format("number {} {}", above_low ? ">" : ">=", low);
+    return fmt::format("number in {}{}, {}]", above_low ? '(' : '[', low, high);
 }
 
 SceneNode::SceneNode(SceneReport& report, const Json::Value& root)
@@ -47,36 +103,24 @@ SceneNode SceneNode::child(const Json::Value* value, std::string_view token) con
     return {*report_, value, offset, pointer_ + "/" + escaped(token)};
 }
 
-bool SceneNode::open_object(ObjectKind kind) {
-    keys_ = &keys_of(kind);
+bool SceneNode::open_object(const Definition& definition) const {
     if (value_ == nullptr) return false;
-    if (!value_->isObject()) {
-        fail_expected("an object");
-        return false;
-    }
-    if (keys_->open) return true;
+    if (!value_->isObject()) return fail_expected("an object");
+    if (!definition.other_keys.empty()) return true;
     for (auto it = value_->begin(); it != value_->end(); ++it) {
         const std::string key = it.name();
-        if (has_key(*keys_, key)) continue;
-        const std::string_view nearest = nearest_key(*keys_, key);
-        const std::string hint = nearest.empty() ? fmt::format("expected one of {}", fmt::join(keys_->keys, ", "))
-                                                 : fmt::format("expected \"{}\"", nearest);
+        if (definition.has_key(key)) continue;
         SceneDocument& document = report_->document;
-        report_->errors.push_back(document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
-                                                 fmt::format("{}, got the unknown key \"{}\"", hint, shortened(key))));
+        report_->errors.push_back(
+            document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
+                           fmt::format("{}, got the unknown key \"{}\"", key_hint(definition, key), shortened(key))));
     }
     return true;
 }
 
 SceneNode SceneNode::member(std::string_view key) const {
-    if (keys_ == nullptr || !has_key(*keys_, key))
-        throw std::logic_error(fmt::format("key \"{}\" is in no table of scene_keys.cpp", key));
     const bool is_object = value_ != nullptr && value_->isObject();
     return child(is_object ? value_->find(key.data(), key.data() + key.size()) : nullptr, key);
-}
-
-SceneNode SceneNode::open_member(const std::string& key) const {
-    return child(value_->find(key.data(), key.data() + key.size()), key);
 }
 
 bool SceneNode::open_array(std::string_view what, std::size_t least, std::size_t most) const {
@@ -117,8 +161,6 @@ bool SceneNode::read(std::span<double> field, std::string_view what, const Range
 bool SceneNode::read(Vec3& field, const Range& range) const {
     return read(std::span<double>(field), "an array of 3 numbers", range);
 }
-
-bool SceneNode::read_color(Vec3& field) const { return read(field, unit_interval); }
 
 bool SceneNode::read_direction(Vec3& field) const {
     Vec3 direction = field;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scene/scene_document.h"
-#include "scene/scene_keys.h"
+#include "scene/scene_format.h"
 
 namespace drape {
 
@@ -30,7 +30,11 @@ struct Range {
     bool above_low = false;  ///< `low` itself is excluded
 
     bool contains(double x) const;
+    /// What an error says was expected.
     std::string text() const;
+    /// Members of its JSON Schema, and what the document says.
+    std::string schema() const;
+    std::string words() const;
 };
 inline constexpr Range any_number{};
 inline constexpr Range not_negative{0.0, FLT_MAX, false};
@@ -46,30 +50,29 @@ class SceneNode {
     explicit operator bool() const { return value_ != nullptr; }
     const std::string& pointer() const { return pointer_; }
     const Json::Value* value() const { return value_; }
+    bool is_number() const { return value_ != nullptr && value_->isNumeric(); }
 
-    /// True when there is an object here; reports anything else that is here and every key not in `kind`.
-    bool open_object(ObjectKind kind);
-    /// A member of an opened object. Throws std::logic_error for a key that is not in its table.
+    /// True when there is an object here; reports anything else that is here and every key that it may not have.
+    bool open_object(const Definition& definition) const;
+    /// A member of an object; nothing where there is none.
     SceneNode member(std::string_view key) const;
-    /// Any member, for objects whose table is open.
-    SceneNode open_member(const std::string& key) const;
 
     /// True when there is an array of `least` to `most` elements here; reports anything else that is here.
     bool open_array(std::string_view what, std::size_t least, std::size_t most) const;
     SceneNode element(std::size_t index) const;
+    std::size_t size() const { return value_->size(); }
 
     bool read(double& field, const Range& range) const;
     bool read(std::uint32_t& field, std::uint32_t low, std::uint32_t high) const;
     bool read(std::span<double> field, std::string_view what, const Range& range) const;
     bool read(Vec3& field, const Range& range = any_number) const;
-    bool read_color(Vec3& field) const;
     /// A vector that is not zero; the field becomes its unit vector.
     bool read_direction(Vec3& field) const;
     bool read(bool& field) const;
     bool read(std::string& field) const;
 
-    template <typename Value>
-    bool read_choice(Value& field, std::span<const std::pair<std::string_view, Value>> choices) const;
+    template <class T>
+    bool read_choice(T& field, std::span<const Spelling<T>> spellings) const;
 
     /// "expected <what>, got <what is here>".
     bool fail_expected(std::string_view what) const;
@@ -85,21 +88,23 @@ class SceneNode {
     const Json::Value* value_;  ///< null when absent
     std::size_t offset_;        ///< of the value, or of the nearest object around it
     std::string pointer_;
-    const ObjectKeys* keys_ = nullptr;
 };
 
-template <typename Value>
-bool SceneNode::read_choice(Value& field, std::span<const std::pair<std::string_view, Value>> choices) const {
+template <class T>
+bool SceneNode::read_choice(T& field, std::span<const Spelling<T>> spellings) const {
     if (value_ == nullptr) return true;
     std::string what;
-    for (const auto& [name, value] : choices) {
-        if (value_->isString() && value_->asString() == name) {
-            field = value;
+    for (const Spelling<T>& spelling : spellings) {
+        if (value_->isString() && value_->asString() == spelling.name) {
+            field = spelling.value;
             return true;
         }
-        what += (what.empty() ? "\"" : " or \"") + std::string(name) + "\"";
+        what += (what.empty() ? "\"" : " or \"") + std::string(spelling.name) + "\"";
     }
     return fail_expected(what);
 }
+
+/// The whole scene, by the table (scene_format.cpp).
+bool read_scene_object(const SceneNode& root, SceneDescription& scene);
 
 }  // namespace drape

@@ -8,30 +8,10 @@
 #include <cstring>
 #include <memory>
 
-#include "scene/scene_sections.h"
+#include "scene/scene_node.h"
 
 namespace drape {
 namespace {
-
-void read_document(SceneReport& report, SceneDescription& scene) {
-    SceneNode root(report, report.document.root());
-    if (!root.open_object(ObjectKind::scene)) return;
-    std::string schema_address;
-    root.member("$schema").read(schema_address);
-    root.member("name").read(scene.name);
-    read_time(root.member("time"), scene.time);
-    root.member("gravity").read(scene.gravity);
-    read_wind(root.member("wind"), scene.wind);
-    read_cloths(root.member("cloths"), scene.cloths);
-    read_colliders(root.member("colliders"), scene.colliders);
-    read_cutters(root.member("cutters"), scene.cutters);
-    read_solver(root.member("solver"), scene.solver);
-    read_camera(root.member("camera"), scene.camera);
-    read_lights(root.member("lights"), scene.lights);
-    root.member("ambient").read_color(scene.ambient);
-    read_image(root.member("image"), scene.image);
-    read_oracles(root.member("oracles"), scene.oracles);
-}
 
 std::vector<SceneError> in_text_order(std::vector<PlacedError> placed) {
     std::stable_sort(placed.begin(), placed.end(),
@@ -75,7 +55,7 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
     }
     SceneReport report{document, {}, {}};
     SceneDescription scene;
-    read_document(report, scene);
+    read_scene_object(SceneNode(report, document.root()), scene);
     result.errors = in_text_order(std::move(report.errors));
     result.warnings = in_text_order(std::move(report.warnings));
     if (result.errors.empty()) result.scene = std::move(scene);
@@ -101,7 +81,9 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
         if (count < wanted) break;
     }
     if (std::ferror(file.get()) != 0) return unreadable();
-    return read_scene_text(text, path, overrides);
+    SceneResult result = read_scene_text(text, path, overrides);
+    result.text = std::move(text);
+    return result;
 }
 
 }  // namespace drape

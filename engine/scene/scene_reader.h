@@ -29,6 +29,7 @@ struct SceneResult {
     std::optional<SceneDescription> scene;  ///< present exactly when `errors` is empty
     std::vector<SceneError> errors;         ///< in the order of the text, those of overrides last
     std::vector<SceneError> warnings;
+    std::string text;         ///< of the file, without overrides: what was read is what is hashed
     bool unreadable = false;  ///< the file could not be read at all: an I/O error, not a scene error
 };
 
@@ -47,7 +48,10 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
 SceneResult read_scene_text(std::string_view text, const std::string& file_name,
                             std::span<const std::string> overrides = {});
 
-/// The published JSON Schema (draft-07): the text of engine/scene/scene.schema.json.
-std::string_view scene_schema();
+/// The published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
+std::string scene_schema();
+
+/// The format as a Markdown document, committed as engine/docs/scene_format.md.
+std::string scene_format_markdown();
 
 }  // namespace drape

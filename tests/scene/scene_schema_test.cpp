@@ -1,4 +1,5 @@
-// The published schema and the reader are one contract: same keys, same defaults, same limits.
+// What is published of the format is what the reader does: same keys, same defaults, same limits. Both come from one
+// table; these tests hold the published text against the reader's behaviour.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -11,7 +12,7 @@
 #include <sstream>
 
 #include "full_scene.h"
-#include "scene/scene_keys.h"
+#include "scene/scene_format.h"
 #include "scene/scene_reader.h"
 
 namespace drape {
@@ -34,6 +35,19 @@ std::string written(const Json::Value& value) {
 const Json::Value& schema() {
     static const Json::Value value = parsed(scene_schema());
     return value;
+}
+
+std::vector<const Definition*> scene_objects() {
+    std::vector<const Definition*> objects = scene_definitions();
+    std::erase_if(objects, [](const Definition* definition) { return definition->keys.empty(); });
+    return objects;
+}
+
+std::string committed(const std::string& path) {
+    std::ifstream file(DRAPE_SOURCE_DIR "/" + path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
 }
 
 const Json::Value& object_schema(std::string_view name) {
@@ -82,23 +96,42 @@ std::set<std::string> error_pointers(std::string_view object, const std::string&
 }
 
 TEST(SceneSchema, IsTheCommittedFile) {
-    std::ifstream file(DRAPE_SOURCE_DIR "/engine/scene/scene.schema.json");
-    std::ostringstream text;
-    text << file.rdbuf();
-    EXPECT_EQ(scene_schema(), text.str());
+    EXPECT_EQ(scene_schema(), committed("engine/scene/scene.schema.json"))
+        << "build/drape schema > engine/scene/scene.schema.json";
     EXPECT_EQ(schema()["$schema"].asString(), "http://json-schema.org/draft-07/schema#");
 }
 
-TEST(SceneSchema, HasExactlyTheKeysOfTheReader) {
+TEST(SceneFormat, IsTheCommittedDocument) {
+    EXPECT_EQ(scene_format_markdown(), committed("engine/docs/scene_format.md"))
+        << "build/drape schema --markdown > engine/docs/scene_format.md";
+}
+
+TEST(SceneFormat, DocumentHasEveryKeyAndItsDefault) {
+    const std::string document = scene_format_markdown();
+    for (const Definition* object : scene_objects()) {
+        const std::size_t begin = document.find(fmt::format("\n## {}\n", object->name));
+        ASSERT_NE(begin, std::string::npos) << object->name;
+        const std::string section = document.substr(begin, document.find("\n## ", begin + 1) - begin);
+        for (const KeyText& key : object->keys) {
+            const std::size_t row = section.find(fmt::format("\n| `{}` | ", key.name));
+            ASSERT_NE(row, std::string::npos) << key.name;
+            const std::string line = section.substr(row + 1, section.find('\n', row + 1) - row - 1);
+            const std::string value = key.default_value.empty() ? "" : "| `" + key.default_value + "` |";
+            EXPECT_NE(line.find(value), std::string::npos) << line;
+        }
+    }
+}
+
+TEST(SceneSchema, HasExactlyTheKeysOfTheFormat) {
     std::set<std::string> objects;
-    for (const ObjectKeys& object : scene_object_keys()) {
-        const std::vector<std::string> properties = object_schema(object.name)["properties"].getMemberNames();
-        EXPECT_EQ(std::set<std::string>(properties.begin(), properties.end()),
-                  std::set<std::string>(object.keys.begin(), object.keys.end()))
-            << object.name;
-        const Json::Value& others = object_schema(object.name)["additionalProperties"];
-        EXPECT_EQ(others.isBool() && !others.asBool(), !object.open) << object.name;
-        objects.emplace(object.name);
+    for (const Definition* object : scene_objects()) {
+        std::set<std::string> keys;
+        for (const KeyText& key : object->keys) keys.emplace(key.name);
+        const std::vector<std::string> properties = object_schema(object->name)["properties"].getMemberNames();
+        EXPECT_EQ(std::set<std::string>(properties.begin(), properties.end()), keys) << object->name;
+        const Json::Value& others = object_schema(object->name)["additionalProperties"];
+        EXPECT_EQ(others.isBool() && !others.asBool(), object->other_keys.empty()) << object->name;
+        EXPECT_TRUE(objects.emplace(object->name).second) << object->name;
     }
     for (const std::string& definition : schema()["definitions"].getMemberNames())
         EXPECT_EQ(schema()["definitions"][definition].isMember("properties"), objects.contains(definition))
@@ -123,20 +156,20 @@ TEST(SceneSchema, EveryReferenceResolves) {
 }
 
 TEST(SceneSchema, EveryKeyIsDescribed) {
-    for (const ObjectKeys& object : scene_object_keys())
-        for (const Json::Value& property : object_schema(object.name)["properties"])
-            EXPECT_FALSE(property["description"].asString().empty()) << object.name;
+    for (const Definition* object : scene_objects())
+        for (const Json::Value& property : object_schema(object->name)["properties"])
+            EXPECT_FALSE(property["description"].asString().empty()) << object->name;
 }
 
-TEST(SceneReader, ReadsEveryKeyOfItsTables) {
+TEST(SceneReader, ReadsEveryKeyOfTheFormat) {
     Json::Value wrong(Json::objectValue);
     wrong["no such key"] = true;
-    for (const ObjectKeys& object : scene_object_keys()) {
-        ASSERT_TRUE(places.contains(object.name)) << object.name;
-        for (const std::string_view key : object.keys) {
-            const std::string path = fmt::format(".{}", key);
-            const std::string pointer = pointer_of(places.at(object.name) + path);
-            const std::set<std::string> pointers = error_pointers(object.name, path, wrong);
+    for (const Definition* object : scene_objects()) {
+        ASSERT_TRUE(places.contains(object->name)) << object->name;
+        for (const KeyText& key : object->keys) {
+            const std::string path = fmt::format(".{}", key.name);
+            const std::string pointer = pointer_of(places.at(object->name) + path);
+            const std::set<std::string> pointers = error_pointers(object->name, path, wrong);
             const bool is_reported = std::any_of(pointers.begin(), pointers.end(), [&](const std::string& where) {
                 return where == pointer || where == pointer + "/no such key";
             });
@@ -185,7 +218,7 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
     const SceneResult result = read_scene_text(written(scene), "s");
     for (const SceneError& error : result.errors) ADD_FAILURE() << error.text();
     ASSERT_TRUE(result.scene.has_value());
-    EXPECT_EQ(written(scene["lights"][0]["direction"]), written(parsed("[-0.4, -1.0, -0.6]")));
+    EXPECT_EQ(written(scene["lights"][0]["direction"]), written(parsed("[-0.4, -1, -0.6]")));
     expected.lights[0].direction = result.scene->lights[0].direction;
     EXPECT_EQ(*result.scene, expected);
 }
@@ -202,13 +235,13 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"ellipsoid", {"path"}},
         {"cutter", {"triangle", "active", "path"}},
         {"oracle", {"check"}}};
-    for (const ObjectKeys& object : scene_object_keys()) {
+    for (const Definition* object : scene_objects()) {
         std::set<std::string> keys;
-        const Json::Value& properties = object_schema(object.name)["properties"];
+        const Json::Value& properties = object_schema(object->name)["properties"];
         for (const std::string& key : properties.getMemberNames())
             if (!properties[key].isMember("default")) keys.insert(key);
-        const auto expected = without.find(object.name);
-        EXPECT_EQ(keys, expected == without.end() ? std::set<std::string>{} : expected->second) << object.name;
+        const auto expected = without.find(object->name);
+        EXPECT_EQ(keys, expected == without.end() ? std::set<std::string>{} : expected->second) << object->name;
     }
 }
 
@@ -239,16 +272,16 @@ std::vector<Probe> probes_of(const Json::Value& property) {
 
 TEST(SceneSchema, StatesTheLimitsOfTheReader) {
     int probe_count = 0;
-    for (const ObjectKeys& object : scene_object_keys()) {
-        const Json::Value& properties = object_schema(object.name)["properties"];
+    for (const Definition* object : scene_objects()) {
+        const Json::Value& properties = object_schema(object->name)["properties"];
         for (const std::string& key : properties.getMemberNames()) {
             // An array's limits are tried on its second element.
             const bool is_array = properties[key].isMember("items");
             const std::string path = "." + key + (is_array ? "[1]" : "");
             for (const Probe& probe : probes_of(is_array ? properties[key]["items"] : properties[key])) {
-                const bool is_reported =
-                    error_pointers(object.name, path, probe.value).contains(pointer_of(places.at(object.name) + path));
-                EXPECT_EQ(is_reported, !probe.is_allowed) << object.name << path << " = " << written(probe.value);
+                const bool is_reported = error_pointers(object->name, path, probe.value)
+                                             .contains(pointer_of(places.at(object->name) + path));
+                EXPECT_EQ(is_reported, !probe.is_allowed) << object->name << path << " = " << written(probe.value);
                 ++probe_count;
             }
         }

@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "scene/scene_reader.h"
+#include "scene/scene_rules.h"
+
+namespace drape {
+namespace {
+
+using Particle = std::array<std::uint32_t, 2>;
+constexpr const char* name_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+std::array<Vec3, 4> corners(const Cloth& cloth) {
+    std::array<Vec3, 4> points;
+    for (std::size_t corner = 0; corner < 4; ++corner)
+        for (std::size_t i = 0; i < 3; ++i)
+            points[corner][i] = cloth.placement.origin[i] +
+                                (corner % 2 == 1 ? cloth.placement.u[i] * cloth.size[0] : 0.0) +
+                                (corner / 2 == 1 ? cloth.placement.v[i] * cloth.size[1] : 0.0);
+    return points;
+}
+
+bool read_particle(const SceneNode& node, const Particle& grid, Particle& particle) {
+    if (!node.open_array("a particle [column, row]", 2, 2)) return false;
+    const bool has_column = node.element(0).read(particle[0], 0, grid[0] - 1);
+    return node.element(1).read(particle[1], 0, grid[1] - 1) && has_column;
+}
+
+bool check_particle(const SceneNode& node, const Particle& particle, const Particle& grid) {
+    bool fits = true;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if (particle[axis] >= grid[axis])
+            fits = node.element(axis).fail_expected(fmt::format("an integer from 0 to {}", grid[axis] - 1));
+    return fits;
+}
+
+bool check_box(const SceneNode& node, const IndexBox& box, const Particle& grid) {
+    if (box == IndexBox{}) return true;  // or it was reported already, and may be no box
+    const bool has_first = check_particle(node.element(0), box.first, grid);
+    if (!check_particle(node.element(1), box.last, grid) || !has_first) return false;
+    return (box.first[0] <= box.last[0] && box.first[1] <= box.last[1]) ||
+           node.fail_expected("the first particle of a box not beyond its last");
+}
+
+bool find_particles(const SceneNode& node, const Particle& grid, Pin& pin) {
+    if (const SceneNode at = node.member("at")) return check_particle(at, pin.particles.first, grid);
+    if (const SceneNode box = node.member("box")) return check_box(box, pin.particles, grid);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        pin.particles.first[axis] *= grid[axis] - 1;
+        pin.particles.last[axis] *= grid[axis] - 1;
+    }
+    return true;
+}
+
+// Single precision must resolve a quarter of an edge where the cloth starts, or the springs see only rounding.
+bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
+    double farthest = 0.0;
+    for (const Vec3& corner : corners(cloth))
+        for (const double x : corner) farthest = std::max(farthest, std::abs(x));
+    const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const auto single = static_cast<float>(farthest);
+    const double ulp = static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
+    if (ulp <= 0.25 * edge) return true;
+    return cloth_node.fail(
+        fmt::format("expected a cloth that single precision resolves: at {:.6g} m from the origin it is exact to "
+                    "{:.3g} m, more than a quarter of the edge length {:.3g} m",
+                    farthest, ulp, edge));
+}
+
+// Particles a grid asks for, also where an axis is beyond its limit: the message should name the count.
+std::uint64_t requested_particle_count(const SceneNode& grid, const Cloth& cloth) {
+    std::uint64_t count = 1;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        std::uint32_t requested = cloth.grid[axis];
+        if (grid && grid.value()->isArray() && grid.size() == 2) {
+            const Json::Value& written = *grid.element(axis).value();
+            if (written.isUInt()) requested = written.asUInt();
+        }
+        count *= requested;  // two factors below 2^32: no overflow
+    }
+    return count;
+}
+
+// Adds to `total`, saturating, and reports the cloth that takes it over the limit.
+void count_particles(const SceneNode& grid, const Cloth& cloth, std::uint64_t& total) {
+    const std::uint64_t before = total;
+    const std::uint64_t count = requested_particle_count(grid, cloth);
+    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    total = count > most - total ? most : total + count;
+    if (before <= scene_particle_limit && total > scene_particle_limit)
+        grid.fail(
+            fmt::format("expected at most {} particles in all cloths together, got {}", scene_particle_limit, total));
+}
+
+bool start_boxes_meet(const Cloth& a, const Cloth& b) {
+    const std::array<Vec3, 4> a_corners = corners(a);
+    const std::array<Vec3, 4> b_corners = corners(b);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto less = [i](const Vec3& p, const Vec3& q) { return p[i] < q[i]; };
+        const auto [a_low, a_high] = std::minmax_element(a_corners.begin(), a_corners.end(), less);
+        const auto [b_low, b_high] = std::minmax_element(b_corners.begin(), b_corners.end(), less);
+        if ((*a_high)[i] < (*b_low)[i] || (*b_high)[i] < (*a_low)[i]) return false;
+    }
+    return true;
+}
+
+// One warning per cloth, naming the first of the earlier ones it meets.
+void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
+    for (std::size_t i = 1; i < cloths.size(); ++i) {
+        const auto other = std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const Cloth& earlier) { return start_boxes_meet(earlier, cloths[i]); });
+        if (other - cloths.begin() == static_cast<std::ptrdiff_t>(i)) continue;
+        node.element(i).warn(
+            fmt::format("cloths \"{}\" and \"{}\" are set to touch, but will pass through each other: "
+                        "cloth-cloth and self-collision are not simulated",
+                        other->name, cloths[i].name));
+    }
+}
+
+}  // namespace
+
+Value<std::string> file_name() {
+    return {{"\"type\": \"string\", \"pattern\": \"^[A-Za-z0-9_-]{1,64}$\"", "1 to 64 letters, digits, `_` and `-`"},
+            [](const SceneNode& node, std::string& name) {
+                std::string written = name;
+                if (!node) return true;
+                if (!node.read(written)) return false;
+                if (written.empty() || written.size() > 64 || written.find_first_not_of(name_letters) != written.npos)
+                    return node.fail_expected("a name of 1 to 64 letters, digits, _ and - (it becomes a file name)");
+                name = written;
+                return true;
+            }};
+}
+
+Value<IndexBox> particle() {
+    Value<IndexBox> value;
+    value.text = two_integers(0, grid_axis_limit - 1).text;
+    value.read = [](const SceneNode& node, IndexBox& box) {
+        Particle read{};
+        if (!node) return true;
+        if (!read_particle(node, {grid_axis_limit, grid_axis_limit}, read)) return false;
+        box = {read, read};
+        return true;
+    };
+    return value;
+}
+
+Value<IndexBox> particle_box(const Value<IndexBox>& particle) {
+    return {{"\"type\": \"array\", \"items\": {" + particle.text.schema + "}, \"minItems\": 2, \"maxItems\": 2",
+             "array of 2 of " + particle.text.words, particle.text.uses},
+            [particle](const SceneNode& node, IndexBox& box) {
+                if (!node.open_array("a box [[column, row], [column, row]]", 2, 2)) return !node;
+                IndexBox first, last;
+                const bool has_first = particle.read(node.element(0), first);
+                if (!particle.read(node.element(1), last) || !has_first) return false;
+                box = {first.first, last.last};
+                return true;
+            }};
+}
+
+bool check_placement(const Members& members, Placement& placement) {
+    const double cosine = dot(placement.u, placement.v);
+    if (!members.all_fit() || std::abs(cosine) <= 1e-6) return true;
+    return members.object().fail(fmt::format("expected u and v at right angles, got a cosine of {:.6g}", cosine));
+}
+
+bool check_pin(const Members& members, Pin&) {
+    int count = 0;
+    for (const char* key : {"edge", "corner", "at", "box"}) count += members[key] ? 1 : 0;
+    if (count == 1) return true;
+    return members.object().fail(
+        fmt::format("expected exactly one of edge, corner, at and box, got {} of them", count));
+}
+
+bool check_cloth(const Members& members, Cloth& cloth) {
+    // Without a valid grid the indices are held against the largest one, so that a mistake in the grid is not
+    // reported once more for every pin.
+    const Particle grid = members.fit({"grid"}) ? cloth.grid : Particle{grid_axis_limit, grid_axis_limit};
+    bool fits = true;
+    for (std::size_t i = 0; i < cloth.holes.size(); ++i)
+        fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
+    for (std::size_t i = 0; i < cloth.pins.size(); ++i)
+        fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
+    if (members.fit({"grid", "size", "placement"})) fits = check_resolution(members.object(), cloth) && fits;
+    return fits;
+}
+
+bool check_scene(const Members& members, SceneDescription& scene) {
+    const SceneNode node = members["cloths"];
+    std::vector<Cloth>& cloths = scene.cloths;
+    std::set<std::string_view> names;
+    std::uint64_t particle_total = 0;
+    for (std::size_t i = 0; i < cloths.size(); ++i) {
+        const SceneNode name = node.element(i).member("name");
+        if (!name) cloths[i].name = i == 0 ? "cloth" : fmt::format("cloth{}", i + 1);
+        if (!cloths[i].name.empty() && !names.insert(cloths[i].name).second)
+            name.fail(fmt::format("expected a name no other cloth has, got \"{}\"", cloths[i].name));
+        count_particles(node.element(i).member("grid"), cloths[i], particle_total);
+    }
+    warn_of_touching(node, cloths);
+    return true;
+}
+
+}  // namespace drape

@@ -1,0 +1,93 @@
+// The format for editors (JSON Schema) and for people (Markdown).
+#include <fmt/format.h>
+
+#include "scene/scene_reader.h"
+#include "scene/scene_value.h"
+
+namespace drape {
+namespace {
+
+std::string key_schema(const KeyText& key) {
+    // Beside a reference, draft-07 ignores everything else.
+    const bool refers = key.schema.starts_with("\"$ref\"");
+    std::string members = refers ? "\"allOf\": [{" + key.schema + "}]" : key.schema;
+    if (!key.default_value.empty()) members += ", \"default\": " + key.default_value;
+    return fmt::format("{}: {{{}, \"description\": {}}}", quoted(key.name), members, quoted(key.help));
+}
+
+/// The members of an object's schema, each on lines of its own.
+std::string object_schema(const Definition& object, const std::string& indent) {
+    std::string required, properties;
+    for (const KeyText& key : object.keys) {
+        if (key.required) required += (required.empty() ? "" : ", ") + quoted(key.name);
+        properties += (properties.empty() ? "\n" : ",\n") + indent + "  " + key_schema(key);
+    }
+    std::string members = indent + "\"type\": \"object\"";
+    members += ",\n" + indent + "\"additionalProperties\": ";
+    members += object.other_keys.empty() ? "false" : "{" + object.other_keys + "}";
+    if (!required.empty()) members += ",\n" + indent + "\"required\": [" + required + "]";
+    if (!object.schema.empty()) members += ",\n" + indent + object.schema;
+    return members + ",\n" + indent + "\"properties\": {" + properties + "\n" + indent + "}";
+}
+
+std::string definition_schema(const Definition& definition) {
+    const std::string description = fmt::format("\"description\": {}", quoted(definition.help));
+    if (definition.keys.empty())
+        return fmt::format("    \"{}\": {{{}, {}}}", definition.name, description, definition.schema);
+    return fmt::format("    \"{}\": {{\n      {},\n{}\n    }}", definition.name, description,
+                       object_schema(definition, "      "));
+}
+
+std::string escaped(std::string_view text) {
+    std::string markdown;
+    for (const char c : text) {
+        if (c == '|' || c == '*' || c == '_' || c == '<') markdown += '\\';
+        markdown += c;
+    }
+    return markdown;
+}
+
+std::string object_section(const Definition& object) {
+    std::string section = fmt::format("\n## {}\n\n{}\n\n| key | value | default | |\n|---|---|---|---|\n", object.name,
+                                      escaped(object.help));
+    for (const KeyText& key : object.keys)
+        section += fmt::format("| `{}` | {} | {} | {} |\n", key.name, key.words,
+                               key.required                ? "required"
+                               : key.default_value.empty() ? ""
+                                                           : "`" + key.default_value + "`",
+                               escaped(key.help));
+    if (!object.other_keys.empty()) section += "| any other | number | | A limit of the check. |\n";
+    return section;
+}
+
+}  // namespace
+
+std::string scene_schema() {
+    const std::vector<const Definition*> definitions = scene_definitions();
+    const Definition& scene = *definitions.front();
+    std::string text = fmt::format(
+        "{{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"Drape scene\",\n"
+        "  \"description\": {},\n{},\n  \"definitions\": {{\n",
+        quoted(scene.help), object_schema(scene, "  "));
+    for (std::size_t i = 1; i < definitions.size(); ++i)
+        text += definition_schema(*definitions[i]) + (i + 1 < definitions.size() ? ",\n" : "\n");
+    return text + "  }\n}\n";
+}
+
+std::string scene_format_markdown() {
+    std::string objects, values;
+    for (const Definition* definition : scene_definitions()) {
+        if (!definition->keys.empty())
+            objects += object_section(*definition);
+        else
+            values += fmt::format("| {} | {} | {} |\n", definition->name, definition->words, escaped(definition->help));
+    }
+    return "# The scene file\n\n"
+           "Every object of a scene file and its keys, from the table that the program reads scenes by. "
+           "`drape schema` prints the same as a JSON Schema, for editors; `drape check SCENE` says what is wrong with "
+           "a "
+           "scene.\n" +
+           objects + "\n## values\n\nWhat several keys have.\n\n| value | form | |\n|---|---|---|\n" + values;
+}
+
+}  // namespace drape

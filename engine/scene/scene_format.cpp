@@ -1,0 +1,330 @@
+// The rows of the format. A new key is its field in scene_description.h and its row here.
+#include <algorithm>
+
+#include "scene/scene_rules.h"
+
+namespace drape {
+namespace {
+
+constexpr std::string_view cloth_count = "an array of 1 to 1024 cloths";
+
+bool read_address(const SceneNode& node, SceneDescription&) {
+    std::string ignored;
+    return node.read(ignored);
+}
+
+// Values that several keys have.
+const Named<Vec3> vec3{"vec3", "x, y, z; y is up.", three_numbers(any_number)};
+const Named<Vec3> direction{"direction", "x, y, z, not all zero; only the direction counts, the length does not.",
+                            unit_vector()};
+const Named<Vec3> extents{"extents", "Metres along x, y, z.", three_numbers(positive)};
+const Named<Vec3> color{"color", "red, green, blue.", three_numbers(unit_interval)};
+const Named<IndexBox> one_particle{"particle", "[column, row], from 0, within the grid.", particle()};
+const Named<IndexBox> particles{
+    "particle_box", "First and last particle, inclusive; the first may not be beyond the last in column or row.",
+    particle_box(one_particle)};
+
+const Object<MotionKey> motion_key{
+    "motion_key",
+    "One key of a path.",
+    {
+        {"t", &MotionKey::time, number(any_number), "Seconds. Must be after the previous key's.", "a time in seconds"},
+        {"translate", &MotionKey::translate, vec3, "Metres, added to the rest pose."},
+        {"rotate", &MotionKey::rotate, vec3, "Degrees: Euler angles about x, then y, then z (R = Rz Ry Rx)."},
+    }};
+
+const Named<MotionPath> path{
+    "path",
+    "Catmull-Rom through the keys, component by component, angles too (so several turns are allowed): cubic Hermite "
+    "between neighbouring keys with slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys and 0 at the first and "
+    "the last. Before the first and after the last key, that key holds. Times must increase strictly.",
+    motion_path(motion_key)};
+
+const Object<TimeSettings> time_settings{
+    "time",
+    "Frame n shows time n / fps.",
+    {
+        {"fps", &TimeSettings::fps, number({0.0, 10000.0, true}), "Frames per second."},
+        {"frames", &TimeSettings::frame_count, integer(1, 1'000'000),
+         "Number of frames, 0 .. frames-1; frame 0 is the initial state."},
+    }};
+
+const Object<Gust> gust{
+    "gust",
+    "Extra speed along the unit wind velocity at time t: g(t) = amplitude * (sin(2 pi t / period + p1) + 0.5 sin(2 pi "
+    "2.3 t / period + p2) + 0.25 sin(2 pi 5.1 t / period + p3)) / 1.75. The phase p_k (k = 1, 2, 3) is 2 pi / 2^53 "
+    "times the top 53 bits of splitmix64(seed + k), where splitmix64(x) is, modulo 2^64: x = x + 0x9e3779b97f4a7c15; x "
+    "= (x xor (x >> 30)) * 0xbf58476d1ce4e5b9; x = (x xor (x >> 27)) * 0x94d049bb133111eb; x xor (x >> 31). Has no "
+    "effect while the velocity is zero.",
+    {
+        {"amplitude", &Gust::amplitude, number(not_negative), "m/s; |g| never exceeds it."},
+        {"period", &Gust::period, number(positive), "Seconds, of the slowest sine."},
+        {"seed", &Gust::seed, integer(0, 0xFFFFFFFFu), "Picks the phases."},
+    }};
+
+const Object<Wind> wind{
+    "wind",
+    "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
+    "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles.",
+    {
+        {"velocity", &Wind::velocity, vec3, "m/s, steady wind."},
+        {"gust", &Wind::gust, gust, "Extra wind along the velocity's direction, as a function of time."},
+        {"air_density", &Wind::air_density, number(not_negative), "kg/m^3."},
+        {"drag", &Wind::drag, number(not_negative), "Drag coefficient Cd."},
+        {"lift", &Wind::lift, number(not_negative), "Lift coefficient Cl."},
+    },
+    check_wind};
+
+const Object<Placement> placement{
+    "placement",
+    "Where the flat cloth starts.",
+    {
+        {"origin", &Placement::origin, vec3, "Metres: particle (column 0, row 0)."},
+        {"u", &Placement::u, direction, "Direction of growing column."},
+        {"v", &Placement::v, direction, "Direction of growing row; at right angles to u within 1e-6."},
+    },
+    check_placement};
+
+const Object<Stiffness> stiffness{
+    "stiffness",
+    "With cells dx by dy, a spring along a row has the constant stretch dy/dx, along a column stretch dx/dy, each "
+    "diagonal shear (dx^2 + dy^2) / (2 dx dy). Consequences: uniaxial modulus stretch + stretch shear / (stretch + "
+    "shear); wave speed sqrt(stretch / areal_density) apart from shear.",
+    {
+        {"stretch", &Stiffness::stretch, number(not_negative), "N/m; 0 = none."},
+        {"shear", &Stiffness::shear, number(not_negative), "N/m; 0 = none."},
+        {"bend", &Stiffness::bend, number(not_negative),
+         "N m, bending rigidity B, the same in every direction: a strip hangs like the elastica of that rigidity per "
+         "width, and a sheet bends and twists like the plate of Poisson's ratio 0. Fabrics: 1e-6 to 1e-3. 0: none."},
+    }};
+
+const Object<Pin> pin{
+    "pin",
+    "Holds particles where they start or moves them along a path. Exactly one of edge, corner, at and box says which.",
+    {
+        {"edge", &Pin::particles, without_default(choice<IndexBox>(edge_spellings)),
+         "All particles of a border: left is column 0, top is row 0."},
+        {"corner", &Pin::particles, without_default(choice<IndexBox>(corner_spellings)),
+         "One corner particle: left is column 0, top is row 0."},
+        {"at", &Pin::particles, one_particle, "One particle."},
+        {"box", &Pin::particles, particles, "All particles of a box."},
+        {"release", &Pin::release, optional(number(not_negative)),
+         "Seconds. From then on the particles are free and keep their velocity. Absent: never."},
+        {"path", &Pin::path, path, "Rigid motion of the particles relative to where they start. Absent: at rest."},
+        {"pivot", &Pin::pivot, optional<Vec3>(vec3),
+         "Metres: the point the path rotates about. Absent: the centroid of the pinned particles."},
+    },
+    check_pin,
+    R"("oneOf": [{"required": ["edge"]}, {"required": ["corner"]}, {"required": ["at"]}, {"required": ["box"]}])"};
+
+const Object<Appearance> appearance{"appearance",
+                                    "For pictures only.",
+                                    {
+                                        {"front", &Appearance::front, color, "sRGB of the side of u x v."},
+                                        {"back", &Appearance::back, color, "sRGB of the other side."},
+                                        {"pattern", &Appearance::pattern, choice<Pattern>(pattern_spellings),
+                                         "Plain colour, or cells of the cloth shaded alternately."},
+                                    }};
+
+const Object<Cloth> cloth{
+    "cloth",
+    "A rectangular grid of particles. At most 16000000 particles in all cloths together. Single precision must resolve "
+    "a quarter of an edge where the cloth starts, so a fine cloth must not be far from the origin.",
+    {
+        {"name", &Cloth::name, file_name(),
+         "Unique in the scene; becomes a file name. Default: \"cloth\" for the first cloth, \"cloth2\" for the second, "
+         "and so on."},
+        {"grid", &Cloth::grid, two_integers(2, grid_axis_limit), "Particles: columns, rows."},
+        {"size", &Cloth::size, two_numbers(positive),
+         "Metres along the columns' direction u and the rows' direction v."},
+        {"placement", &Cloth::placement, placement, "Where the flat cloth starts."},
+        {"areal_density", &Cloth::areal_density, number(positive),
+         "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
+        {"stiffness", &Cloth::stiffness, rigid_or(stiffness),
+         "Spring constants, or \"rigid\": stretch and shear inextensible."},
+        {"damping", &Cloth::damping, number(not_negative), "1/s: velocities decay as exp(-damping t)."},
+        {"friction", &Cloth::friction, number(not_negative),
+         "Coulomb coefficient of the cloth's side; a pair of surfaces uses the geometric mean."},
+        {"thickness", &Cloth::thickness, number(not_negative), "Metres kept from colliders."},
+        {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
+        {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
+         "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
+        {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000), "What holds the cloth."},
+        {"appearance", &Cloth::appearance, appearance, "For pictures only."},
+    },
+    check_cloth};
+
+/// The keys of a shape, then those that every collider has.
+template <class Shape>
+std::vector<Key<Shape>> with_common(std::vector<Key<Shape>> keys) {
+    const Key<Shape> common[] = {
+        {"friction", &ColliderCommon::friction, number(not_negative),
+         "Coulomb coefficient of this side; a pair of surfaces uses the geometric mean."},
+        {"rotate", &ColliderCommon::rotate, vec3,
+         "Degrees, rest pose: Euler angles about x, then y, then z, about the collider's own centre (a plane's: normal "
+         "* offset)."},
+        {"path", &ColliderCommon::path, path,
+         "Rigid motion on top of the rest pose, rotating about the collider's own centre. Absent: at rest."},
+        {"color", &ColliderCommon::color, color, "sRGB, for pictures only."},
+    };
+    keys.insert(keys.end(), std::begin(common), std::end(common));
+    return keys;
+}
+
+const Object<PlaneCollider> plane{
+    "plane", "The cloth stays where normal . x >= offset, with the normal made unit length first.",
+    with_common<PlaneCollider>({
+        {"normal", &PlaneCollider::normal, direction, "Points to the outside."},
+        {"offset", &PlaneCollider::offset, number(any_number), "Metres from the origin along the unit normal."},
+    })};
+const Object<SphereCollider> sphere{"sphere", "A solid ball.",
+                                    with_common<SphereCollider>({
+                                        {"center", &SphereCollider::center, vec3, "Metres."},
+                                        {"radius", &SphereCollider::radius, number(positive), "Metres."},
+                                    })};
+const Object<BoxCollider> box{
+    "box", "A solid box.",
+    with_common<BoxCollider>({
+        {"center", &BoxCollider::center, vec3, "Metres."},
+        {"half_extents", &BoxCollider::half_extents, extents, "Half the edge lengths, metres."},
+    })};
+const Object<EllipsoidCollider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
+                                          with_common<EllipsoidCollider>({
+                                              {"center", &EllipsoidCollider::center, vec3, "Metres."},
+                                              {"radii", &EllipsoidCollider::radii, extents, "Half axes, metres."},
+                                          })};
+
+const Object<Colliders> colliders{
+    "colliders",
+    "Solid bodies the cloth stays outside of.",
+    {
+        {"planes", &Colliders::planes, list<PlaneCollider>(plane, "an array of at most 1024 colliders", 0, 1024),
+         "Half-spaces."},
+        {"spheres", &Colliders::spheres, list<SphereCollider>(sphere, "an array of at most 1024 colliders", 0, 1024),
+         "Spheres."},
+        {"boxes", &Colliders::boxes, list<BoxCollider>(box, "an array of at most 1024 colliders", 0, 1024), "Boxes."},
+        {"ellipsoids", &Colliders::ellipsoids,
+         list<EllipsoidCollider>(ellipsoid, "an array of at most 1024 colliders", 0, 1024), "Ellipsoids."},
+    }};
+
+const Object<Cutter> cutter{
+    "cutter",
+    "A triangle that cuts every cloth it meets while it is active. A cut found at the end of a frame acts from the "
+    "next frame on. Between two frames the surface of the prism that the triangle sweeps counts.",
+    {
+        {"triangle", &Cutter::triangle, triangle(vec3), "Three corners, metres; not on one line.", "three points"},
+        {"active", two_numbers(not_negative).text, check_cutter_times, "First and last moment, seconds.",
+         "[begin, end] in seconds"},
+        {"path", &Cutter::path, path,
+         "Rigid motion on top of the given triangle; absent: at rest; rotations are about the triangle's centroid."},
+    }};
+
+const Object<SolverSettings> solver{
+    "solver",
+    "How the cloth is moved from frame to frame.",
+    {
+        {"method", &SolverSettings::method, choice<SolverMethod>(method_spellings),
+         "relax: relaxation of springs, direction by direction; stable at any number of substeps. explicit: one "
+         "explicit micro-step per substep, which sums the springs around each particle; accurate from about 2.6 "
+         "substeps per particle along the cloth on, and softens the cloth below (the manifest says by how much). line: "
+         "whole rows, columns and diagonals of springs solved at a time, of second order in time (of first order in "
+         "scenes with colliders); accurate from about 0.1 substeps per particle along the cloth on where it hangs from "
+         "an edge, 0.6 where it hangs from points. auto: the program chooses method, substeps and iterations for the "
+         "tolerance (0.01 where none is given), and the manifest says what and why."},
+        {"substeps", &SolverSettings::substeps, integer(1, 4096),
+         "Time steps per frame. Ignored (with a warning) by method auto."},
+        {"iterations", &SolverSettings::iterations, integer(1, 1024),
+         "Relaxations or line solves of every spring per substep. Ignored (with a warning above 1) by method "
+         "explicit."},
+        {"collide", &SolverSettings::collide, choice<CollideWhen>(collide_spellings),
+         "Collision after the springs of every iteration, or once per substep."},
+        {"tolerance", &SolverSettings::tolerance, number(not_negative),
+         "Largest stretch error: RMS over the stretch springs of strain - tension/(stiffness length), tension being "
+         "the force that the solver applied. 0: no promise. A substep's iterations end once it is met (so `iterations` "
+         "is then the most that may be needed); a frame that misses it ends the run with exit code 8."},
+        {"tethers", &SolverSettings::tethers, boolean(),
+         "Whether every particle is kept within the cloth's reach of the nearest particle of each of the two nearest "
+         "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "
+         "substeps, and biases its motion a little. A cloth's first cut ends its tethers."},
+        {"strain_damping", &SolverSettings::strain_damping, number(unit_interval),
+         "Method explicit: damping of each spring's strain rate, in units of its stiffness times the substep, so that "
+         "it vanishes as substeps grow. 0: none, for exact dynamics of cloth that does not crumple. Ignored (with a "
+         "warning) by methods relax and line."},
+    },
+    check_solver};
+
+const Object<Camera> camera{
+    "camera",
+    "A pinhole camera, upright (y is up).",
+    {
+        {"position", &Camera::position, vec3, "Metres."},
+        {"target", &Camera::target, vec3, "Metres: the point in the middle of the picture; not the position."},
+        {"fov", &Camera::fov, number({0.0, 170.0, true}), "Degrees, vertical field of view."},
+    },
+    check_camera};
+
+const Object<DirectionalLight> light{
+    "light",
+    "A directional light.",
+    {
+        {"direction", &DirectionalLight::direction, direction, "The way the light travels."},
+        {"color", &DirectionalLight::color, color, "sRGB."},
+        {"intensity", &DirectionalLight::intensity, number(not_negative), "Factor on the colour."},
+    }};
+
+const Object<ImageSettings> image{"image",
+                                  "The pictures.",
+                                  {
+                                      {"size", &ImageSettings::size, two_integers(1, 16384), "Pixels: width, height."},
+                                      {"samples", &ImageSettings::samples, one_of({1, 4}), "Samples per pixel."},
+                                      {"background", &ImageSettings::background, color, "sRGB."},
+                                  }};
+
+const Object<Oracle> oracle{"oracle",
+                            "A check the scene promises to meet: the scene tests read it, the simulation ignores it.",
+                            {
+                                {"check", &Oracle::check, check_name(), "Name of the check.", "the name of a check"},
+                            },
+                            read_oracle_limits,
+                            "",
+                            R"("type": "number", "description": "A limit of the check.")"};
+
+const Object<SceneDescription> scene{
+    "scene",
+    "A cloth scene. JSON with // comments; SI units, degrees, y up. Unknown keys are errors. Numbers are at most "
+    "3.4e38 in magnitude (single precision).",
+    {
+        {"$schema", text().text, read_address, "Address of this schema, for editors. Ignored."},
+        {"name", &SceneDescription::name, text(), "Name of the scene."},
+        {"time", &SceneDescription::time, time_settings, "Frames and their rate."},
+        {"gravity", &SceneDescription::gravity, vec3, "m/s^2."},
+        {"wind", &SceneDescription::wind, wind, "Wind; none by default."},
+        {"cloths", &SceneDescription::cloths, list<Cloth>(cloth, cloth_count, 1, 1024),
+         "The cloths. They do not collide with each other or with themselves.", cloth_count},
+        {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
+        {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
+         "Triangles that cut the cloth."},
+        {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
+        {"camera", &SceneDescription::camera, camera, "The camera."},
+        {"lights", &SceneDescription::lights, list<DirectionalLight>(light, "an array of at most 4 lights", 0, 4),
+         "Directional lights."},
+        {"ambient", &SceneDescription::ambient, color, "Linear radiance factor of the light from everywhere."},
+        {"image", &SceneDescription::image, image, "The pictures."},
+        {"oracles", &SceneDescription::oracles, list<Oracle>(oracle, "an array of checks", 0, 1024),
+         "Checks the scene promises to meet."},
+    },
+    check_scene};
+
+}  // namespace
+
+bool read_scene_object(const SceneNode& root, SceneDescription& description) { return scene.read(root, description); }
+
+std::vector<const Definition*> scene_definitions() {
+    std::vector<const Definition*> found{&scene.definition()};
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (const Definition* used : found[i]->uses)
+            if (std::ranges::find(found, used) == found.end()) found.push_back(used);
+    return found;
+}
+
+}  // namespace drape

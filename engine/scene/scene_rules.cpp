@@ -1,0 +1,114 @@
+#include "scene/scene_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+namespace {
+
+/// Twice the area over the square of the longest edge: 0 for points on a line, 0.87 for equal edges.
+double shape_quality(const std::array<Vec3, 3>& t) {
+    const auto edge = [&](std::size_t a, std::size_t b) {
+        return Vec3{t[b][0] - t[a][0], t[b][1] - t[a][1], t[b][2] - t[a][2]};
+    };
+    const auto squared = [](const Vec3& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+    const Vec3 u = edge(0, 1), v = edge(0, 2);
+    const Vec3 normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double longest = std::max({squared(u), squared(v), squared(edge(1, 2))});
+    return longest > 0 ? std::sqrt(squared(normal)) / longest : 0;
+}
+
+}  // namespace
+
+Value<MotionPath> motion_path(const Value<MotionKey>& key) {
+    const Value<std::vector<MotionKey>> keys = list(key, "an array of at least 1 key", 1, 1'000'000);
+    return {keys.text, [keys](const SceneNode& node, MotionPath& path) {
+                bool fits = keys.read(node, path.keys);
+                for (std::size_t i = 1; i < path.keys.size(); ++i) {
+                    const SceneNode time = node.element(i).member("t");
+                    const double before = path.keys[i - 1].time;
+                    if (time.is_number() && node.element(i - 1).member("t").is_number() && path.keys[i].time <= before)
+                        fits = time.fail_expected(fmt::format("a time after the previous key's {}", before));
+                }
+                return fits;
+            }};
+}
+
+Value<Stiffness> rigid_or(const Value<Stiffness>& springs) {
+    Value<Stiffness> value = springs;
+    value.text.schema = "\"anyOf\": [{\"const\": \"rigid\"}, {" + springs.text.schema + "}]";
+    value.text.words = "`\"rigid\"` or " + springs.text.words;
+    value.read = [springs](const SceneNode& node, Stiffness& stiffness) {
+        if (!node || node.value()->isObject()) return springs.read(node, stiffness);
+        stiffness.rigid = node.value()->isString() && *node.value() == "rigid";
+        return stiffness.rigid || node.fail_expected("\"rigid\" or an object");
+    };
+    return value;
+}
+
+Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point) {
+    return {{"\"type\": \"array\", \"items\": {" + point.text.schema + "}, \"minItems\": 3, \"maxItems\": 3",
+             "array of 3 points", point.text.uses},
+            [point](const SceneNode& node, std::array<Vec3, 3>& corners) {
+                if (!node.open_array("an array of 3 points", 3, 3)) return !node;
+                bool fits = true;
+                for (std::size_t i = 0; i < 3; ++i) fits = point.read(node.element(i), corners[i]) && fits;
+                // Single precision keeps seven digits: a flatter triangle has no plane there.
+                if (fits && shape_quality(corners) < 1e-5)
+                    return node.fail("expected a triangle with an area, got a degenerate one");
+                return fits;
+            }};
+}
+
+bool check_cutter_times(const SceneNode& node, Cutter& cutter) {
+    std::array<double, 2> times{};
+    if (!two_numbers(not_negative).read(node, times)) return false;
+    cutter.begin = times[0];
+    cutter.end = times[1];
+    return times[0] <= times[1] || node.fail("expected an end that is not before the beginning");
+}
+
+bool check_wind(const Members& members, Wind& wind) {
+    if (members.fit({"velocity"}) && !wind.blows() && wind.gust.amplitude > 0.0)
+        members["gust"].warn("the gust does nothing: it blows along the wind's velocity, which is zero");
+    return true;
+}
+
+bool check_solver(const Members& members, SolverSettings& solver) {
+    const bool is_automatic = solver.method == SolverMethod::automatic;
+    const bool is_explicit = solver.method == SolverMethod::explicit_steps;
+    for (const std::string_view key : {"substeps", "iterations"})
+        if (is_automatic && members[key] && members.fit({key}))
+            members[key].warn(fmt::format("{} is ignored by method auto, which chooses: name a method to set it", key));
+    if (is_explicit && solver.iterations > 1)
+        members["iterations"].warn("iterations is ignored by method explicit: a micro-step solves nothing");
+    if (members["strain_damping"] && members.fit({"strain_damping"}) && !is_explicit && !is_automatic)
+        members["strain_damping"].warn(
+            fmt::format("strain_damping is ignored by method {}", spelling(method_spellings, solver.method)));
+    return true;
+}
+
+bool check_camera(const Members& members, Camera& camera) {
+    if (!members.fit({"position", "target"}) || camera.position != camera.target) return true;
+    return members.object().fail("expected a target away from the camera's position, got the same point");
+}
+
+Value<std::string> check_name() {
+    return {{"\"type\": \"string\", \"minLength\": 1", "string"}, [](const SceneNode& node, std::string& name) {
+                if (node.value()->isString() && node.value()->asString().empty())
+                    return node.fail_expected("the name of a check");
+                return node.read(name);
+            }};
+}
+
+bool read_oracle_limits(const Members& members, Oracle& oracle) {
+    for (const std::string& key : members.object().value()->getMemberNames()) {
+        double limit = 0.0;
+        if (key != "check" && members[key].read(limit, any_number)) oracle.limits.emplace_back(key, limit);
+    }
+    return true;
+}
+
+}  // namespace drape

@@ -1,0 +1,40 @@
+// What a row cannot say: values of a special shape, and what concerns several keys of an object at once.
+#pragma once
+
+#include "scene/scene_value.h"
+
+namespace drape {
+
+inline constexpr std::uint32_t grid_axis_limit = 16384;
+
+/// A name that may become a part of a file name.
+Value<std::string> file_name();
+/// [column, row], within the largest grid: `check_cloth` holds it against the cloth's own.
+Value<IndexBox> particle();
+Value<IndexBox> particle_box(const Value<IndexBox>& particle);
+Value<MotionPath> motion_path(const Value<MotionKey>& key);
+Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
+Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point);
+Value<std::string> check_name();
+
+// The borders and corners of a grid whose last column and row are 1.
+inline constexpr Spelling<IndexBox> edge_spellings[] = {
+    {"left", {{0, 0}, {0, 1}}}, {"right", {{1, 0}, {1, 1}}}, {"top", {{0, 0}, {1, 0}}}, {"bottom", {{0, 1}, {1, 1}}}};
+inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, {0, 0}}},
+                                                          {"top_right", {{1, 0}, {1, 0}}},
+                                                          {"bottom_left", {{0, 1}, {0, 1}}},
+                                                          {"bottom_right", {{1, 1}, {1, 1}}}};
+
+bool check_wind(const Members& members, Wind& wind);
+bool check_placement(const Members& members, Placement& placement);
+bool check_pin(const Members& members, Pin& pin);
+/// Also finds the particles of its pins' edges and corners.
+bool check_cloth(const Members& members, Cloth& cloth);
+/// Also names the nameless cloths.
+bool check_scene(const Members& members, SceneDescription& scene);
+bool check_cutter_times(const SceneNode& node, Cutter& cutter);
+bool check_solver(const Members& members, SolverSettings& solver);
+bool check_camera(const Members& members, Camera& camera);
+bool read_oracle_limits(const Members& members, Oracle& oracle);
+
+}  // namespace drape
