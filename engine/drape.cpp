@@ -11,9 +11,9 @@
 
 #include "frame_loop.h"
 #include "graph/dump.h"
+#include "output/frame_writer.h"
 #include "output/kept_frames.h"
 #include "output/manifest.h"
-#include "output/npy.h"
 #include "output/png_sequence.h"
 #include "output/progress.h"
 #include "run_statistics.h"
@@ -78,70 +78,83 @@ std::string key_of(const RunRequest& request, const LoadedScene& scene, const vu
                                    device.driver_version};
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
     const ImageSettings& image = scene.description.image;
-    parts.push_back(request.draw ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
-                                 : "arrays");
+    parts.push_back(request.draws() ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
+                                    : "arrays");
     return run_key(parts);
 }
 
-/// Where finished frames go: PNG files, position arrays, times.
+std::vector<const OutputFormat*> asked_formats(const RunRequest& request) {
+    std::vector<const OutputFormat*> formats;
+    for (const std::string& name : request.formats) {
+        const OutputFormat* format = find_output_format(name);
+        if (!format) throw UsageError(fmt::format("there is no output format '{}'", name));
+        if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
+    }
+    return formats;
+}
+
+WrittenRun written_run(const SimulationModel& model, const FrameRange& range, const std::string& key) {
+    const SceneDescription& scene = model.scene;
+    WrittenRun run;
+    run.start = range.start, run.end = range.end, run.step = range.step, run.fps = scene.time.fps;
+    run.cuts = !scene.cutters.empty();
+    run.width = scene.image.size[0], run.height = scene.image.size[1];
+    run.key = key;
+    for (const ClothModel& cloth : model.cloths)
+        run.cloths.push_back({model.cloths.size() == 1 ? "" : cloth.name, cloth.grid.columns(), cloth.grid.rows(),
+                              cloth.grid.triangle_indices()});
+    return run;
+}
+
+/// Where finished frames go: the writers of the formats, statistics, times.
 class Sink {
   public:
-    Sink(OutputFolder& folder, const SimulationModel& model, const RunRequest& request, const FrameRange& range,
-         const std::string& key)
-        : folder_(folder), export_faces_(request.export_npy), model_(model), scene_(model.scene) {
-        if (request.draw) {
-            const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-            pictures_ = std::make_unique<PngSequence>(folder, frame_digits(range.end), std::min(cores, 4u), key);
-        }
-        if (!request.export_npy) return;
-        for (std::size_t cloth = 0; !model.scene.cutters.empty() && cloth < model.cloths.size(); ++cloth)
-            write_face_list(0, cloth, model.cloths[cloth].grid.triangle_indices());
-        for (const ClothModel& cloth : model.cloths) {
-            const std::string name =
-                model.cloths.size() == 1 ? "positions.npy" : fmt::format("positions_{}.npy", cloth.name);
-            arrays_.push_back(
-                std::make_unique<NpyWriter>(folder, name, range.count(), cloth.grid.rows(), cloth.grid.columns()));
-        }
+    /// `kept`: frames whose pictures are there already.
+    Sink(OutputFolder& folder, const RunRequest& request, const SimulationModel& model, const WrittenRun& run,
+         const std::map<std::uint32_t, KeptFrame>& kept)
+        : model_(model), kept_(kept) {
+        for (const OutputFormat* format : asked_formats(request))
+            writers_.push_back({format, format->open(folder, run)});
+        for (const auto& [frame, picture] : kept) statistics_.add(frame, picture.values);
     }
 
     /// Throws Diverged or ToleranceMissed before anything of the frame is kept.
     void add(const FinishedFrame& frame) {
         if (const auto why = divergence(model_, frame.frame, frame.statistics)) throw Diverged(*why);
         if (const auto why = missed_tolerance(model_, frame.frame, frame.statistics)) throw ToleranceMissed(*why);
-        FrameValues values = frame_values(model_, frame.statistics);
-        statistics_.add(frame.frame, values);
-        if (pictures_) {
-            std::vector<std::uint8_t> rgba = pictures_->take_buffer(frame.rgba.size());
-            std::ranges::copy(frame.rgba, rgba.begin());
-            pictures_->submit(frame.frame, scene_.image.size[0], scene_.image.size[1], std::move(rgba),
-                              std::move(values));
-        }
-        for (std::size_t cloth = 0; cloth < arrays_.size(); ++cloth)
-            arrays_[cloth]->append_frame_xyzw(frame.positions[cloth]);
+        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(model_, frame.statistics)};
+        statistics_.add(frame.frame, written.values);
+        for (const Writer& writer : writers_)
+            if (!writer.format->draws || !kept_.contains(frame.frame)) writer.files->add(written);
         for (const graph::Timing& timing : frame.timings) stages_[timing.name].push_back(timing.milliseconds);
         const auto now = std::chrono::steady_clock::now();
         frame_ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
         last_ = now;
     }
 
-    /// The face list after a cut is named for the first frame that it holds for.
     void add_cut(const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
         cuts_.push_back({event.frame, cloth.name, event.counts.springs, event.counts.triangles});
-        if (export_faces_) write_face_list(event.frame + 1, event.cloth, topology.whole_triangles(cloth));
+        const std::vector<std::uint32_t> faces = topology.whole_triangles(cloth);
+        for (const Writer& writer : writers_) writer.files->set_faces(event.frame + 1, event.cloth, faces);
     }
 
     const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
 
     /// Of the frames added, and of those that a resumed run keeps.
-    RunStatistics& statistics() { return statistics_; }
+    const RunStatistics& statistics() const { return statistics_; }
 
-    std::vector<FileRecord> finish() {
-        std::vector<FileRecord> files = std::move(face_files_);
-        if (pictures_) {
-            const std::vector<FileRecord> pictures = pictures_->finish();
-            files.insert(files.end(), pictures.begin(), pictures.end());
+    /// The files of all formats, those kept included; of a run that was stopped only the files of single frames, as
+    /// the others would look complete: `dropped` says which.
+    std::vector<FileRecord> finish(bool complete, std::vector<std::string>& dropped) {
+        std::vector<FileRecord> files;
+        for (const Writer& writer : writers_) {
+            if (complete || writer.format->frame_files)
+                std::ranges::move(writer.files->finish(), std::back_inserter(files));
+            else
+                dropped.emplace_back(writer.format->name);
         }
-        for (const auto& array : arrays_) files.push_back(array->finish());
+        for (const auto& [frame, picture] : kept_) files.push_back(picture.file);
+        std::ranges::sort(files, {}, &FileRecord::name);
         return files;
     }
 
@@ -152,20 +165,16 @@ class Sink {
     }
 
   private:
-    void write_face_list(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
-        const std::string own = model_.cloths.size() == 1 ? "" : model_.cloths[cloth].name + "_";
-        face_files_.push_back(write_faces(folder_, fmt::format("faces_{}{:04}.npy", own, frame), faces));
-    }
+    struct Writer {
+        const OutputFormat* format;
+        std::unique_ptr<FrameWriter> files;
+    };
 
-    OutputFolder& folder_;
-    bool export_faces_;
-    std::vector<FileRecord> face_files_;
+    const SimulationModel& model_;
+    const std::map<std::uint32_t, KeptFrame>& kept_;
+    std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;
     RunStatistics statistics_;
-    const SimulationModel& model_;
-    const SceneDescription& scene_;
-    std::unique_ptr<PngSequence> pictures_;
-    std::vector<std::unique_ptr<NpyWriter>> arrays_;
     std::map<std::string, std::vector<double>> stages_;
     std::vector<double> frame_ms_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -180,7 +189,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
     manifest.device = {info.name, info.driver, info.driver_version, info.api_version, info.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
-    if (request.draw)
+    if (request.draws())
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
     const bool chosen = model.asked_method == SolverMethod::automatic;
     manifest.solver = {model.method_name(),  scene.solver.substeps, scene.solver.iterations, scene.solver.tethers,
@@ -231,7 +240,7 @@ std::vector<std::string> notes(const vulkan::Device& device, const SimulationMod
                         graph::size_text(budget.limit()))};
 }
 
-/// The frames of the range whose pictures are not there yet, and those that are.
+/// Frames of the range that have to be handed out, and those whose pictures are there already.
 struct MissingFrames {
     std::set<std::uint32_t> frames;
     std::map<std::uint32_t, KeptFrame> kept;
@@ -241,13 +250,15 @@ MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& reque
                              const std::string& key) {
     std::map<std::string, KeptFrame> there;
     if (request.existing == ExistingFiles::resume) there = kept_frames(folder, key);
+    const bool only_pictures =
+        std::ranges::all_of(asked_formats(request), [](const OutputFormat* format) { return format->draws; });
     MissingFrames missing;
-    for (std::uint64_t frame = range.start; frame <= range.end; frame += range.step) {
+    for (std::uint64_t number = range.start; number <= range.end; number += range.step) {
+        const auto frame = static_cast<std::uint32_t>(number);
         const auto kept = there.find(frame_file_name(frame, frame_digits(range.end)));
-        if (request.draw && kept != there.end())
-            missing.kept.emplace(static_cast<std::uint32_t>(frame), kept->second);
-        else
-            missing.frames.insert(static_cast<std::uint32_t>(frame));
+        const bool is_kept = request.draws() && kept != there.end();
+        if (is_kept) missing.kept.emplace(frame, kept->second);
+        if (!is_kept || !only_pictures) missing.frames.insert(frame);
     }
     return missing;
 }
@@ -257,7 +268,7 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
                   const RunRequest& request, RunSummary& summary) {
     // A run again would fail again at the same frame: what came before it is the result.
     const auto keep_the_rest = [&](const std::runtime_error& error) {
-        if (summary.frame_count > 0) sink.finish();
+        if (summary.frame_count > 0) sink.finish(true, summary.dropped);
         const std::string kept = fmt::format("; what was written before it is kept ({} of {} frames)",
                                              summary.frame_count, missing.frames.size());
         return error.what() + (summary.frame_count > 0 ? kept : std::string());
@@ -269,7 +280,7 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
             [&](const FinishedFrame& frame) {
                 sink.add(frame);
                 progress.frame_done(frame.frame, sink.statistics().note(frame.frame));
-                ++summary.frame_count;
+                if (!missing.kept.contains(frame.frame)) ++summary.frame_count;
             },
             request.stop);
     } catch (const Diverged& error) {
@@ -284,6 +295,10 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
 SceneFailure::SceneFailure(SceneResult result) : std::runtime_error(failure_text(result)), result_(std::move(result)) {}
 
 const char* program_version() { return DRAPE_VERSION; }
+
+bool RunRequest::draws() const {
+    return std::ranges::any_of(asked_formats(*this), [](const OutputFormat* format) { return format->draws; });
+}
 
 SceneDescription load_scene(const SceneRequest& request, std::vector<std::string>* warnings) {
     LoadedScene loaded = load(request);
@@ -311,7 +326,9 @@ RunSummary run_scene(const RunRequest& request) {
     Manifest manifest;
     {
         Sink* cut_sink = nullptr;
-        FrameLoopOptions options = loop_options(scene.description, request.draw, request.export_npy);
+        FrameLoopOptions options = loop_options(
+            scene.description, request.draws(),
+            std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; }));
         options.on_cut = [&](const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
             if (cut_sink) cut_sink->add_cut(event, cloth, topology);
         };
@@ -319,9 +336,8 @@ RunSummary run_scene(const RunRequest& request) {
         if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);
         manifest = describe_run(request, scene, model, device, loop, range);
         manifest.run_key = key;
-        Sink sink(folder, model, request, range, key);
+        Sink sink(folder, request, model, written_run(model, range, key), missing.kept);
         cut_sink = &sink;
-        for (const auto& [frame, kept] : missing.kept) sink.statistics().add(frame, kept.values);
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
         const std::uint32_t last = to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
@@ -330,10 +346,7 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.cuts = sink.cuts();
         manifest.statistics = sink.statistics().frames();
         manifest.solver.stretch_error = sink.statistics().worst_stretch_error();
-        // Arrays of a stopped run would look complete; its pictures each are.
-        if (summary.complete || request.draw) manifest.files = sink.finish();
-        for (const auto& [frame, kept] : missing.kept) manifest.files.push_back(kept.file);
-        std::ranges::sort(manifest.files, {}, &FileRecord::name);
+        manifest.files = sink.finish(summary.complete, summary.dropped);
         sink.add_timings(manifest);
     }
     summary.validation_count = instance.validation_log().count();

@@ -1,5 +1,4 @@
-// The public face of the library: run a scene into a folder of PNG files or position arrays, or look at the
-// graph that would run.
+// Runs a scene into a folder of pictures, arrays and meshes, or shows the graph that would run.
 #pragma once
 
 #include <array>
@@ -56,8 +55,7 @@ struct RunRequest {
     SceneRequest scene;
     std::string output;  ///< folder
     ExistingFiles existing = ExistingFiles::refuse;
-    bool draw = true;         ///< PNG files
-    bool export_npy = false;  ///< positions.npy, or positions_<cloth>.npy
+    std::vector<std::string> formats{"png"};  ///< names of output/frame_writer.h's table
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
     bool quiet = false;    ///< no progress
@@ -65,6 +63,8 @@ struct RunRequest {
     std::vector<std::string> command_line;
     std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
     std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
+
+    bool draws() const;  ///< some format needs pictures
 };
 
 struct RunSummary {
@@ -72,6 +72,7 @@ struct RunSummary {
     std::uint64_t kept_count = 0;        ///< of an earlier run, kept by ExistingFiles::resume
     std::uint64_t validation_count = 0;  ///< messages
     bool complete = true;                ///< false: stopped before the last frame; no manifest was written
+    std::vector<std::string> dropped;    ///< formats of which a stopped run leaves nothing
     std::vector<std::string> warnings;
 };
 
@@ -81,8 +82,9 @@ struct RunSummary {
 /// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
 /// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
 /// bytes of an undisturbed run, but for the manifest's "run". Pictures of any other run are an OutputError.
-/// Arrays appear only when complete, or, with the frames before it, when the simulation diverged or missed its
-/// tolerance. Whether it did is seen at the frames that are written.
+/// What other formats write is written anew. Files of several frames appear only when complete, or, with the frames
+/// before it, when the simulation diverged or missed its tolerance. Whether it did is seen at the frames that are
+/// written.
 RunSummary run_scene(const RunRequest& request);
 
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.

@@ -35,12 +35,12 @@ std::string frame_count_text(std::uint64_t count) { return fmt::format("{} frame
 
 ExitCode report_stop(const RunRequest& request, const RunSummary& summary) {
     const bool terminated = signal_number == SIGTERM;
-    print_error(fmt::format(
-        "stopped by {}: {}; no manifest was written{}", terminated ? "SIGTERM" : "SIGINT",
-        request.draw
-            ? fmt::format("{} in {}", frame_count_text(summary.frame_count + summary.kept_count), request.output)
-            : "the arrays, incomplete, were dropped",
-        request.draw ? "; --resume draws the missing ones" : ""));
+    std::string left;
+    if (summary.dropped.size() < request.formats.size())
+        left = fmt::format("{} in {}; ", frame_count_text(summary.frame_count + summary.kept_count), request.output);
+    if (!summary.dropped.empty()) left += fmt::format("{}, incomplete, dropped; ", fmt::join(summary.dropped, ", "));
+    print_error(fmt::format("stopped by {}: {}no manifest was written{}", terminated ? "SIGTERM" : "SIGINT", left,
+                            request.draws() ? "; --resume draws the missing ones" : ""));
     return terminated ? ExitCode::terminated : ExitCode::interrupted;
 }
 

@@ -31,13 +31,14 @@ Examples:
 )text";
 
 constexpr const char* simulate_examples = R"text(
-Writes positions.npy, or positions_CLOTH.npy for each of several cloths: float32 [frame, row, column, 3], metres;
-and, last, manifest.json. When a position is no longer finite the run ends with exit code 5; the arrays then hold
+Writes positions.npy, or positions_CLOTH.npy for each of several cloths, or what --export asks for, named likewise;
+and, last, manifest.json. When a position is no longer finite the run ends with exit code 5; the files then hold
 the frames before.
 
 Examples:
   drape simulate scenes/hanging_sheet.json -o out/hang
   drape simulate scenes/flag.json -o out/flag -s 60 -j 2 -q
+  drape simulate scenes/flag.json -o out/flag --export pc2,npz
   python3 -c "import numpy; print(numpy.load('out/hang/positions.npy').shape)"
 )text";
 
@@ -93,20 +94,10 @@ void add_runs(CLI::App& app, CommandLine& line) {
     drape::cli::add_image_options(*command, line.render.scene);
     command->callback([&line] { line.code = drape::cli::run(line.render); });
 
-    line.simulate.draw = false;
-    line.simulate.export_npy = true;
-    command = app.add_subcommand("simulate", "Simulate a scene without drawing: positions as NumPy arrays");
+    line.simulate.formats = {"npy"};
+    command = app.add_subcommand("simulate", "Simulate a scene without drawing: positions and meshes");
     command->footer(footer(simulate_examples));
     drape::cli::add_run_options(*command, line.simulate);
-    const auto check_export = [](const std::string& text) {
-        return text == "npy" ? std::string() : "expected npy, the one format there is, got '" + text + "'";
-    };
-    command
-        ->add_option_function<std::vector<std::string>>(
-            "--export", [](const std::vector<std::string>&) {}, "What to write: npy; default: npy")
-        ->delimiter(',')
-        ->type_name("FORMAT")
-        ->check(check_export, "");
     command->callback([&line] { line.code = drape::cli::run(line.simulate); });
 }
 

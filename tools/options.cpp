@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <functional>
 
+#include "output/frame_writer.h"
+
 namespace drape::cli {
 
 namespace {
@@ -46,6 +48,40 @@ std::array<std::uint32_t, 2> parse_size(const std::string& text) {
 std::string check_override(const std::string& text) {
     if (text.starts_with('/') && text.find('=') != std::string::npos) return {};
     return fmt::format("expected /json/pointer=value, got '{}'", text);
+}
+
+std::string check_format(const std::string& name) {
+    const OutputFormat* format = find_output_format(name);
+    return format && !format->draws ? std::string()
+                                    : fmt::format("expected {}, got '{}'", undrawn_format_names(), name);
+}
+
+/// A paragraph per format that needs no picture.
+std::string format_help() {
+    std::string text;
+    for (const OutputFormat* format : output_formats()) {
+        std::string help(format->help);
+        for (std::size_t end = help.find('\n'); end != std::string::npos; end = help.find('\n', end + 1))
+            help.insert(end + 1, 5, ' ');
+        if (!format->draws) text += fmt::format("\n{:5}{}", format->name, help);
+    }
+    return text;
+}
+
+/// --export: beside the pictures, or instead of what `request` has.
+void add_export_option(CLI::App& command, RunRequest& request) {
+    const auto set = [&request](const std::vector<std::string>& names) {
+        if (!request.draws()) request.formats.clear();
+        request.formats.insert(request.formats.end(), names.begin(), names.end());
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--export", set,
+            (request.draws() ? "What to write beside the pictures; default: nothing" : "What to write; default: npy") +
+                format_help())
+        ->delimiter(',')
+        ->type_name("FORMAT,...")
+        ->check(check_format, "");
 }
 
 }  // namespace
@@ -123,18 +159,19 @@ void add_run_options(CLI::App& command, RunRequest& request) {
         "Write every N-th frame, counted from --start; default: 1. All frames up to\n"
         "the last one are simulated")
         ->type_name("N");
+    add_export_option(command, request);
     CLI::Option* overwrite = command.add_flag_callback(
         "--overwrite", [&request] { request.existing = ExistingFiles::overwrite; },
         "Replace the files an earlier run wrote there; others stay");
     command
         .add_flag_callback(
             "--resume", [&request] { request.existing = ExistingFiles::resume; },
-            request.draw ? "Keep the pictures that an unfinished run of the same scene, size, samples,\n"
-                           "program, device and driver left there, and draw the missing ones; the result\n"
-                           "has the bytes of an undisturbed run. Refused, changing nothing, when a\n"
-                           "picture there is any other's"
-                         : "Run again in the folder of an unfinished run of the same scene, program,\n"
-                           "device and driver: arrays appear only when complete")
+            request.draws() ? "Keep the pictures that an unfinished run of the same scene, size, samples,\n"
+                              "program, device and driver left there, and draw the missing ones; the result\n"
+                              "has the bytes of an undisturbed run. Refused, changing nothing, when a\n"
+                              "picture there is any other's"
+                            : "Run again in the folder of an unfinished run of the same scene, program,\n"
+                              "device and driver: arrays appear only when complete")
         ->excludes(overwrite);
     CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")

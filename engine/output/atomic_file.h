@@ -42,6 +42,8 @@ class AtomicFile {
     // Overwrites bytes appended before (a header known only at the end).
     void rewrite(std::uint64_t offset, std::span<const std::byte> bytes);
     std::uint64_t size() const { return size_; }
+    // To read back what was written so far; the file has no name of its own yet.
+    int descriptor() const { return descriptor_.get(); }
 
     FileRecord commit();
 

@@ -8,16 +8,13 @@
 
 #include "output/json_text.h"
 #include "output/png.h"
+#include "output/png_sequence.h"
 
 namespace drape {
 
 namespace {
 
 constexpr std::string_view remedy = "use --overwrite to replace an earlier run's files, or choose another folder";
-
-bool is_frame_file_name(std::string_view name) {
-    return name.starts_with("frame_") && is_output_file_name(name) && !is_temporary_file_name(name);
-}
 
 // Compared as text: a frame number may have more digits than any integer type.
 std::string_view without_zeros(std::string_view digits) {

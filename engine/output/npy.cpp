@@ -54,13 +54,19 @@ std::string NpyWriter::header(std::uint64_t frame_count) const {
     return npy_header("<f4", fmt::format("{}, {}, {}, 3", frame_count, row_count_, column_count_));
 }
 
-FileRecord write_faces(OutputFolder& folder, const std::string& name, std::span<const std::uint32_t> indices) {
-    const std::string header = npy_header("<i4", fmt::format("{}, 3", indices.size() / 3));
-    const std::span<const std::byte> body = std::as_bytes(indices);
-    std::vector<std::byte> file(header.size() + body.size());
-    std::memcpy(file.data(), header.data(), header.size());
-    if (!body.empty()) std::memcpy(file.data() + header.size(), body.data(), body.size());
-    return write_file(folder, name, file);
+std::vector<float> without_w(std::span<const float> xyzw) {
+    std::vector<float> xyz(xyzw.size() / 4 * 3);
+    for (size_t particle = 0; particle < xyzw.size() / 4; ++particle)
+        for (size_t axis = 0; axis < 3; ++axis) xyz[3 * particle + axis] = xyzw[4 * particle + axis];
+    return xyz;
+}
+
+std::string npy_array(const char* type, const std::string& shape, std::span<const std::byte> values) {
+    return npy_header(type, shape).append(reinterpret_cast<const char*>(values.data()), values.size());
+}
+
+std::string face_array(std::span<const std::uint32_t> indices) {
+    return npy_array("<i4", fmt::format("{}, 3", indices.size() / 3), std::as_bytes(indices));
 }
 
 void NpyWriter::append_frame(std::span<const float> xyz) {
@@ -78,17 +84,17 @@ void NpyWriter::append_frame_xyzw(std::span<const float> xyzw) {
         throw std::invalid_argument(fmt::format("NPY frame {}: expected {} floats, got {}", written_count_,
                                                 size_t{row_count_} * column_count_ * 4, xyzw.size()));
     }
-    packed_.resize(xyzw.size() / 4 * 3);
-    for (size_t particle = 0; particle < xyzw.size() / 4; ++particle) {
-        for (size_t axis = 0; axis < 3; ++axis) packed_[3 * particle + axis] = xyzw[4 * particle + axis];
-    }
-    append_frame(packed_);
+    append_frame(without_w(xyzw));
+}
+
+const AtomicFile& NpyWriter::contents() {
+    if (written_count_ != announced_count_) file_.rewrite(0, bytes_of(header(written_count_)));
+    announced_count_ = written_count_;
+    return file_;
 }
 
 FileRecord NpyWriter::finish() {
-    if (written_count_ != announced_count_) {
-        file_.rewrite(0, bytes_of(header(written_count_)));
-    }
+    contents();
     return file_.commit();
 }
 

@@ -9,8 +9,14 @@
 
 namespace drape {
 
-// Writes a face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
-FileRecord write_faces(OutputFolder& folder, const std::string& name, std::span<const std::uint32_t> indices);
+// x y z per particle, of x y z w.
+std::vector<float> without_w(std::span<const float> xyzw);
+
+// A whole NumPy file: `type` as NumPy spells it ("<f4"), `shape` as in a tuple ("2, 3" or "2,").
+std::string npy_array(const char* type, const std::string& shape, std::span<const std::byte> values);
+
+// A face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
+std::string face_array(std::span<const std::uint32_t> indices);
 
 // Streams positions into a NumPy file: little-endian float32, C order, shape [frame, row, column, 3].
 // Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html (version 1.0). The file
@@ -32,6 +38,8 @@ class NpyWriter {
 
     // The header is corrected when fewer or more frames came than announced (an interrupted run).
     FileRecord finish();
+    // The file as finish() would leave it, for a writer that ends without.
+    const AtomicFile& contents();
 
   private:
     std::string header(std::uint64_t frame_count) const;
@@ -40,7 +48,6 @@ class NpyWriter {
     std::uint64_t written_count_ = 0;
     std::uint32_t row_count_;
     std::uint32_t column_count_;
-    std::vector<float> packed_;
     AtomicFile file_;
 };
 

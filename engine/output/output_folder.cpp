@@ -16,6 +16,8 @@
 #include <set>
 #include <system_error>
 
+#include "output/frame_writer.h"
+
 namespace drape {
 
 namespace fs = std::filesystem;
@@ -29,16 +31,15 @@ bool all_digits(std::string_view text) {
 }
 
 bool is_finished_file_name(std::string_view name) {
-    constexpr std::string_view frame = "frame_", png = ".png", positions = "positions", npy = ".npy", faces = "faces_";
-    if (name == manifest_file_name) return true;
-    if (name.starts_with(frame) && name.ends_with(png)) {
-        name.remove_prefix(frame.size());
-        name.remove_suffix(std::min(png.size(), name.size()));
-        return name.size() >= 4 && all_digits(name);
-    }
-    if (name.starts_with(faces) && name.ends_with(npy)) return true;
-    return name == "positions.npy" ||
-           (name.starts_with(positions) && name.ends_with(npy) && name[positions.size()] == '_');
+    return name == manifest_file_name ||
+           std::ranges::any_of(output_formats(), [&](const OutputFormat* format) { return format->owns(name); });
+}
+
+// One file per frame, of whatever run: beside the frames of another it would look like one of them.
+bool is_loose_frame_file_name(std::string_view name) {
+    return std::ranges::any_of(output_formats(), [&](const OutputFormat* format) {
+        return format->frame_files && !format->resumes && format->owns(name);
+    });
 }
 
 // The file names a manifest lists, whatever they are (only names found in the folder are ever removed);
@@ -192,7 +193,8 @@ void OutputFolder::check_content(ExistingFiles existing) {
     for (const Entry& entry : entries) {
         if (entry.is_folder) continue;
         const bool goes = existing == ExistingFiles::resume
-                              ? is_temporary_file_name(entry.name) || entry.name == manifest_file_name
+                              ? is_temporary_file_name(entry.name) || is_loose_frame_file_name(entry.name) ||
+                                    entry.name == manifest_file_name
                               : is_output_file_name(entry.name) || listed.contains(entry.name);
         if (goes) files_to_remove_.push_back(entry.name);
     }

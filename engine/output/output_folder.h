@@ -20,7 +20,8 @@ inline constexpr std::string_view manifest_format = "drape manifest 1";
 enum class ExistingFiles {
     refuse,
     overwrite,  // remove what an earlier run wrote, leave every other file alone
-    resume,     // keep the earlier run's files, except its manifest ("done") and its unfinished temporaries
+    resume,     // keep the earlier run's files, except its manifest ("done"), its unfinished temporaries, and files of
+                // single frames that do not say which run they are of
 };
 
 // The folder of one run. While this object lives the folder is locked against other drape processes and files
@@ -86,8 +87,8 @@ class OutputFolder {
 // True for a name that stays in its folder: not empty, no '/', not "." or "..".
 bool is_plain_file_name(std::string_view name);
 
-// True for the names this program gives its files (frame_0001.png, positions.npy, positions_<cloth>.npy,
-// manifest.json) and for the temporary names they have while being written.
+// True for the names this program gives its files (those of its formats and manifest.json) and for the temporary names
+// they have while being written.
 bool is_output_file_name(std::string_view name);
 bool is_temporary_file_name(std::string_view name);
 

@@ -10,11 +10,14 @@
 
 namespace drape {
 
-int frame_digits(std::uint64_t last_frame) {
-    return std::max(4, static_cast<int>(fmt::formatted_size("{}", last_frame)));
+std::string frame_file_name(std::uint64_t frame, int digits) {
+    return cloth_frame_file_name("frame", WrittenCloth{}, frame, digits, "png");
 }
 
-std::string frame_file_name(std::uint64_t frame, int digits) { return fmt::format("frame_{:0{}}.png", frame, digits); }
+bool is_frame_file_name(std::string_view name) {
+    // No cloth's name: a picture shows all of them.
+    return is_cloth_frame_file_name(name, "frame", "png") && name.find('_') == name.rfind('_');
+}
 
 PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key)
     : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)), run_key_(std::move(run_key)) {

@@ -10,15 +10,13 @@
 #include <thread>
 #include <vector>
 
-#include "output/atomic_file.h"
-#include "output/kept_frames.h"
+#include "output/frame_writer.h"
 
 namespace drape {
 
-// Digits of the frame numbers in file names: enough for the last frame, at least four.
-int frame_digits(std::uint64_t last_frame);
 // "frame_0001.png"
 std::string frame_file_name(std::uint64_t frame, int digits);
+bool is_frame_file_name(std::string_view name);
 
 // Writes frames as PNG files on worker threads while the caller computes the next ones. Which thread writes a
 // frame changes no byte of it.

@@ -30,7 +30,8 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     }
     EXPECT_THAT(drape({"render", "-h"}).out,
                 AllOf(HasSubstr("--resume"), HasSubstr("default: 0, the initial state"), HasSubstr("in pixels")));
-    EXPECT_THAT(drape({"simulate", "-h"}).out, HasSubstr("float32 [frame, row, column, 3], metres"));
+    EXPECT_THAT(drape({"simulate", "-h"}).out, AllOf(HasSubstr("float32 [frame, row, column, 3], metres"),
+                                                     HasSubstr("  obj "), Not(HasSubstr("png"))));
 }
 
 TEST(Help, ExplainsEveryExitCode) {
@@ -102,7 +103,9 @@ const WrongUsage wrong_usages[] = {
     {"SetWithNothing", {"render", "SCENE", "-o", "OUT", "--set"}, "--set: 1 required /POINTER=VALUE missing"},
     {"OverwriteAndResume", {"render", "SCENE", "-o", "OUT", "--overwrite", "--resume"}, "excludes"},
     {"QuietAndVerbose", {"render", "SCENE", "-o", "OUT", "-q", "-v"}, "excludes"},
-    {"Export", {"simulate", "SCENE", "-o", "OUT", "--export", "npy,pc2"}, "expected npy, the one format"},
+    {"Export",
+     {"simulate", "SCENE", "-o", "OUT", "--export", "npy,fbx"},
+     "expected npy, npz, pc2, obj, ply, got 'fbx'"},
     {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text, json or dot, got 'svg'"},
 };
 INSTANTIATE_TEST_SUITE_P(Wrong, Usage, testing::ValuesIn(wrong_usages),

@@ -1,0 +1,55 @@
+#include "output/frame_writer.h"
+#include "output/npy.h"
+
+namespace drape {
+
+namespace {
+
+class NpyFiles : public FrameWriter {
+  public:
+    NpyFiles(OutputFolder& folder, const WrittenRun& run) : folder_(folder), run_(run) {
+        for (std::size_t cloth = 0; cloth < run_.cloths.size(); ++cloth) {
+            const WrittenCloth& written = run_.cloths[cloth];
+            if (run_.cuts) set_faces(0, cloth, written.faces);
+            arrays_.push_back(std::make_unique<NpyWriter>(folder, cloth_file_name("positions", written, "npy"),
+                                                          run_.frame_count(), written.rows, written.columns));
+        }
+    }
+
+    void add(const WrittenFrame& frame) override {
+        for (std::size_t cloth = 0; cloth < arrays_.size(); ++cloth)
+            arrays_[cloth]->append_frame_xyzw(frame.positions[cloth]);
+    }
+
+    void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override {
+        const std::string name = cloth_frame_file_name("faces", run_.cloths[cloth], frame, frame_digits(0), "npy");
+        files_.push_back(write_file(folder_, name, bytes_of(face_array(faces))));
+    }
+
+    std::vector<FileRecord> finish() override {
+        for (const auto& array : arrays_) files_.push_back(array->finish());
+        return std::move(files_);
+    }
+
+  private:
+    OutputFolder& folder_;
+    WrittenRun run_;
+    std::vector<std::unique_ptr<NpyWriter>> arrays_;
+    std::vector<FileRecord> files_;
+};
+
+}  // namespace
+
+extern const OutputFormat npy_format{.name = "npy",
+                                     .help =
+                                         "positions.npy: float32 [frame, row, column, 3], metres; with cutters\n"
+                                         "faces_FRAME.npy, int32 [face, 3], from that frame on",
+                                     .frame_files = false,
+                                     .owns =
+                                         [](std::string_view name) {
+                                             return is_cloth_file_name(name, "positions", "npy") ||
+                                                    is_cloth_frame_file_name(name, "faces", "npy");
+                                         },
+                                     .open = open_writer<NpyFiles>};
+
+}  // namespace drape

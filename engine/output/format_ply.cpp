@@ -1,0 +1,47 @@
+// Polygon file format, binary: a text header, then vertices (x y z, s t) and triangles as they lie in memory.
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "output/mesh_text.h"
+
+namespace drape {
+
+static_assert(std::endian::native == std::endian::little, "meshes are written as they lie in memory");
+
+namespace {
+
+template <class T>
+void append(std::string& text, T value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string ply_text(const WrittenCloth& cloth, std::span<const float> xyzw) {
+    std::string text = fmt::format(
+        "ply\nformat binary_little_endian 1.0\ncomment metres, y up; vertex row * columns + column is that particle\n"
+        "element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        cloth.particle_count(), cloth.faces.size() / 3);
+    for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle) {
+        for (std::size_t axis = 0; axis < 3; ++axis) append(text, xyzw[4 * particle + axis]);
+        for (const float coordinate : cloth.uv(particle)) append(text, coordinate);
+    }
+    for (std::size_t i = 0; i + 2 < cloth.faces.size(); i += 3) {
+        append(text, std::uint8_t{3});
+        for (std::size_t corner = 0; corner < 3; ++corner) append(text, cloth.faces[i + corner]);
+    }
+    return text;
+}
+
+}  // namespace
+
+extern const OutputFormat ply_format{
+    .name = "ply",
+    .help = "mesh_FRAME.ply: the same, binary",
+    .frame_files = true,
+    .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "ply"); },
+    .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {
+        return std::make_unique<MeshSequence>(folder, run, "ply", ply_text);
+    }};
+
+}  // namespace drape

@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <thread>
+
+#include "output/frame_writer.h"
+#include "output/png_sequence.h"
+
+namespace drape {
+
+namespace {
+
+class PngWriter : public FrameWriter {
+  public:
+    PngWriter(OutputFolder& folder, const WrittenRun& run)
+        : width_(run.width),
+          height_(run.height),
+          sequence_(folder, frame_digits(run.end), std::clamp(std::thread::hardware_concurrency(), 1u, 4u), run.key) {}
+
+    void add(const WrittenFrame& frame) override {
+        std::vector<std::uint8_t> rgba = sequence_.take_buffer(frame.rgba.size());
+        std::ranges::copy(frame.rgba, rgba.begin());
+        sequence_.submit(frame.number, width_, height_, std::move(rgba), frame.values);
+    }
+
+    std::vector<FileRecord> finish() override { return sequence_.finish(); }
+
+  private:
+    std::uint32_t width_, height_;
+    PngSequence sequence_;
+};
+
+}  // namespace
+
+extern const OutputFormat png_format{.name = "png",
+                                     .help = "frame_0000.png ...: 8-bit sRGB",
+                                     .draws = true,
+                                     .resumes = true,
+                                     .frame_files = true,
+                                     .owns = is_frame_file_name,
+                                     .open = open_writer<PngWriter>};
+
+}  // namespace drape

@@ -1,0 +1,34 @@
+// Meshes as files: one per frame and cloth, in what a format makes of a mesh.
+#pragma once
+
+#include "output/frame_writer.h"
+
+namespace drape {
+
+/// The mesh of a cloth: its `faces`, and x y z (m) and w per particle.
+using MeshText = std::string (*)(const WrittenCloth& cloth, std::span<const float> xyzw);
+
+/// Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all that the
+/// faces name, then the faces. Numbers have the fewest digits that read back as the same float.
+std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
+                     const std::vector<std::uint32_t>& particles);
+
+/// mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths.
+class MeshSequence : public FrameWriter {
+  public:
+    MeshSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshText text)
+        : folder_(folder), run_(run), extension_(std::move(extension)), text_(text) {}
+
+    void add(const WrittenFrame& frame) override;
+    void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override;
+    std::vector<FileRecord> finish() override { return std::move(files_); }
+
+  private:
+    OutputFolder& folder_;
+    WrittenRun run_;  ///< with the faces as they are now
+    std::string extension_;
+    MeshText text_;
+    std::vector<FileRecord> files_;
+};
+
+}  // namespace drape

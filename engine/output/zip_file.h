@@ -1,0 +1,36 @@
+// A ZIP archive of files stored as they are, by libzip.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/atomic_file.h"
+
+namespace drape {
+
+/// Appears under its name complete or not at all. The same parts give the same bytes: dates are those of no time.
+class ZipFile {
+  public:
+    ZipFile(OutputFolder& folder, std::string name) : file_(folder, std::move(name)) {}
+
+    void add(std::string part_name, std::string bytes) { parts_.push_back({std::move(part_name), std::move(bytes)}); }
+    /// What `contents`, which must live until the commit, holds by then.
+    void add(std::string part_name, const AtomicFile& contents) {
+        parts_.push_back({std::move(part_name), {}, &contents});
+    }
+
+    /// Throws OutputError.
+    FileRecord commit();
+
+  private:
+    struct Part {
+        std::string name, bytes;
+        const AtomicFile* contents = nullptr;  ///< instead of bytes
+    };
+
+    AtomicFile file_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace drape

@@ -1,0 +1,292 @@
+// Every output format: the promises that all keep, and what is in the files by readers that share nothing with them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "output/frame_writer.h"
+#include "temporary_folder.h"
+
+namespace drape {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+using Positions = std::vector<float>;  ///< x y z per particle
+
+/// Two cloths, of 3 x 2 and 2 x 2 particles; the first loses a triangle with frame 12.
+WrittenRun two_cloths() {
+    WrittenRun run;
+    run.start = 10, run.end = 14, run.step = 2, run.fps = 50, run.cuts = true;
+    run.width = 4, run.height = 2, run.key = "key";
+    run.cloths = {{"flag", 3, 2, {0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5}}, {"rag", 2, 2, {0, 2, 1, 1, 2, 3}}};
+    return run;
+}
+
+const std::vector<std::uint32_t> whole_flag = two_cloths().cloths[0].faces, cut_flag{0, 3, 1, 1, 4, 2, 2, 4, 5};
+
+/// Numbers that a decimal detour would round.
+Positions positions_of(std::uint32_t frame, std::size_t particles) {
+    Positions values(particles * 3);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<float>((frame + 1.0) / 3 + static_cast<double>(i) * 1e-7 - (i % 3 == 1 ? 2e6 : 0));
+    return values;
+}
+
+/// Writes the run, with the cut; `frames` of them.
+std::vector<FileRecord> write(FrameWriter& writer, std::uint32_t frames = 3, bool finish = true) {
+    const WrittenRun run = two_cloths();
+    for (std::uint32_t frame = run.start; frame < run.start + frames * run.step; frame += run.step) {
+        if (frame == 12) writer.set_faces(12, 0, cut_flag);
+        std::vector<Positions> xyzw;
+        for (const WrittenCloth& cloth : run.cloths) {
+            const Positions xyz = positions_of(frame, cloth.particle_count());
+            xyzw.emplace_back();
+            for (std::size_t i = 0; i < xyz.size(); ++i) {
+                xyzw.back().push_back(xyz[i]);
+                if (i % 3 == 2) xyzw.back().push_back(-9);
+            }
+        }
+        const std::vector<std::uint8_t> rgba(run.width * run.height * 4, static_cast<std::uint8_t>(frame));
+        writer.add({frame, rgba, {xyzw.begin(), xyzw.end()}, {}});
+    }
+    return finish ? writer.finish() : std::vector<FileRecord>{};
+}
+
+std::vector<FileRecord> write(const char* format, OutputFolder& folder) {
+    return write(*find_output_format(format)->open(folder, two_cloths()));
+}
+
+class Format : public testing::TestWithParam<const OutputFormat*> {};
+
+TEST_P(Format, OwnsTheNamesOfItsFilesAndRecordsThem) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    const std::vector<FileRecord> files = write(*GetParam()->open(folder, two_cloths()));
+    std::set<std::string> names;
+    for (const FileRecord& file : files) {
+        const std::string bytes = read_text(temporary / file.name);
+        EXPECT_EQ(file.bytes, bytes.size());
+        EXPECT_EQ(file.hash, xxh3_128_hex(bytes));
+        EXPECT_TRUE(GetParam()->owns(file.name)) << file.name;
+        EXPECT_TRUE(is_output_file_name(file.name)) << file.name;
+        EXPECT_TRUE(is_temporary_file_name(file.name + ".tmp-1")) << file.name;
+        names.insert(file.name);
+    }
+    EXPECT_FALSE(names.empty());
+    EXPECT_EQ(names_in(temporary.path()), names);
+}
+
+TEST_P(Format, OwnsNoOtherNames) {
+    for (const char* name : {"notes.txt", "positions", "positions.", "frame_1.png", "frame_a_0001.png", "mesh.obj",
+                             "mesh_1.obj", "faces_x.npy", "positionsX.npz", "positions_.npz", "manifest.json"})
+        EXPECT_FALSE(GetParam()->owns(name)) << name;
+}
+
+TEST_P(Format, TheSameFramesGiveTheSameBytes) {
+    const TemporaryFolder temporary;
+    OutputFolder one(temporary / "one"), two(temporary / "two");
+    EXPECT_EQ(write(*GetParam()->open(one, two_cloths())), write(*GetParam()->open(two, two_cloths())));
+}
+
+TEST_P(Format, AnUnfinishedRunLeavesOnlyTheFilesOfFrames) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write(*GetParam()->open(folder, two_cloths()), 2, false);
+    for (const std::string& name : names_in(temporary.path())) {
+        EXPECT_FALSE(is_temporary_file_name(name)) << name;
+        EXPECT_TRUE(GetParam()->frame_files || name.starts_with("faces_")) << name;
+    }
+}
+
+TEST_P(Format, AFullDiskIsSaidAndLeavesNoHalfFile) {
+    const TemporaryFolder temporary;
+    const pid_t child = start_child([&] {
+        OutputFolder folder(temporary.path());
+        const rlimit limit{90, 90};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
+        const std::string text = error_text<OutputError>([&] { write(*GetParam()->open(folder, two_cloths())); });
+        return text.starts_with("cannot write '") && text.ends_with("': File too large") ? 0 : 1;
+    });
+    EXPECT_EQ(wait_for(child), 0);
+    EXPECT_THAT(names_in(temporary.path()), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Format, testing::ValuesIn(output_formats().begin(), output_formats().end()),
+                         [](const auto& test) { return std::string(test.param->name); });
+
+TEST(Formats, HaveNamesOfTheirOwn) {
+    for (const OutputFormat* format : output_formats()) EXPECT_EQ(find_output_format(format->name), format);
+    EXPECT_EQ(find_output_format("fbx"), nullptr);
+}
+
+struct Mesh {
+    Positions positions, uv;
+    std::vector<std::uint32_t> faces;
+};
+
+Mesh read_obj(const std::string& text) {
+    Mesh mesh;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string key, value;
+        words >> key;
+        while (words >> value) {
+            if (key == "v") mesh.positions.push_back(std::strtof(value.c_str(), nullptr));
+            if (key == "vt") mesh.uv.push_back(std::strtof(value.c_str(), nullptr));
+            if (key == "f") {
+                const std::size_t slash = value.find('/');
+                EXPECT_EQ(value.substr(0, slash), value.substr(slash + 1));
+                mesh.faces.push_back(static_cast<std::uint32_t>(std::stoul(value)) - 1);
+            }
+        }
+    }
+    return mesh;
+}
+
+Mesh read_ply(const std::string& bytes) {
+    const std::string end = "end_header\n";
+    std::istringstream header(bytes.substr(0, bytes.find(end)));
+    std::size_t vertices = 0, faces = 0;
+    std::vector<std::string> properties;
+    for (std::string line; std::getline(header, line);) {
+        std::sscanf(line.c_str(), "element vertex %zu", &vertices);
+        std::sscanf(line.c_str(), "element face %zu", &faces);
+        if (line.starts_with("property")) properties.push_back(line.substr(line.rfind(' ') + 1));
+    }
+    EXPECT_THAT(properties, ElementsAre("x", "y", "z", "s", "t", "vertex_indices"));
+    Mesh mesh;
+    const char* at = bytes.data() + bytes.find(end) + end.size();
+    const auto take = [&at](auto& list, std::size_t count) {
+        list.resize(list.size() + count);
+        std::memcpy(list.data() + list.size() - count, at, count * sizeof list[0]);
+        at += count * sizeof list[0];
+    };
+    for (std::size_t i = 0; i < vertices; ++i) take(mesh.positions, 3), take(mesh.uv, 2);
+    for (std::size_t i = 0; i < faces; ++i) {
+        EXPECT_EQ(*at++, 3);
+        take(mesh.faces, 3);
+    }
+    EXPECT_EQ(at, bytes.data() + bytes.size());
+    return mesh;
+}
+
+using MeshReader = Mesh (*)(const std::string&);
+
+void expect_meshes(const char* format, MeshReader read) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write(format, folder);
+    const auto mesh = [&](const char* cloth, int frame) {
+        return read(read_text(temporary / fmt::format("mesh_{}_{:04}.{}", cloth, frame, format)));
+    };
+    for (const int frame : {10, 12, 14}) {
+        EXPECT_EQ(mesh("flag", frame).positions, positions_of(frame, 6)) << frame;
+        EXPECT_EQ(mesh("flag", frame).faces, frame < 12 ? whole_flag : cut_flag) << frame;
+        EXPECT_EQ(mesh("rag", frame).positions, positions_of(frame, 4)) << frame;
+        EXPECT_EQ(mesh("rag", frame).faces, two_cloths().cloths[1].faces);
+    }
+    EXPECT_EQ(mesh("flag", 10).uv, (Positions{0, 1, 0.5, 1, 1, 1, 0, 0, 0.5, 0, 1, 0}));
+    EXPECT_EQ(names_in(temporary.path()).size(), 6u);
+}
+
+TEST(Obj, HasEveryParticleAndTheFacesOfItsFrame) { expect_meshes("obj", read_obj); }
+TEST(Ply, HasEveryParticleAndTheFacesOfItsFrame) { expect_meshes("ply", read_ply); }
+
+TEST(Pc2, HasEverySampleInTheOrderOfItsMesh) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write("pc2", folder);
+    EXPECT_THAT(names_in(temporary.path()),
+                ElementsAre("positions_flag.obj", "positions_flag.pc2", "positions_rag.obj", "positions_rag.pc2"));
+    const std::string cache = read_text(temporary / "positions_flag.pc2");
+    struct {
+        char signature[12];
+        std::int32_t version, points;
+        float start, rate;
+        std::int32_t samples;
+    } header;
+    std::memcpy(&header, cache.data(), sizeof header);
+    EXPECT_STREQ(header.signature, "POINTCACHE2");
+    EXPECT_EQ(header.version, 1);
+    EXPECT_EQ(header.points, 6);
+    EXPECT_EQ(header.start, 10);
+    EXPECT_EQ(header.rate, 2);
+    ASSERT_EQ(header.samples, 3);
+    ASSERT_EQ(cache.size(), 32u + 3 * 6 * 12);
+    for (std::uint32_t sample = 0; sample < 3; ++sample) {
+        Positions values(18);
+        std::memcpy(values.data(), cache.data() + 32 + sample * 72, 72);
+        EXPECT_EQ(values, positions_of(10 + 2 * sample, 6));
+    }
+    const Mesh base = read_obj(read_text(temporary / "positions_flag.obj"));
+    EXPECT_EQ(base.positions, positions_of(10, 6));
+    EXPECT_EQ(base.faces, whole_flag);
+}
+
+// Blender drops vertices of an OBJ that no face uses; the cache must fit the rest.
+TEST(Pc2, LeavesOutParticlesWithoutTriangles) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    WrittenRun run = two_cloths();
+    run.cloths[0].faces = {1, 3, 4, 1, 4, 2};  // neither 0 nor 5
+    write(*find_output_format("pc2")->open(folder, run));
+    const std::string cache = read_text(temporary / "positions_flag.pc2");
+    EXPECT_EQ(cache.size(), 32u + 3 * 4 * 12);
+    Positions values(12);
+    std::memcpy(values.data(), cache.data() + 32, 48);
+    const Positions all = positions_of(10, 6);
+    EXPECT_EQ(values, Positions(all.begin() + 3, all.begin() + 15));
+    const Mesh base = read_obj(read_text(temporary / "positions_flag.obj"));
+    EXPECT_EQ(base.positions, values);
+    EXPECT_EQ(base.faces, (std::vector<std::uint32_t>{0, 2, 3, 0, 3, 1}));
+    EXPECT_EQ(base.uv, (Positions{0.5, 1, 1, 1, 0, 0, 0.5, 0}));
+}
+
+// A run that ends early: what came before is counted right.
+TEST(Pc2, CountsTheSamplesThatCame) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write(*find_output_format("pc2")->open(folder, two_cloths()), 1);
+    const std::string cache = read_text(temporary / "positions_rag.pc2");
+    std::int32_t samples = 0;
+    std::memcpy(&samples, cache.data() + 28, 4);
+    EXPECT_EQ(samples, 1);
+    EXPECT_EQ(cache.size(), 32u + 4 * 12);
+}
+
+TEST(Npz, NumpyReadsIt) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write("npz", folder);
+    write("npy", folder);
+    write_text(temporary / "check.py", R"(
+import sys, zipfile, numpy as n
+flag, rag = n.load("positions_flag.npz"), n.load("positions_rag.npz")
+assert sorted(flag) == ["faces", "faces_0012", "positions", "times", "uv"], sorted(flag)
+assert sorted(rag) == ["faces", "positions", "times", "uv"], sorted(rag)
+for name, cloth in (("flag", flag), ("rag", rag)):
+    positions = n.load("positions_%s.npy" % name)
+    assert cloth["positions"].dtype == n.dtype("<f4") and (cloth["positions"] == positions).all()
+    assert (cloth["faces"] == n.load("faces_%s_0000.npy" % name)).all()
+assert flag["positions"].shape == (3, 2, 3, 3) and flag["uv"].shape == (2, 3, 2)
+assert flag["uv"][0, 1].tolist() == [0.5, 1] and flag["uv"][1, 2].tolist() == [1, 0]
+assert (flag["faces_0012"] == n.load("faces_flag_0012.npy")).all() and flag["faces_0012"].shape == (3, 3)
+assert flag["times"].dtype == n.float64 and flag["times"].tolist() == [10 / 50, 12 / 50, 14 / 50]
+archive = zipfile.ZipFile("positions_flag.npz")
+assert archive.testzip() is None
+assert all(part.date_time == (1980, 1, 1, 0, 0, 0) for part in archive.infolist())
+)");
+    EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
+}
+
+}  // namespace
+}  // namespace drape
