@@ -1,7 +1,48 @@
-// Relaxes one colour of the bending elements of one axis.
+// Relaxes one colour of the bending elements of one axis, plain schedule: one invocation per element, so no particle is
+// touched twice. MASKED: the stiffness comes from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
-#include "include/bend_pass.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { BendPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+#endif
+
+float share_of(ivec2 owner) {
+#ifdef MASKED
+    return imageLoad(stiffness_image, owner)[push.channel];
+#else
+    return border_stiffness(owner, push.axis, push.grid);
+#endif
+}
+
+void main() {
+    ivec2 element = ivec2(gl_GlobalInvocationID.xy);
+    if (element.x >= push.element_count.x || element.y >= push.element_count.y) return;
+    ivec2 middle = bend_middle(element, push.axis, push.colour);
+    ivec2 first = middle - push.axis;
+    ivec2 third = middle + push.axis;
+    vec4 position_first = imageLoad(position, first);
+    vec4 position_middle = imageLoad(position, middle);
+    vec4 position_third = imageLoad(position, third);
+    vec3 moved_first = imageLoad(displacement_in, first).xyz;
+    vec3 moved_middle = imageLoad(displacement_in, middle).xyz;
+    vec3 moved_third = imageLoad(displacement_in, third).xyz;
+    vec3 difference =
+        second_difference(spring_edge(position_middle.xyz, position_first.xyz, moved_middle, moved_first),
+                          spring_edge(position_middle.xyz, position_third.xyz, moved_middle, moved_third));
+    vec3 correction = project_bend(difference, bend_weight(position_first.w, position_middle.w, position_third.w),
+                                   bend_share(share_of(first), share_of(middle)), push.compliance);
+    precise float weight_middle = -2.0f * position_middle.w;
+    imageStore(displacement_out, first, vec4(moved_by(moved_first, correction, position_first.w), 0.0f));
+    imageStore(displacement_out, middle, vec4(moved_by(moved_middle, correction, weight_middle), 0.0f));
+    imageStore(displacement_out, third, vec4(moved_by(moved_third, correction, position_third.w), 0.0f));
+}

@@ -1,8 +1,42 @@
-// A cloth, without shadows.
+// A cloth's surface. SHADOWED: under the first light's shadow map. Front is the side from which a triangle's corners
+// run counter-clockwise, which is the side its normal cross(along columns, along rows) points to.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SHADOWED
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/shading.h"
 #include "include/raster_lights.h"
-#include "include/cloth_shade.h"
+
+layout(push_constant) uniform Push { ClothPush push; };
+layout(location = 0) in vec3 world;
+layout(location = 1) in vec3 surface_normal;
+layout(location = 2) in vec2 material;
+layout(location = 0) out vec4 color;
+
+/// Mean of the square wave (+1 on even unit intervals, -1 on odd ones) over `width` around x.
+float filtered_square_wave(float x, float width) {
+    vec2 ends = vec2(x - 0.5 * width, x + 0.5 * width);
+    vec2 integral = 1.0 - abs(mod(ends, 2.0) - 1.0);  // of the square wave from 0 on
+    return clamp((integral.y - integral.x) / width, -1.0, 1.0);
+}
+
+/// 0 and 1 on alternating squares, their mean where a pixel holds many.
+float checker() {
+    vec2 squares = material / push.size.z;
+    vec2 width = max(fwidth(squares), vec2(1e-4));
+    return 0.5 - 0.5 * filtered_square_wave(squares.x, width.x) * filtered_square_wave(squares.y, width.y);
+}
+
+void main() {
+    // Derivatives before any branch.
+    vec3 facet = cross(dFdy(world), dFdx(world));  // towards the eye
+    float odd = checker();
+    vec3 normal = gl_FrontFacing ? surface_normal : -surface_normal;
+    // Neighbours that cancel out leave no normal: the triangle's own is better than none.
+    if (dot(normal, normal) < 1e-6) normal = facet;
+    vec3 albedo = gl_FrontFacing ? push.front.xyz : push.back.xyz;
+    if (push.grid.z != 0u) albedo = mix(albedo, vec3(1.0), 0.25 * odd);
+    Surface surface = Surface(albedo, normalize(normal), normalize(frame[0].eye.xyz - world), 0.2, 0.0, 0.3);
+    color = vec4(shaded(surface, world), 1.0);
+}

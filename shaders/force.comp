@@ -1,6 +1,25 @@
-// Verlet prediction under gravity and damping.
+// Verlet prediction under gravity and damping: finishes the last substep (X += d, after the first substep of a frame)
+// and predicts the next displacement. WIND: adds the wind's force. Particles with w = 0 feel no force; the pin pass
+// moves those that the user moves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants WIND
 #include "shared/simulation_types.h"
 #include "include/verlet.h"
-#include "include/force_pass.h"
+#include "include/substep_state.h"
+
+layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(push_constant) uniform Push { ForcePush push; };
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    vec4 position = imageLoad(position_in, texel);
+    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    if (advance) advance_position(texel, position, displacement);
+    if (position.w == 0.0f) return;
+    vec3 force = force_on(texel);
+    vec3 increment =
+        verlet_increment(displacement, push.gravity_step.xyz, force, position.w, push.force_step, push.damping_loss);
+    step_displacement(texel, displacement, increment);
+}

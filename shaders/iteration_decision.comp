@@ -12,14 +12,15 @@ layout(set = 0, binding = 0, std430) readonly buffer Partials { ResidualRecord p
 layout(set = 0, binding = 1, std430) readonly buffer Sizes { uvec4 sizes[]; };
 layout(set = 0, binding = 2, std430) buffer State { uvec4 state[]; };
 
-#include "include/residual_reduction.h"
+#define RECORD ResidualRecord
+#include "include/workgroup_reduction.h"
 
 shared bool iterates;
 
 void main() {
     ResidualRecord record = empty_residual();
     for (int i = int(gl_LocalInvocationIndex); i < push.partial_count; i += workgroup_width)
-        record = joined_residuals(record, partials[i]);
+        record = joined(record, partials[i]);
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u) {
         iterates = needs_iteration(record, push.squared_tolerance);

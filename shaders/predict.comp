@@ -1,8 +1,44 @@
-// Prediction of the line solver in second order, under gravity and damping.
+// Prediction of the line solver in second order: finishes the last substep (X += d, after the first substep of a
+// frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the
+// control says. WIND: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants WIND
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bdf2.h"
 #include "include/verlet.h"
-#include "include/predict_pass.h"
+#include "include/substep_state.h"
+
+layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(push_constant) uniform Push { PredictPush push; };
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
+layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D displacement_before_out;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
+layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D velocity_excess_out;
+layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    vec4 position = imageLoad(position_in, texel);
+    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    if (advance) advance_position(texel, position, displacement);
+    vec3 before = imageLoad(displacement_before_in, texel).xyz;
+    vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
+    vec3 excess = velocity_excess(displacement, before, imageLoad(control, ivec2(control_previous_order, 0)).x);
+    imageStore(displacement_before_out, texel, vec4(displacement, 0.0f));
+    imageStore(velocity_excess_out, texel, vec4(excess, 0.0f));
+    if (position.w == 0.0f) return;
+    vec3 force = force_on(texel);
+    vec3 increment;
+    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
+        vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force, position.w, push.force_step.y);
+        increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
+                                   push.loss.y);
+    } else {
+        vec3 forced = forced_step(push.gravity_step.xyz, force, position.w, push.force_step.x);
+        increment = euler_increment(displacement, excess, forced, push.loss.x);
+    }
+    step_displacement(texel, displacement, increment);
+}

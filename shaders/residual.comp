@@ -1,7 +1,48 @@
-// Stretch error within a substep: a record per workgroup.
+// Stretch error within a substep: an invocation per residual_rows particles of a column, a record per workgroup. A
+// particle answers for the stretch springs whose first particle it is. MASKED: stiffness from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/residual.h"
 #include "include/spring.h"
-#include "include/residual_pass.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { ResidualPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 2, r32f) uniform readonly image2D tension_row;
+layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_column;
+layout(set = 0, binding = 4, std430) writeonly buffer Partials { ResidualRecord partials[]; };
+#ifdef MASKED
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D stiffness_image;
+#endif
+
+#define RECORD ResidualRecord
+#include "include/workgroup_reduction.h"
+
+ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, float rest_length, int channel,
+                           float tension) {
+    ivec2 second = first + offset;
+    if (second.x >= push.grid.x || second.y >= push.grid.y) return record;
+#ifdef MASKED
+    float share = imageLoad(stiffness_image, first)[channel];
+#else
+    float share = 1.0f;
+#endif
+    vec3 edge = spring_edge(imageLoad(position, first).xyz, imageLoad(position, second).xyz,
+                            imageLoad(displacement, first).xyz, imageLoad(displacement, second).xyz);
+    return add_residual(record, edge, rest_length, share, tension);
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(residual_rows));
+    ResidualRecord record = empty_residual();
+    for (int row = 0; row < residual_rows; ++row, ++texel.y) {
+        if (texel.x >= push.grid.x || texel.y >= push.grid.y) continue;
+        record = with_spring(record, texel, ivec2(1, 0), push.rest_length.x, 0, imageLoad(tension_row, texel).x);
+        record = with_spring(record, texel, ivec2(0, 1), push.rest_length.y, 1, imageLoad(tension_column, texel).x);
+    }
+    record = joined_over_workgroup(record);
+    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+}

@@ -1,7 +1,11 @@
-// A cloth as the first light sees it.
+// A cloth as the first light sees it. CUT: with the vertices on its cut springs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants CUT
 #include "shared/raster_types.h"
+#ifdef CUT
+#include "shared/cut_types.h"
+#endif
 #include "include/raster_frame.h"
 #include "include/shadow_clip.h"
 layout(push_constant) uniform Push { ClothPush push; };

@@ -1,6 +1,51 @@
-// Relaxes one parity of one spring direction.
+// Relaxes one parity of one spring direction, plain schedule: one invocation per spring, so no particle is touched
+// twice. MASKED: the stiffness comes from an image (holes, cuts). TENSION: the springs' tension is stored, for the next
+// iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED TENSION
 #include "shared/simulation_types.h"
 #include "include/spring.h"
-#include "include/spring_pass.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SpringPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+#endif
+#ifdef TENSION
+layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
+layout(set = 0, binding = 5, r32f) uniform writeonly image2D tension_out;
+#endif
+
+void main() {
+    ivec2 pair = ivec2(gl_GlobalInvocationID.xy);
+    if (pair.x >= push.pair_count.x || pair.y >= push.pair_count.y) return;
+    ivec2 first = spring_owner(pair, push.offset, push.parity_axis, push.parity);
+    ivec2 second = first + push.offset;
+    vec4 position_first = imageLoad(position, first);
+    vec4 position_second = imageLoad(position, second);
+    vec3 displacement_first = imageLoad(displacement_in, first).xyz;
+    vec3 displacement_second = imageLoad(displacement_in, second).xyz;
+#ifdef MASKED
+    float stiffness = imageLoad(stiffness_image, first)[push.channel];
+#else
+    float stiffness = border_stiffness(first, push.offset, push.grid);
+#endif
+    float tension = 0.0f;
+#ifdef TENSION
+    if (push.first_iteration == 0) tension = imageLoad(tension_in, first).x;
+#endif
+    vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
+    precise float weight_sum = position_first.w + position_second.w;
+    SpringResult result = project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, tension);
+    vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
+    vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
+    imageStore(displacement_out, first, vec4(moved_first, 0.0f));
+    imageStore(displacement_out, second, vec4(moved_second, 0.0f));
+#ifdef TENSION
+    imageStore(tension_out, first, vec4(result.tension, 0.0f, 0.0f, 0.0f));
+#endif
+}

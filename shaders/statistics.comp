@@ -1,7 +1,115 @@
-// Statistics of a cloth: a record per workgroup.
+// Statistics of a cloth: an invocation per statistics_rows particles of a column, a record per workgroup. A
+// particle answers for the springs whose first particle it is. MASKED: stiffness and masses come from images (holes,
+// cuts). COLLIDING: the scene has colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED COLLIDING
 #include "shared/simulation_types.h"
 #include "include/spring.h"
 #include "include/statistics.h"
-#include "include/statistics_pass.h"
+#include "include/colliders.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { StatisticsPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
+#endif
+layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
+layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
+#ifdef COLLIDING
+layout(constant_id = 0) const bool has_planes = false;
+layout(constant_id = 1) const bool has_spheres = false;
+layout(constant_id = 2) const bool has_boxes = false;
+layout(constant_id = 3) const bool has_ellipsoids = false;
+// A kind that the scene lacks is bound to another kind's buffer and never read (its count is 0).
+layout(set = 0, binding = 5, std430) readonly buffer Planes { Collider planes[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Spheres { Collider spheres[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Boxes { Collider boxes[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Ellipsoids { Collider ellipsoids[]; };
+#endif
+
+#define RECORD StatisticsRecord
+#include "include/workgroup_reduction.h"
+
+bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
+
+/// Held particles have a mass too; their w does not tell it.
+float mass_share(ivec2 texel) {
+#ifdef MASKED
+    return imageLoad(mass_image, texel).x;
+#else
+    return border_mass_share(texel, push.grid);
+#endif
+}
+
+StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, int direction, ivec2 offset,
+                             float tension) {
+    ivec2 second = first + offset;
+    if (!inside(second)) return record;
+#ifdef MASKED
+    float share = imageLoad(stiffness_image, first)[direction];
+#else
+    float share = border_stiffness(first, offset, push.grid);
+#endif
+    return add_spring_strain(record, start, imageLoad(position, second).xyz, push.rest_length[direction],
+                             push.half_stiffness[direction], share, tension, direction >= 2);
+}
+
+#ifdef COLLIDING
+/// The deepest of the contacts that the collision pass would find, m.
+float penetration(vec3 at) {
+    vec3 rest = vec3(0.0f, 0.0f, 0.0f);
+    float thickness = push.reference.w;
+    float deepest = 0.0f;
+    if (has_planes)
+        for (int i = 0; i < push.collider_count.x; ++i) {
+            float depth = plane_contact(planes[push.collider_first.x + i], at, rest, thickness, 0.0f).depth;
+            deepest = depth > deepest ? depth : deepest;
+        }
+    if (has_spheres)
+        for (int i = 0; i < push.collider_count.y; ++i) {
+            float depth = sphere_contact(spheres[push.collider_first.y + i], at, rest, thickness, 0.0f).depth;
+            deepest = depth > deepest ? depth : deepest;
+        }
+    if (has_boxes)
+        for (int i = 0; i < push.collider_count.z; ++i) {
+            float depth = box_contact(boxes[push.collider_first.z + i], at, rest, thickness, 0.0f).depth;
+            deepest = depth > deepest ? depth : deepest;
+        }
+    if (has_ellipsoids)
+        for (int i = 0; i < push.collider_count.w; ++i) {
+            float depth = ellipsoid_contact(ellipsoids[push.collider_first.w + i], at, rest, thickness, 0.0f).depth;
+            deepest = depth > deepest ? depth : deepest;
+        }
+    return deepest;
+}
+#endif
+
+StatisticsRecord statistics_of(ivec2 texel) {
+    vec4 at = imageLoad(position, texel);
+    StatisticsRecord record = particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel),
+                                                  push.reference.xyz, uint(texel.y * push.grid.x + texel.x));
+    if (record.counts.x != 0u) return record;
+    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), imageLoad(tension_row, texel).x);
+    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), imageLoad(tension_column, texel).x);
+    record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1), 0.0f);
+    record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1), 0.0f);
+#ifdef COLLIDING
+    // Contacts do not move held particles, so those are no measure of them.
+    if (at.w != 0.0f) record.extents.z = penetration(at.xyz);
+#endif
+    return record;
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(statistics_rows));
+    StatisticsRecord record = empty_statistics();
+    for (int row = 0; row < statistics_rows; ++row, ++texel.y)
+        if (inside(texel)) record = joined(record, statistics_of(texel));
+    record = joined_over_workgroup(record);
+    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+}

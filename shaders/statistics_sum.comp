@@ -9,7 +9,8 @@ layout(push_constant) uniform Push { StatisticsSumPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
 
-#include "include/statistics_reduction.h"
+#define RECORD StatisticsRecord
+#include "include/workgroup_reduction.h"
 
 void main() {
     StatisticsRecord record = empty_statistics();

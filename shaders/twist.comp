@@ -1,7 +1,47 @@
-// Relaxes the twist of one colour of the cells.
+// Relaxes the twist of one colour of the cells: one invocation per cell, so no particle is touched twice.
+// MASKED: whether the cell is whole comes from the stiffness image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
-#include "include/twist_pass.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { TwistPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+#endif
+
+void main() {
+    ivec2 element = ivec2(gl_GlobalInvocationID.xy);
+    if (element.x >= push.element_count.x || element.y >= push.element_count.y) return;
+    ivec2 upper_left = twist_corner(element, push.first);
+    ivec2 upper_right = upper_left + ivec2(1, 0);
+    ivec2 lower_left = upper_left + ivec2(0, 1);
+    ivec2 lower_right = upper_left + ivec2(1, 1);
+    float share = 1.0f;
+#ifdef MASKED
+    share = twist_share(imageLoad(stiffness_image, upper_left), imageLoad(stiffness_image, upper_right),
+                        imageLoad(stiffness_image, lower_left));
+#endif
+    vec4 position_00 = imageLoad(position, upper_left);
+    vec4 position_10 = imageLoad(position, upper_right);
+    vec4 position_01 = imageLoad(position, lower_left);
+    vec4 position_11 = imageLoad(position, lower_right);
+    vec3 moved_00 = imageLoad(displacement_in, upper_left).xyz;
+    vec3 moved_10 = imageLoad(displacement_in, upper_right).xyz;
+    vec3 moved_01 = imageLoad(displacement_in, lower_left).xyz;
+    vec3 moved_11 = imageLoad(displacement_in, lower_right).xyz;
+    vec3 difference = twist_difference(spring_edge(position_00.xyz, position_10.xyz, moved_00, moved_10),
+                                       spring_edge(position_01.xyz, position_11.xyz, moved_01, moved_11));
+    float weight = twist_weight(position_00.w, position_10.w, position_01.w, position_11.w);
+    vec3 correction = project_bend(difference, weight, share, push.compliance);
+    imageStore(displacement_out, upper_left, vec4(moved_by(moved_00, correction, position_00.w), 0.0f));
+    imageStore(displacement_out, upper_right, vec4(moved_by(moved_10, correction, -position_10.w), 0.0f));
+    imageStore(displacement_out, lower_left, vec4(moved_by(moved_01, correction, -position_01.w), 0.0f));
+    imageStore(displacement_out, lower_right, vec4(moved_by(moved_11, correction, position_11.w), 0.0f));
+}

@@ -96,7 +96,7 @@ Json::Value pass_value(const Graph& graph, const PlannedPass& planned) {
         entry["resource"] = graph.resources()[use.handle.resource].name;
         entry["version"] = use.handle.version;
         entry["access"] = std::string(access_name(use.access));
-        if (use.binding) entry["binding"] = *use.binding;
+        if (!use.variable.empty()) entry["variable"] = use.variable;
         value["uses"].append(entry);
     }
     value["barriers"] = barriers(graph, planned.barriers);

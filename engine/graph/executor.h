@@ -41,6 +41,12 @@ class ResourcePool {
 
 enum class TimestampMode { none, stages, passes };
 
+/// What a draw gives a variable of its shaders.
+struct Binding {
+    std::string_view variable;
+    Handle handle;
+};
+
 /// Given to a pass's execute function. Every access is compared with what the pass declared.
 class PassContext {
   public:
@@ -52,34 +58,40 @@ class PassContext {
     /// The layout the image is in during this pass: that of its declared access. Throws as `image`.
     VkImageLayout layout(Handle handle) const;
 
-    /// Binds the pipeline, pushes every declared use that has a binding, and the push constants. Throws
-    /// GraphError when the pipeline's descriptors and the declared bindings differ (binding missing on
-    /// either side, image against buffer, read against write, format, compute against graphics), or the
-    /// push constants' size. A read-write descriptor needs a write at its binding, and a read without one.
-    void bind(const vulkan::Pipeline& pipeline, std::span<const std::byte> push_constants = {});
-    template <class T>
-    void bind(const vulkan::Pipeline& pipeline, const T& push_constants) {
-        bind(pipeline, std::as_bytes(std::span<const T>(&push_constants, 1)));
-    }
-    /// Likewise for a pipeline without push constants.
-    void dispatch(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
-        bind(pipeline);
-        dispatch_groups(pipeline, width, height);
-    }
-    /// `bind`, then dispatch enough workgroups for width x height invocations.
+    /// Binds the pipeline, pushes every declared use that has a variable, and the push constants, then dispatches
+    /// enough workgroups for width x height invocations. Throws GraphError, naming pass, pipeline and variable, when
+    /// the pipeline's descriptors and the declared variables differ (one missing on either side, image against buffer,
+    /// read against write, format, layout of a buffer's elements), or the push constants' layouts. A read-write
+    /// descriptor needs a write of its name, and a read without one.
     template <class T>
     void dispatch(const vulkan::ComputePipeline& pipeline, const T& push_constants, std::uint32_t width,
                   std::uint32_t height) {
-        bind(pipeline, push_constants);
+        bind_uses(pipeline);
+        push(pipeline, push_constants);
         dispatch_groups(pipeline, width, height);
     }
-
-    /// `bind`, then dispatch as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
+    /// Likewise for a pipeline without push constants.
+    void dispatch(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
+        bind_uses(pipeline);
+        push(pipeline, nullptr, {});
+        dispatch_groups(pipeline, width, height);
+    }
+    /// Likewise, with as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
     template <class T>
     void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const T& push_constants, Handle arguments,
                            std::uint64_t offset) {
-        bind(pipeline, push_constants);
+        bind_uses(pipeline);
+        push(pipeline, push_constants);
         dispatch_indirect(arguments, offset);
+    }
+
+    /// Of a pass that draws several things: binds the pipeline and pushes one handle per descriptor, as strictly.
+    /// Each stage that uses a descriptor must read the handle by the pass's declaration.
+    void bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings);
+    /// Throws GraphError when the shaders' push constants are no T.
+    template <class T>
+    void push(const vulkan::Pipeline& pipeline, const T& push_constants) {
+        push(pipeline, &vulkan::layout_of<T>(), std::as_bytes(std::span<const T>(&push_constants, 1)));
     }
 
   private:
@@ -90,8 +102,13 @@ class PassContext {
     void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
     void dispatch_indirect(Handle arguments, std::uint64_t offset);
     const Use& use_of(Handle handle) const;
-    const Use& use_at(const vulkan::Pipeline& pipeline, const vulkan::DescriptorDeclaration& descriptor) const;
-    void check_bindings(const vulkan::Pipeline& pipeline, std::size_t push_constant_size) const;
+    void bind_uses(const vulkan::ComputePipeline& pipeline);
+    void check_use(const vulkan::Pipeline& pipeline, const Use& use) const;
+    /// Kind, format and element.
+    void check_resource(const vulkan::Pipeline& pipeline, std::string_view variable, const Resource& resource) const;
+    void push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
+    void push(const vulkan::Pipeline& pipeline, const vulkan::StructLayout* layout, std::span<const std::byte> bytes);
+    [[noreturn]] void refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;
     const Graph& graph_;

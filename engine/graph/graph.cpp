@@ -87,26 +87,24 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
                    fmt::format("{} and {} in one pass need two layouts", access_name(other.access),
                                access_name(use.access)));
         }
-        // One version may be read through several bindings: a shader's slots may share a resource.
-        const bool at_other_binding = use.binding && other.binding && use.binding != other.binding;
-        if (other.handle == use.handle && other.access == use.access && !at_other_binding) {
+        // One version may be read through several variables: a shader's may share a resource.
+        const bool by_other_variable =
+            !use.variable.empty() && !other.variable.empty() && use.variable != other.variable;
+        if (other.handle == use.handle && other.access == use.access && !by_other_variable) {
             refuse(pass, resource.name, fmt::format("{} declared twice", access_name(use.access)));
         }
-        if (!use.binding || other.binding != use.binding) continue;
-        const bool shared_read = other.handle == use.handle && !is_write(other.access) && !is_write(use.access);
-        if (shared_read) continue;
+        if (use.variable.empty() || other.variable != use.variable) continue;
         refuse(pass, resource.name,
-               fmt::format("binding {} is already taken by {} of '{}'", *use.binding, access_name(other.access),
+               fmt::format("variable '{}' is already taken by {} of '{}'", use.variable, access_name(other.access),
                            resources[other.handle.resource].name));
     }
 }
 
-void check_binding(const Pass& pass, const Resource& resource, const Use& use) {
-    const bool bindable = use.access == Access::compute_read || use.access == Access::compute_write ||
-                          use.access == Access::vertex_read || use.access == Access::fragment_read;
-    if (use.binding && !bindable) {
+void check_variable(const Pass& pass, const Resource& resource, const Use& use) {
+    const bool bindable = use.access == Access::compute_read || use.access == Access::compute_write;
+    if (!use.variable.empty() && !bindable) {
         refuse(pass, resource.name,
-               fmt::format("{} takes no binding, but {} was given", access_name(use.access), *use.binding));
+               fmt::format("{} takes no variable, but '{}' was given", access_name(use.access), use.variable));
     }
 }
 
@@ -147,20 +145,20 @@ std::uint64_t Resource::byte_count() const {
     return bytes;
 }
 
-Handle PassSetup::read(Handle handle, Access access, std::optional<std::uint32_t> binding) {
+Handle PassSetup::read(Handle handle, Access access, std::string variable) {
     const Resource& resource = newest(graph_.resources_, pass_, handle, "read");
     if (is_write(access)) {
         refuse(pass_, resource.name, fmt::format("read() with {}, which writes", access_name(access)));
     }
-    const Use use{handle, access, binding};
+    const Use use{handle, access, std::move(variable)};
     check_kind(pass_, resource, access);
-    check_binding(pass_, resource, use);
+    check_variable(pass_, resource, use);
     check_against_others(pass_, resource, use, graph_.resources_);
     pass_.uses.push_back(use);
     return handle;
 }
 
-Handle PassSetup::write(Handle handle, Access access, std::optional<std::uint32_t> binding) {
+Handle PassSetup::write(Handle handle, Access access, std::string variable) {
     const Resource& resource = newest(graph_.resources_, pass_, handle, "write");
     if (!is_write(access)) {
         refuse(pass_, resource.name, fmt::format("write() with {}, which only reads", access_name(access)));
@@ -169,9 +167,9 @@ Handle PassSetup::write(Handle handle, Access access, std::optional<std::uint32_
         refuse(pass_, resource.name,
                fmt::format("write to a {} resource, which no pass may write", lifetime_name(resource.lifetime)));
     }
-    const Use use{{handle.resource, handle.version + 1}, access, binding};
+    const Use use{{handle.resource, handle.version + 1}, access, std::move(variable)};
     check_kind(pass_, resource, access);
-    check_binding(pass_, resource, use);
+    check_variable(pass_, resource, use);
     check_against_others(pass_, resource, use, graph_.resources_);
     pass_.uses.push_back(use);
     ++graph_.resources_[handle.resource].version;

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +12,8 @@
 
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan_core.h>
+
+#include "vulkan/struct_layout.h"
 
 namespace drape::graph {
 
@@ -60,6 +61,8 @@ struct BufferDeclaration {
     std::string name;
     std::uint64_t byte_count = 0;  ///< a positive multiple of 4
     Lifetime lifetime = Lifetime::transient;
+    /// What it is an array of (vulkan::layout_of); none: no shader may bind it.
+    const vulkan::StructLayout* element = nullptr;
 };
 
 /// A resource at a version. Writing returns a new handle and retires the old one.
@@ -81,11 +84,11 @@ struct Resource {
     std::uint64_t byte_count() const;
 };
 
-/// One declared use. `binding`: the descriptor it is bound to (set 0), none for attachments and transfers.
+/// One declared use.
 struct Use {
     Handle handle;  ///< the version read, or the version this write makes
     Access access;
-    std::optional<std::uint32_t> binding;
+    std::string variable;  ///< of the compute shader, to which it is bound; empty: none
 };
 
 std::string_view lifetime_name(Lifetime lifetime);  ///< "persistent"
@@ -109,13 +112,13 @@ class Graph;
 /// Given to a pass's set-up function; the only way to declare access.
 class PassSetup {
   public:
-    /// Declares a read of this version. Reading and then writing one resource in one pass is how a
-    /// read-modify-write is said (each with its own binding; for one read-write descriptor the write alone
-    /// names the binding); write then read throws. A binding serves one use, but vertex and fragment stage
-    /// may read one version through one binding.
-    Handle read(Handle handle, Access access, std::optional<std::uint32_t> binding = {});
+    /// Declares a read of this version. `variable`: what GLSL calls the storage image, or the array of the storage
+    /// buffer, that a compute pass binds it to; draws name theirs when they are recorded (PassContext::bind). Reading
+    /// and then writing one resource in one pass is how a read-modify-write is said (each with its own variable; for
+    /// one read-write descriptor the write alone names it); write then read throws. A variable serves one use.
+    Handle read(Handle handle, Access access, std::string variable = {});
     /// Declares a write; returns the new version. The contents not written stay (no implied clear).
-    [[nodiscard]] Handle write(Handle handle, Access access, std::optional<std::uint32_t> binding = {});
+    [[nodiscard]] Handle write(Handle handle, Access access, std::string variable = {});
 
   private:
     friend class Graph;
@@ -133,6 +136,11 @@ class Graph {
     /// Declares a resource; throws GraphError when the name is taken or the lifetime does not fit.
     Handle image(const ImageDeclaration& declaration);
     Handle buffer(const BufferDeclaration& declaration);
+    /// Of `count` elements T, which shaders that bind it must know under the same name and layout.
+    template <class T>
+    Handle buffer(std::string name, std::uint64_t count, Lifetime lifetime) {
+        return buffer({std::move(name), count * sizeof(T), lifetime, &vulkan::layout_of<T>()});
+    }
     /// Runs `setup` now, keeps `execute` for recording.
     void add_pass(PassName name, const std::function<void(PassSetup&)>& setup,
                   std::function<void(PassContext&)> execute);

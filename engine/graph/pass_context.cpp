@@ -3,18 +3,24 @@
 
 #include <algorithm>
 
+#include "graph/dump.h"
 #include "graph/executor.h"
 #include "vulkan/structure.h"
 
 namespace drape::graph {
 namespace {
 
-using vulkan::DescriptorAccess;
 using vulkan::DescriptorKind;
+using vulkan::ReflectedDescriptor;
 
-std::string_view descriptor_access_name(DescriptorAccess access) {
-    if (access == DescriptorAccess::read) return "reads";
-    return access == DescriptorAccess::write ? "writes" : "reads and writes";
+std::string_view access_text(bool reads, bool writes) {
+    if (!writes) return "reads";
+    return reads ? "reads and writes" : "writes";
+}
+
+const ReflectedDescriptor* find(const vulkan::Pipeline& pipeline, std::string_view variable) {
+    const auto found = std::ranges::find(pipeline.descriptors(), variable, &ReflectedDescriptor::name);
+    return found == pipeline.descriptors().end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -43,91 +49,103 @@ const vulkan::Buffer& PassContext::buffer(Handle handle) const {
 
 VkImageLayout PassContext::layout(Handle handle) const { return access_scope(use_of(handle).access).layout; }
 
-/// The declared use a descriptor is bound to: the writing one, or any reading one of the binding.
-const Use& PassContext::use_at(const vulkan::Pipeline& pipeline,
-                               const vulkan::DescriptorDeclaration& descriptor) const {
-    const auto at = [&](const Use& use) { return use.binding == descriptor.binding; };
-    const auto found = std::find_if(pass_.uses.begin(), pass_.uses.end(), at);
-    if (found != pass_.uses.end()) return *found;
-    throw GraphError(fmt::format("pass '{}': pipeline '{}' has binding {} ('{}'), which the pass did not declare",
-                                 pass_.name, pipeline.name(), descriptor.binding, descriptor.name));
+void PassContext::refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const {
+    throw GraphError(fmt::format("pass '{}', '{}' of pipeline '{}': {}", pass_.name, variable, pipeline.name(), why));
 }
 
-void PassContext::check_bindings(const vulkan::Pipeline& pipeline, std::size_t push_constant_size) const {
-    const auto refuse = [&](const Resource& resource, std::uint32_t binding, const std::string& why) {
-        throw GraphError(fmt::format("pass '{}', resource '{}', binding {} of pipeline '{}': {}", pass_.name,
-                                     resource.name, binding, pipeline.name(), why));
-    };
-    const auto& descriptors = pipeline.descriptors();
+void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_view variable,
+                                 const Resource& resource) const {
+    const auto unfit = [&](const std::string& why) { refuse(pipeline, variable, "'" + resource.name + "' " + why); };
+    const ReflectedDescriptor* const descriptor = find(pipeline, variable);
+    if (!descriptor) return unfit("is bound to it, but the shader has no such variable");
+    if (resource.is_image != (descriptor->kind == DescriptorKind::storage_image))
+        unfit(resource.is_image ? "is an image, not a buffer" : "is a buffer, not an image");
+    if (resource.is_image) {
+        if (resource.image.format != descriptor->format)
+            unfit(fmt::format("is {}, the shader has {}", format_name(resource.image.format),
+                              format_name(descriptor->format)));
+        return;
+    }
+    if (!resource.buffer.element) return unfit("is declared without the type of its elements");
+    const std::string difference = vulkan::element_difference(*descriptor, *resource.buffer.element);
+    if (!difference.empty()) unfit("has other elements: " + difference);
+}
+
+void PassContext::check_use(const vulkan::Pipeline& pipeline, const Use& use) const {
+    const Resource& resource = graph_.resources()[use.handle.resource];
+    check_resource(pipeline, use.variable, resource);
+    const ReflectedDescriptor& descriptor = *find(pipeline, use.variable);
+    const bool unbound_read = std::ranges::any_of(pass_.uses, [&](const Use& other) {
+        return other.access == Access::compute_read && other.variable.empty() &&
+               other.handle.resource == use.handle.resource;
+    });
+    const bool writes = is_write(use.access), reads = !writes || unbound_read;
+    if (reads != descriptor.readable || writes != descriptor.writable)
+        refuse(pipeline, use.variable,
+               fmt::format("the shader {} it, the pass declares that it {} '{}'",
+                           access_text(descriptor.readable, descriptor.writable), access_text(reads, writes),
+                           resource.name));
+}
+
+void PassContext::bind_uses(const vulkan::ComputePipeline& pipeline) {
+    std::vector<Binding> bindings;
     for (const Use& use : pass_.uses) {
-        if (!use.binding) continue;
-        const Resource& resource = graph_.resources()[use.handle.resource];
-        const auto descriptor =
-            std::find_if(descriptors.begin(), descriptors.end(),
-                         [&](const vulkan::DescriptorDeclaration& d) { return d.binding == *use.binding; });
-        if (descriptor == descriptors.end()) refuse(resource, *use.binding, "declared, but the pipeline has none");
-        const bool in_compute = use.access == Access::compute_read || use.access == Access::compute_write;
-        if (in_compute != (pipeline.bind_point() == VK_PIPELINE_BIND_POINT_COMPUTE)) {
-            refuse(resource, *use.binding, fmt::format("declared as {}", access_name(use.access)));
-        }
-        if (resource.is_image != (descriptor->kind == DescriptorKind::storage_image)) {
-            refuse(resource, *use.binding, resource.is_image ? "an image, not a buffer" : "a buffer, not an image");
-        }
-        if (resource.is_image && resource.image.format != descriptor->format) {
-            refuse(resource, *use.binding,
-                   fmt::format("VkFormat {} declared, the shader has {}", static_cast<int>(resource.image.format),
-                               static_cast<int>(descriptor->format)));
-        }
-        const bool unbound_read = std::any_of(pass_.uses.begin(), pass_.uses.end(), [&](const Use& other) {
-            return other.access == Access::compute_read && !other.binding &&
-                   other.handle.resource == use.handle.resource;
-        });
-        const DescriptorAccess declared = !is_write(use.access) ? DescriptorAccess::read
-                                          : unbound_read        ? DescriptorAccess::read_write
-                                                                : DescriptorAccess::write;
-        if (declared != descriptor->access) {
-            refuse(resource, *use.binding,
-                   fmt::format("the shader {} it, the pass declares that it {}",
-                               descriptor_access_name(descriptor->access), descriptor_access_name(declared)));
-        }
+        if (use.variable.empty()) continue;
+        check_use(pipeline, use);
+        bindings.push_back({use.variable, use.handle});
     }
-    if (push_constant_size != pipeline.push_constant_size()) {
-        throw GraphError(fmt::format("pass '{}': {} bytes of push constants, pipeline '{}' has {}", pass_.name,
-                                     push_constant_size, pipeline.name(), pipeline.push_constant_size()));
-    }
+    push_descriptors(pipeline, bindings);
 }
 
-void PassContext::bind(const vulkan::Pipeline& pipeline, std::span<const std::byte> push_constants) {
-    check_bindings(pipeline, push_constants.size());
+void PassContext::bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings) {
+    for (const auto& [variable, handle] : bindings) {
+        check_resource(pipeline, variable, graph_.resources()[use_of(handle).handle.resource]);
+        for (const auto [stage, access] : {std::pair(VK_SHADER_STAGE_VERTEX_BIT, Access::vertex_read),
+                                           std::pair(VK_SHADER_STAGE_FRAGMENT_BIT, Access::fragment_read)}) {
+            const bool declared = std::ranges::any_of(
+                pass_.uses, [&](const Use& use) { return use.handle == handle && use.access == access; });
+            if ((find(pipeline, variable)->stages & stage) && !declared)
+                refuse(pipeline, variable, fmt::format("the pass does not declare {}", access_name(access)));
+        }
+    }
+    push_descriptors(pipeline, bindings);
+}
+
+void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings) {
     const auto& descriptors = pipeline.descriptors();
+    if (bindings.size() > descriptors.size()) refuse(pipeline, bindings.back().variable, "bound twice");
     std::vector<VkDescriptorImageInfo> images(descriptors.size());
     std::vector<VkDescriptorBufferInfo> buffers(descriptors.size());
     std::vector<VkWriteDescriptorSet> writes(descriptors.size());
     for (std::size_t d = 0; d < descriptors.size(); ++d) {
-        const Use& use = use_at(pipeline, descriptors[d]);
-        const std::string& name = graph_.resources()[use.handle.resource].name;
+        const auto bound = std::ranges::find(bindings, descriptors[d].name, &Binding::variable);
+        if (bound == bindings.end()) refuse(pipeline, descriptors[d].name, "nothing is bound");
         writes[d] = vulkan::structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         writes[d].dstBinding = descriptors[d].binding;
         writes[d].descriptorCount = 1;
+        writes[d].descriptorType = vulkan::descriptor_type(*descriptors[d].kind);
         if (descriptors[d].kind == DescriptorKind::storage_image) {
-            images[d] = {VK_NULL_HANDLE, pool_.image(name).view(), access_scope(use.access).layout};
-            writes[d].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+            images[d] = {VK_NULL_HANDLE, image(bound->handle).view(), layout(bound->handle)};
             writes[d].pImageInfo = &images[d];
         } else {
-            buffers[d] = {pool_.buffer(name, slot_).handle(), 0, VK_WHOLE_SIZE};
-            writes[d].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+            buffers[d] = {buffer(bound->handle).handle(), 0, VK_WHOLE_SIZE};
             writes[d].pBufferInfo = &buffers[d];
         }
     }
     vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
-    if (!writes.empty()) {
-        vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,
-                                  static_cast<std::uint32_t>(writes.size()), writes.data());
-    }
-    if (!push_constants.empty()) {
-        vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
-                           static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
-    }
+    if (writes.empty()) return;
+    vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,
+                              static_cast<std::uint32_t>(writes.size()), writes.data());
+}
+
+void PassContext::push(const vulkan::Pipeline& pipeline, const vulkan::StructLayout* layout,
+                       std::span<const std::byte> bytes) {
+    const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), layout);
+    if (!difference.empty()) refuse(pipeline, "push constants", difference);
+    if (!layout) return;
+    // What C++ adds at the end is no part of the pipeline's range.
+    vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
+                       pipeline.push_constants()->size, bytes.data());
 }
 
 void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {

@@ -56,7 +56,7 @@ void require_equal(const Resource& one, const Resource& other) {
     const bool equal = one.is_image == other.is_image && one.lifetime == other.lifetime &&
                        one.image.format == other.image.format && one.image.width == other.image.width &&
                        one.image.height == other.image.height && one.image.samples == other.image.samples &&
-                       one.buffer.byte_count == other.buffer.byte_count;
+                       one.buffer.byte_count == other.buffer.byte_count && one.buffer.element == other.buffer.element;
     if (!equal) throw GraphError(fmt::format("resource '{}': two graphs declare it differently", one.name));
 }
 

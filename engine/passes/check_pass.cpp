@@ -2,32 +2,11 @@
 
 #include <volk.h>
 
-#include "passes/declare.h"
 #include "passes/step_dispatch.h"
-#include "passes/struct_layouts.h"
 
 namespace drape {
 
 namespace {
-
-constexpr vulkan::DescriptorDeclaration residual_descriptors[] = {
-    image_read(0, "position"),
-    image_read(1, "displacement"),
-    image_read(2, "tension_row", VK_FORMAT_R32_SFLOAT),
-    image_read(3, "tension_column", VK_FORMAT_R32_SFLOAT),
-    {4, "Partials", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::write, VK_FORMAT_UNDEFINED,
-     &layouts::residual_record, 0},
-    image_read(5, "stiffness_image"),  // the masked variant only
-};
-const vulkan::ShaderInterface whole{"residual.comp", std::span(residual_descriptors).first(5), &layouts::residual_push};
-const vulkan::ShaderInterface masked{"residual_masked.comp", residual_descriptors, &layouts::residual_push};
-
-constexpr vulkan::DescriptorDeclaration decision_descriptors[] = {
-    struct_buffer_read(0, "Partials", &layouts::residual_record),
-    vector_buffer_read(1, "Sizes", sizeof(glsl::uvec4)),
-    {2, "State", vulkan::DescriptorKind::storage_buffer, vulkan::DescriptorAccess::read_write, VK_FORMAT_UNDEFINED,
-     nullptr, sizeof(glsl::uvec4)}};
-const vulkan::ShaderInterface decision{"iteration_decision.comp", decision_descriptors, &layouts::iteration_push};
 
 std::uint32_t strip_count(const Grid& grid) {
     constexpr auto rows = static_cast<std::uint32_t>(glsl::residual_rows);
@@ -40,18 +19,19 @@ std::uint32_t partial_count(const Grid& grid) {
 }
 
 void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get(state.model->masked ? masked : whole);
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("residual.comp", {{"masked", state.model->masked}}));
     const glsl::ResidualPush push = state.model->residual;
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.columns(), strip_count(state.model->grid));
     graph.add_pass(
         state.step_name("residual", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, 0);
-            setup.read(state.displacement, graph::Access::compute_read, 1);
-            setup.read(state.tension[0], graph::Access::compute_read, 2);
-            setup.read(state.tension[1], graph::Access::compute_read, 3);
-            state.residuals = setup.write(state.residuals, graph::Access::compute_write, 4);
-            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, 5);
+            setup.read(state.position, graph::Access::compute_read, "position");
+            setup.read(state.displacement, graph::Access::compute_read, "displacement");
+            setup.read(state.tension[0], graph::Access::compute_read, "tension_row");
+            setup.read(state.tension[1], graph::Access::compute_read, "tension_column");
+            state.residuals = setup.write(state.residuals, graph::Access::compute_write, "partials");
+            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
@@ -62,7 +42,7 @@ void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& sta
 void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SimulationModel& model,
                const Step& step) {
     add_residual(graph, pipelines, state, step);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(decision);
+    const vulkan::ComputePipeline& pipeline = pipelines.get("iteration_decision.comp");
     const SolverSettings& solver = model.scene.solver;
     const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)), model.iteration_limit(),
                                    step.substep == 0 && step.iteration == 0 ? 1 : 0, static_cast<int>(solver.substeps)};
@@ -70,16 +50,15 @@ void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     graph.add_pass(
         state.step_name("iteration decision", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.residuals, graph::Access::compute_read, 0);
-            setup.read(state.iteration_size_list, graph::Access::compute_read, 1);
+            setup.read(state.residuals, graph::Access::compute_read, "partials");
+            setup.read(state.iteration_size_list, graph::Access::compute_read, "sizes");
             dispatch.declare(setup);
-            setup.read(state.iterations, graph::Access::compute_read);
-            state.iterations = setup.write(state.iterations, graph::Access::compute_write, 2);
+            update_in_place(setup, state.iterations, "state");
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
 }
 
-std::uint64_t residual_byte_count(const Grid& grid) { return partial_count(grid) * sizeof(glsl::ResidualRecord); }
+std::uint64_t residual_count(const Grid& grid) { return partial_count(grid); }
 
 std::string iteration_readback_name(const ClothModel& cloth) { return cloth.name + "/iterations on the host"; }
 

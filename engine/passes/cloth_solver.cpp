@@ -38,11 +38,6 @@ void write_buffer(const graph::ResourcePool& pool, std::uint32_t slot, const std
 
 }  // namespace
 
-std::string_view collider_kind_name(std::size_t kind) {
-    constexpr std::string_view names[] = {"planes", "spheres", "boxes", "ellipsoids"};
-    return names[kind];
-}
-
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
     : model_(model), pipelines_(device) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
@@ -54,12 +49,11 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     inputs_ = {};
     for (const SkippedWork& work : model_.skipped()) graph.skip(work.what, work.reason);
     const SceneDescription& scene = model_.scene;
-    if (model_.windy)
-        inputs_.wind = graph.buffer({"wind", scene.solver.substeps * sizeof(glsl::vec4), Lifetime::host_input});
+    if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", scene.solver.substeps, Lifetime::host_input);
     for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
         if (const std::size_t count = collider_record_count(scene, static_cast<ColliderKind>(kind)))
-            inputs_.colliders[kind] = graph.buffer({std::string("colliders/") + std::string(collider_kind_name(kind)),
-                                                    count * sizeof(glsl::Collider), Lifetime::host_input});
+            inputs_.colliders[kind] = graph.buffer<glsl::Collider>("colliders/" + std::string(collider_kind_name(kind)),
+                                                                   count, Lifetime::host_input);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index)
         declare_cloth(graph, model_.cloths[index], index, needs);
 }
@@ -98,24 +92,25 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
     if (model_.adaptive()) declare_iterations(graph, state);
     if (needs.drawing) declare_drawing(graph, state);
     if (!model.tethers.empty())
-        state.tethers = graph.buffer(
-            {model.name + "/tethers", model.tethers.size() * sizeof(glsl::ParticleTethers), Lifetime::constant});
+        state.tethers =
+            graph.buffer<glsl::ParticleTethers>(model.name + "/tethers", model.tethers.size(), Lifetime::constant);
     if (!model.pinned.empty()) {
-        state.pinned = graph.buffer(
-            {model.name + "/pinned particles", model.pinned.size() * sizeof(glsl::PinnedParticle), Lifetime::constant});
-        state.pin_motions = graph.buffer(
-            {model.name + "/pin motions",
-             model.dynamic_pins.size() * model_.scene.solver.substeps * sizeof(glsl::PinMotion), Lifetime::host_input});
+        state.pinned = graph.buffer<glsl::PinnedParticle>(model.name + "/pinned particles", model.pinned.size(),
+                                                          Lifetime::constant);
+        state.pin_motions = graph.buffer<glsl::PinMotion>(model.name + "/pin motions",
+                                                          model.dynamic_pins.size() * model_.scene.solver.substeps,
+                                                          Lifetime::host_input);
     }
     cloths_.push_back(state);
 }
 
 void ClothSolver::declare_iterations(graph::Graph& graph, ClothState& state) {
     const std::string& name = state.model->name;
-    constexpr std::uint64_t list = glsl::iteration_size_count * sizeof(glsl::uvec4);
-    state.residuals = graph.buffer({name + "/residuals", residual_byte_count(state.model->grid), Lifetime::transient});
-    state.iterations = graph.buffer({name + "/iterations", list + sizeof(glsl::uvec4), Lifetime::persistent});
-    state.iteration_size_list = graph.buffer({name + "/iteration sizes", list, Lifetime::constant});
+    constexpr std::uint64_t list = glsl::iteration_size_count;
+    state.residuals =
+        graph.buffer<glsl::ResidualRecord>(name + "/residuals", residual_count(state.model->grid), Lifetime::transient);
+    state.iterations = graph.buffer<glsl::uvec4>(name + "/iterations", list + 1, Lifetime::persistent);
+    state.iteration_size_list = graph.buffer<glsl::uvec4>(name + "/iteration sizes", list, Lifetime::constant);
     state.iteration_sizes = iteration_sizes_[state.index];
 }
 
@@ -129,8 +124,7 @@ void ClothSolver::declare_drawing(graph::Graph& graph, ClothState& state) const 
     state.triangles = graph.buffer({name + "/triangles", room * sizeof(std::uint32_t), Lifetime::constant});
     if (!cuttable || (*topologies_)[state.index].vertices().empty()) return;
     const std::size_t vertex_room = draw_list_capacity((*topologies_)[state.index].vertices().size());
-    state.cut_vertices =
-        graph.buffer({name + "/cut vertices", vertex_room * sizeof(glsl::CutVertex), Lifetime::constant});
+    state.cut_vertices = graph.buffer<glsl::CutVertex>(name + "/cut vertices", vertex_room, Lifetime::constant);
 }
 
 void ClothSolver::add_cuts(graph::Graph& graph) {

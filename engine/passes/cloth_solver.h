@@ -89,7 +89,4 @@ class ClothSolver {
     SceneInputs inputs_;
 };
 
-/// "spheres" and so on: the collider buffer's name is "colliders/" + this.
-std::string_view collider_kind_name(std::size_t kind);
-
 }  // namespace drape

@@ -1,17 +1,21 @@
 #include "passes/pass_kit.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "fmt/format.h"
 
 namespace drape {
 
-const vulkan::ComputePipeline& PipelineCache::get(const vulkan::ShaderInterface& shader,
+const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
                                                   const std::vector<vulkan::SpecializationConstant>& constants) {
-    std::string key(shader.module);
-    for (const auto& constant : constants) key += fmt::format(" {}={}", constant.id, constant.value);
+    std::string key = module;
+    for (const auto& constant : constants) key += fmt::format(" {}={}", constant.name, constant.value);
     std::unique_ptr<vulkan::ComputePipeline>& pipeline = pipelines_[key];
-    if (!pipeline) pipeline = std::make_unique<vulkan::ComputePipeline>(device_, key, shader, constants);
+    if (!pipeline) {
+        const vulkan::Shader shader{module};
+        pipeline = std::make_unique<vulkan::ComputePipeline>(device_, key, shader, constants);
+    }
     return *pipeline;
 }
 
@@ -31,9 +35,27 @@ graph::PassName ClothState::step_name(const std::string& pass, const Step& step)
     return {fmt::format("{} (substep {}, iteration {})", label, step.substep, step.iteration), "simulate", label};
 }
 
-void update(graph::PassSetup& setup, graph::Handle& handle, std::uint32_t read_binding, std::uint32_t write_binding) {
-    setup.read(handle, graph::Access::compute_read, read_binding);
-    handle = setup.write(handle, graph::Access::compute_write, write_binding);
+std::string_view collider_kind_name(std::size_t kind) {
+    constexpr std::string_view names[] = {"planes", "spheres", "boxes", "ellipsoids"};
+    return names[kind];
+}
+
+void read_colliders(graph::PassSetup& setup, const SceneInputs& inputs) {
+    const graph::Handle any = *std::ranges::find_if(inputs.colliders, &graph::Handle::valid);
+    for (std::size_t kind = 0; kind < collider_kind_count; ++kind) {
+        const graph::Handle buffer = inputs.colliders[kind];
+        setup.read(buffer.valid() ? buffer : any, graph::Access::compute_read, std::string(collider_kind_name(kind)));
+    }
+}
+
+void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name) {
+    setup.read(handle, graph::Access::compute_read, name + "_in");
+    handle = setup.write(handle, graph::Access::compute_write, name + "_out");
+}
+
+void update_in_place(graph::PassSetup& setup, graph::Handle& handle, const std::string& name) {
+    setup.read(handle, graph::Access::compute_read);
+    handle = setup.write(handle, graph::Access::compute_write, name);
 }
 
 }  // namespace drape

@@ -13,11 +13,11 @@
 
 namespace drape {
 
-/// Compute pipelines by module and constants, made when first asked for and checked then.
+/// Compute pipelines by module and constants, made when first asked for.
 class PipelineCache {
   public:
     explicit PipelineCache(const vulkan::Device& device) : device_(device) {}
-    const vulkan::ComputePipeline& get(const vulkan::ShaderInterface& shader,
+    const vulkan::ComputePipeline& get(const std::string& module,
                                        const std::vector<vulkan::SpecializationConstant>& constants = {});
     std::size_t size() const { return pipelines_.size(); }
 
@@ -75,7 +75,18 @@ struct SceneInputs {
     std::array<graph::Handle, collider_kind_count> colliders;  ///< invalid where the scene has none of the kind
 };
 
-/// Declares read then write of one image at two bindings and stores the new handle.
-void update(graph::PassSetup& setup, graph::Handle& handle, std::uint32_t read_binding, std::uint32_t write_binding);
+/// By kind: the constants of the shaders that meet colliders, which say whether the scene has any of the kind.
+inline constexpr std::array<std::string_view, collider_kind_count> collider_constants = {"has_planes", "has_spheres",
+                                                                                         "has_boxes", "has_ellipsoids"};
+/// "spheres" and so on: the shaders' array, and after "colliders/" the buffer's name.
+std::string_view collider_kind_name(std::size_t kind);
+/// Declares that a compute pass reads the colliders. A kind that the scene lacks borrows another kind's buffer: its
+/// count is 0, so nothing is read.
+void read_colliders(graph::PassSetup& setup, const SceneInputs& inputs);
+
+/// Declares read then write of one resource and stores the new handle: by two variables of the shader, NAME_in and
+/// NAME_out, so that synchronization validation sees them apart, or by one.
+void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
+void update_in_place(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
 
 }  // namespace drape

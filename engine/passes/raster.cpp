@@ -7,14 +7,12 @@
 #include <initializer_list>
 
 #include "passes/raster_frame.h"
-#include "passes/raster_interfaces.h"
 #include "passes/raster_recording.h"
 
 namespace drape {
 
 using graph::Access;
 using graph::Handle;
-namespace interfaces = raster_interfaces;
 
 /// Newest handles of what a frame's passes write one after the other.
 struct RasterPass::Targets {
@@ -74,27 +72,27 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
     vulkan::GraphicsState shadow_state = state;
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
-    shadow_state.fragment = interfaces::shadow_fragment;
+    shadow_state.fragment = {"shadow.frag"};
     if (has_cloth) {
-        state.vertex = interfaces::cloth_vertex;
-        state.fragment = shadow ? interfaces::cloth_shadowed_fragment : interfaces::cloth_fragment;
+        state.vertex = {"cloth.vert"};
+        state.fragment = {vulkan::variant_name("cloth.frag", {{"shadowed", shadow}})};
         cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cloth", state);
-        shadow_state.vertex = interfaces::shadow_cloth_vertex;
+        shadow_state.vertex = {"shadow_cloth.vert"};
         if (shadow) shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
     }
     if (has_cut_cloth) {
-        state.vertex = interfaces::cut_cloth_vertex;
+        state.vertex = {"cloth_cut.vert"};
         cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cut cloth", state);
-        shadow_state.vertex = interfaces::shadow_cut_cloth_vertex;
+        shadow_state.vertex = {"shadow_cloth_cut.vert"};
         if (shadow)
             shadow_cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cut cloth", shadow_state);
     }
-    state.vertex = interfaces::collider_vertex;
-    state.fragment = shadow ? interfaces::collider_shadowed_fragment : interfaces::collider_fragment;
-    shadow_state.vertex = interfaces::shadow_collider_vertex;
+    state.vertex = {"collider.vert"};
+    state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
+    shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(colliders_)) {
         const auto kind = static_cast<std::uint32_t>(range.kind);
-        state.constants = {{interfaces::collider_kind_constant, kind}};
+        state.constants = {{"collider_kind", kind}};
         state.depth_write = range.kind != glsl::kind_backdrop;
         draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
         if (!shadow || !range.casts_shadow) continue;
@@ -107,9 +105,9 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     Targets targets;
     const std::size_t instance_count = draws_.back().range.first_instance + draws_.back().range.instance_count;
-    targets.frame = graph.buffer({frame_name, sizeof(glsl::FrameConstants), graph::Lifetime::host_input});
+    targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
     targets.colliders =
-        graph.buffer({colliders_name, instance_count * sizeof(glsl::ColliderInstance), graph::Lifetime::host_input});
+        graph.buffer<glsl::ColliderInstance>(colliders_name, instance_count, graph::Lifetime::host_input);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     targets.color = graph.image({color_name, color_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
@@ -154,17 +152,14 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             for (const RasterCloth& cloth : cloths) {
                 const bool cut = cloth.cut_vertices.valid();
                 const vulkan::GraphicsPipeline& pipeline = cut ? *shadow_cut_cloth_ : *shadow_cloth_;
-                std::vector<BoundHandle> bound{{interfaces::frame_binding, frame},
-                                               {interfaces::position_binding, cloth.position}};
-                if (cut) bound.push_back({interfaces::cut_vertices_binding, cloth.cut_vertices});
-                bind_pipeline(context, pipeline);
-                push_bindings(context, pipeline, bound);
+                std::vector<graph::Binding> bound{{"frame", frame}, {"position", cloth.position}};
+                if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
+                context.bind(pipeline, bound);
                 draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
             }
             for (const Draw& draw : shadow_draws_) {
-                bind_pipeline(context, *draw.pipeline);
-                push_bindings(context, *draw.pipeline,
-                              {{interfaces::frame_binding, frame}, {interfaces::colliders_binding, colliders}});
+                const graph::Binding bound[] = {{"frame", frame}, {"colliders", colliders}};
+                context.bind(*draw.pipeline, bound);
                 draw_colliders(context, draw.range);
             }
             vkCmdEndRendering(context.commands());
@@ -198,28 +193,25 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
         });
 }
 
-void RasterPass::draw_picture(const graph::PassContext& context, const Targets& targets,
+void RasterPass::draw_picture(graph::PassContext& context, const Targets& targets,
                               const std::vector<RasterCloth>& cloths) const {
-    std::vector<BoundHandle> shared{{interfaces::frame_binding, targets.frame}};
-    if (casts_shadow()) shared.push_back({interfaces::shadow_map_binding, targets.shadow_map});
-    const auto bindings = [&](std::initializer_list<BoundHandle> own) {
-        std::vector<BoundHandle> all = shared;
+    std::vector<graph::Binding> shared{{"frame", targets.frame}};
+    if (casts_shadow()) shared.push_back({"shadow_map", targets.shadow_map});
+    const auto bindings = [&](std::initializer_list<graph::Binding> own) {
+        std::vector<graph::Binding> all = shared;
         all.insert(all.end(), own);
         return all;
     };
     for (const RasterCloth& cloth : cloths) {
         const bool cut = cloth.cut_vertices.valid();
         const vulkan::GraphicsPipeline& pipeline = cut ? *cut_cloth_ : *cloth_;
-        std::vector<BoundHandle> bound =
-            bindings({{interfaces::position_binding, cloth.position}, {interfaces::normal_binding, cloth.normal}});
-        if (cut) bound.push_back({interfaces::cut_vertices_binding, cloth.cut_vertices});
-        bind_pipeline(context, pipeline);
-        push_bindings(context, pipeline, bound);
+        std::vector<graph::Binding> bound = bindings({{"position", cloth.position}, {"normal", cloth.normal}});
+        if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
+        context.bind(pipeline, bound);
         draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
     }
     for (const Draw& draw : draws_) {
-        bind_pipeline(context, *draw.pipeline);
-        push_bindings(context, *draw.pipeline, bindings({{interfaces::colliders_binding, targets.colliders}}));
+        context.bind(*draw.pipeline, bindings({{"colliders", targets.colliders}}));
         draw_colliders(context, draw.range);
     }
 }

@@ -73,7 +73,7 @@ class RasterPass {
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
-    void draw_picture(const graph::PassContext& context, const Targets& targets,
+    void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 

@@ -15,8 +15,7 @@ using Workgroup = std::array<ResidualRecord, workgroup_width>;
 
 ResidualRecord joined_over_workgroup(Workgroup& lanes) {
     for (std::size_t stride = workgroup_width / 2; stride > 0; stride /= 2)
-        for (std::size_t lane = 0; lane < stride; ++lane)
-            lanes[lane] = joined_residuals(lanes[lane], lanes[lane + stride]);
+        for (std::size_t lane = 0; lane < stride; ++lane) lanes[lane] = joined(lanes[lane], lanes[lane + stride]);
     return lanes[0];
 }
 
@@ -54,7 +53,7 @@ ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
     Workgroup lanes;
     lanes.fill(empty_residual());
     for (std::size_t i = 0; i < partials.size(); ++i)
-        lanes[i % workgroup_width] = joined_residuals(lanes[i % workgroup_width], partials[i]);
+        lanes[i % workgroup_width] = joined(lanes[i % workgroup_width], partials[i]);
     return joined_over_workgroup(lanes);
 }
 

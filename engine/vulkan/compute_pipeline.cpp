@@ -9,17 +9,6 @@ namespace drape::vulkan {
 
 namespace {
 
-std::array<std::uint32_t, 3> specialized_local_size(const ReflectedModule& module,
-                                                    std::span<const SpecializationConstant> constants) {
-    std::array<std::uint32_t, 3> size = module.local_size;
-    for (std::size_t axis = 0; axis < size.size(); ++axis) {
-        for (const SpecializationConstant& constant : constants) {
-            if (module.local_size_constant_ids[axis] == constant.id) size[axis] = constant.value;
-        }
-    }
-    return size;
-}
-
 void require_local_size(const Device& device, const std::string& name, const std::array<std::uint32_t, 3>& size) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     bool fits = std::uint64_t{size[0]} * size[1] * size[2] <= limits.maxComputeWorkGroupInvocations;
@@ -34,16 +23,15 @@ void require_local_size(const Device& device, const std::string& name, const std
 
 }  // namespace
 
-ComputePipeline::ComputePipeline(const Device& device, std::string name, const ShaderInterface& shader,
+ComputePipeline::ComputePipeline(const Device& device, std::string name, const Shader& shader,
                                  std::span<const SpecializationConstant> constants)
     : Pipeline(device, std::move(name), VK_PIPELINE_BIND_POINT_COMPUTE) {
     const ShaderStage stage(device, name_, shader, VK_SHADER_STAGE_COMPUTE_BIT, constants);
     const ShaderStage* const stages[] = {&stage};
     require_constants(name_, constants, stages);
-    local_size_ = specialized_local_size(stage.reflected(), constants);
+    local_size_ = stage.local_size();
     require_local_size(device, name_, local_size_);
-    const std::pair<VkShaderStageFlagBits, ShaderInterface> interfaces[] = {{VK_SHADER_STAGE_COMPUTE_BIT, shader}};
-    make_layout(interfaces);
+    make_layout(stages);
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage = stage.create_info();
     info.layout = layout_;

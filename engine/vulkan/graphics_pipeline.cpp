@@ -13,11 +13,11 @@ namespace {
 
 /// Writing from these stages would need vertexPipelineStoresAndAtomics or fragmentStoresAndAtomics, which
 /// the device is not asked for.
-void require_read_only(const std::string& pipeline, const ShaderInterface& shader) {
-    for (const DescriptorDeclaration& descriptor : shader.descriptors) {
-        if (descriptor.access != DescriptorAccess::read) {
-            throw VulkanError(fmt::format("pipeline {}: {} writes binding {} ({}); graphics stages only read", pipeline,
-                                          shader.module, descriptor.binding, descriptor.name));
+void require_read_only(const std::string& pipeline, const ShaderStage& stage) {
+    for (const ReflectedDescriptor& descriptor : stage.reflected().descriptors) {
+        if (descriptor.writable) {
+            throw VulkanError(fmt::format("pipeline {}: {} writes '{}' (binding {}); graphics stages only read",
+                                          pipeline, stage.module(), descriptor.name, descriptor.binding));
         }
     }
 }
@@ -95,16 +95,13 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, std::string name, const
     const ShaderStage vertex(device, name_, state.vertex, VK_SHADER_STAGE_VERTEX_BIT, state.constants);
     std::optional<ShaderStage> fragment;
     std::vector<const ShaderStage*> stages = {&vertex};
-    std::vector<std::pair<VkShaderStageFlagBits, ShaderInterface>> interfaces = {
-        {VK_SHADER_STAGE_VERTEX_BIT, state.vertex}};
     if (!state.fragment.module.empty()) {
         fragment.emplace(device, name_, state.fragment, VK_SHADER_STAGE_FRAGMENT_BIT, state.constants);
         stages.push_back(&*fragment);
-        interfaces.emplace_back(VK_SHADER_STAGE_FRAGMENT_BIT, state.fragment);
     }
     require_constants(name_, state.constants, stages);
-    for (const auto& [stage, shader] : interfaces) require_read_only(name_, shader);
-    make_layout(interfaces);
+    for (const ShaderStage* stage : stages) require_read_only(name_, *stage);
+    make_layout(stages);
 
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
     for (const ShaderStage* stage : stages) stage_infos.push_back(stage->create_info());

@@ -4,41 +4,36 @@
 #include <volk.h>
 
 #include <algorithm>
-#include <map>
 
+#include "vulkan/shader_stage.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {
 
 namespace {
 
-VkDescriptorType descriptor_type(DescriptorKind kind) {
-    return kind == DescriptorKind::storage_image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
-bool same_binding(const DescriptorDeclaration& a, const DescriptorDeclaration& b) {
-    return a.name == b.name && a.kind == b.kind && a.access == b.access && a.format == b.format &&
-           a.element == b.element && a.stride == b.stride;
-}
-
 /// `pipeline` may push this many storage images and buffers per stage.
-void require_counts(const Device& device, const std::string& pipeline, const ShaderInterface& shader) {
+void require_counts(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
+    const std::vector<ReflectedDescriptor>& all = stage.reflected().descriptors;
     const auto images = static_cast<std::uint32_t>(
-        std::count_if(shader.descriptors.begin(), shader.descriptors.end(),
-                      [](const DescriptorDeclaration& d) { return d.kind == DescriptorKind::storage_image; }));
-    const auto buffers = static_cast<std::uint32_t>(shader.descriptors.size()) - images;
+        std::ranges::count(all, std::optional(DescriptorKind::storage_image), &ReflectedDescriptor::kind));
+    const auto buffers = static_cast<std::uint32_t>(all.size()) - images;
     const VkPhysicalDeviceLimits& limits = device.limits();
     if (images > limits.maxPerStageDescriptorStorageImages) {
         throw VulkanError(fmt::format("pipeline {}: {} has {} storage images, the device's limit is {}", pipeline,
-                                      shader.module, images, limits.maxPerStageDescriptorStorageImages));
+                                      stage.module(), images, limits.maxPerStageDescriptorStorageImages));
     }
     if (buffers > limits.maxPerStageDescriptorStorageBuffers) {
         throw VulkanError(fmt::format("pipeline {}: {} has {} storage buffers, the device's limit is {}", pipeline,
-                                      shader.module, buffers, limits.maxPerStageDescriptorStorageBuffers));
+                                      stage.module(), buffers, limits.maxPerStageDescriptorStorageBuffers));
     }
 }
 
 }  // namespace
+
+VkDescriptorType descriptor_type(DescriptorKind kind) {
+    return kind == DescriptorKind::storage_image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
 
 Pipeline::Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point)
     : device_(device), name_(std::move(name)), bind_point_(bind_point) {}
@@ -49,58 +44,65 @@ Pipeline::~Pipeline() {
     vkDestroyDescriptorSetLayout(device_.handle(), set_layout_, nullptr);
 }
 
-void Pipeline::make_layout(std::span<const std::pair<VkShaderStageFlagBits, ShaderInterface>> stages) {
-    std::map<std::uint32_t, VkDescriptorSetLayoutBinding> bindings;
-    for (const auto& [stage, shader] : stages) {
-        require_counts(device_, name_, shader);
-        for (const DescriptorDeclaration& descriptor : shader.descriptors) {
-            const auto [binding, is_new] = bindings.try_emplace(descriptor.binding);
-            if (is_new) {
-                binding->second = {descriptor.binding, descriptor_type(descriptor.kind), 1, 0, nullptr};
-                descriptors_.push_back(descriptor);
-            }
-            binding->second.stageFlags |= stage;
-            const auto first = std::find_if(descriptors_.begin(), descriptors_.end(),
-                                            [&](const auto& other) { return other.binding == descriptor.binding; });
-            if (!same_binding(*first, descriptor)) {
-                throw VulkanError(
-                    fmt::format("pipeline {}: binding {} is {} in one stage and {}, or declared "
-                                "otherwise, in another",
-                                name_, descriptor.binding, first->name, descriptor.name));
-            }
-        }
-        if (shader.push_constants) {
-            push_constant_stages_ |= stage;
-            push_constant_size_ = std::max(push_constant_size_, shader.push_constants->size);
-        }
+void Pipeline::make_layout(std::span<const ShaderStage* const> stages) {
+    for (const ShaderStage* stage : stages) {
+        require_counts(device_, name_, *stage);
+        merge(*stage);
     }
-    std::sort(descriptors_.begin(), descriptors_.end(),
-              [](const auto& a, const auto& b) { return a.binding < b.binding; });
-    make_layout_handles(bindings);
+    std::ranges::sort(descriptors_, {}, &ReflectedDescriptor::binding);
+    make_layout_handles();
 }
 
-void Pipeline::make_layout_handles(const std::map<std::uint32_t, VkDescriptorSetLayoutBinding>& bindings) {
-    if (bindings.size() > device_.max_push_descriptors()) {
-        throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_, bindings.size(),
-                                      device_.max_push_descriptors()));
+void Pipeline::merge(const ShaderStage& stage) {
+    const ReflectedModule& module = stage.reflected();
+    for (const ReflectedDescriptor& descriptor : module.descriptors) {
+        const auto other = std::ranges::find_if(descriptors_, [&](const ReflectedDescriptor& known) {
+            return known.binding == descriptor.binding || known.name == descriptor.name;
+        });
+        if (other == descriptors_.end()) {
+            descriptors_.push_back(descriptor);
+            continue;
+        }
+        ReflectedDescriptor same = descriptor;
+        same.stages = other->stages;
+        if (same != *other)
+            throw VulkanError(
+                fmt::format("pipeline {}: '{}' at binding {} of {} is not the '{}' at binding {} that was there before",
+                            name_, descriptor.name, descriptor.binding, stage.module(), other->name, other->binding));
+        other->stages |= module.stage;
     }
-    if (push_constant_size_ > device_.limits().maxPushConstantsSize) {
+    if (!module.push_constants) return;
+    if (push_constants_ && push_constants_ != module.push_constants)
+        throw VulkanError(fmt::format("pipeline {}: the push constants {} of {} are not the {} of another stage", name_,
+                                      module.push_constants->name, stage.module(), push_constants_->name));
+    push_constants_ = module.push_constants;
+    push_constant_stages_ |= module.stage;
+}
+
+void Pipeline::make_layout_handles() {
+    const std::uint32_t push_constant_size = push_constants_ ? push_constants_->size : 0;
+    if (descriptors_.size() > device_.max_push_descriptors()) {
+        throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_,
+                                      descriptors_.size(), device_.max_push_descriptors()));
+    }
+    if (push_constant_size > device_.limits().maxPushConstantsSize) {
         throw VulkanError(fmt::format("pipeline {} has {} bytes of push constants, the device's limit is {}", name_,
-                                      push_constant_size_, device_.limits().maxPushConstantsSize));
+                                      push_constant_size, device_.limits().maxPushConstantsSize));
     }
-    std::vector<VkDescriptorSetLayoutBinding> sorted;
-    for (const auto& [number, binding] : bindings) sorted.push_back(binding);
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const ReflectedDescriptor& descriptor : descriptors_)
+        bindings.push_back({descriptor.binding, descriptor_type(*descriptor.kind), 1, descriptor.stages, nullptr});
     auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
-    set.bindingCount = static_cast<std::uint32_t>(sorted.size());
-    set.pBindings = sorted.data();
+    set.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set.pBindings = bindings.data();
     create_handle(vkCreateDescriptorSetLayout, device_.handle(), set, set_layout_, "vkCreateDescriptorSetLayout",
                   name_);
-    const VkPushConstantRange range{push_constant_stages_, 0, push_constant_size_};
+    const VkPushConstantRange range{push_constant_stages_, 0, push_constant_size};
     auto layout = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout.setLayoutCount = 1;
     layout.pSetLayouts = &set_layout_;
-    layout.pushConstantRangeCount = push_constant_size_ > 0 ? 1 : 0;
+    layout.pushConstantRangeCount = push_constant_size > 0 ? 1 : 0;
     layout.pPushConstantRanges = &range;
     create_handle(vkCreatePipelineLayout, device_.handle(), layout, layout_, "vkCreatePipelineLayout", name_);
     device_.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(layout_), name_);

@@ -1,24 +1,34 @@
-// Compute and graphics pipelines with push descriptors (set 0); interfaces checked when they are made.
+// Compute and graphics pipelines with push descriptors (set 0); their layouts come from the modules themselves.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "vulkan/device.h"
-#include "vulkan/shader_interface.h"
+#include "vulkan/reflection.h"
 
 namespace drape::vulkan {
 
-/// constant_id -> 32-bit value (floats by std::bit_cast).
+/// A constant by its name in GLSL -> 32-bit value (floats by std::bit_cast).
 struct SpecializationConstant {
-    std::uint32_t id;
+    std::string_view name;
     std::uint32_t value;
 };
+
+/// A module by its name in spirv/.
+struct Shader {
+    std::string module;                         ///< "spring_masked.comp"; empty: none
+    std::span<const std::uint32_t> words = {};  ///< tests: this SPIR-V instead of the committed module
+};
+
+VkDescriptorType descriptor_type(DescriptorKind kind);
+
+class ShaderStage;
 
 /// What every pipeline has; descriptors are pushed at record time (VK_KHR_push_descriptor), so no pools.
 class Pipeline {
@@ -31,14 +41,14 @@ class Pipeline {
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
     /// Union over the stages, sorted by binding.
-    const std::vector<DescriptorDeclaration>& descriptors() const { return descriptors_; }
-    std::uint32_t push_constant_size() const { return push_constant_size_; }
+    const std::vector<ReflectedDescriptor>& descriptors() const { return descriptors_; }
+    const std::optional<ReflectedStruct>& push_constants() const { return push_constants_; }
     VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
 
   protected:
     Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point);
-    /// Set layout (stages of each descriptor merged) and pipeline layout.
-    void make_layout(std::span<const std::pair<VkShaderStageFlagBits, ShaderInterface>> stages);
+    /// Set layout and pipeline layout of the stages together; throws VulkanError where they contradict each other.
+    void make_layout(std::span<const ShaderStage* const> stages);
 
     const Device& device_;
     std::string name_;
@@ -46,19 +56,20 @@ class Pipeline {
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineBindPoint bind_point_;
-    std::vector<DescriptorDeclaration> descriptors_;
-    std::uint32_t push_constant_size_ = 0;
+    std::vector<ReflectedDescriptor> descriptors_;
+    std::optional<ReflectedStruct> push_constants_;
     VkShaderStageFlags push_constant_stages_ = 0;
 
   private:
-    void make_layout_handles(const std::map<std::uint32_t, VkDescriptorSetLayoutBinding>& bindings);
+    void merge(const ShaderStage& stage);
+    void make_layout_handles();
 };
 
 class ComputePipeline : public Pipeline {
   public:
-    /// Throws VulkanError when the module is missing, is no compute shader, differs from its declaration, has
-    /// no constant of a given id, or goes beyond the device's limits.
-    ComputePipeline(const Device& device, std::string name, const ShaderInterface& shader,
+    /// Throws VulkanError when the module is missing, is no compute shader, uses what Drape does not,
+    /// has no constant of a given name, or goes beyond the device's limits.
+    ComputePipeline(const Device& device, std::string name, const Shader& shader,
                     std::span<const SpecializationConstant> constants);
     /// As specialised.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
@@ -68,9 +79,9 @@ class ComputePipeline : public Pipeline {
 };
 
 struct GraphicsState {
-    ShaderInterface vertex;
-    ShaderInterface fragment;                         ///< an empty module name: none (depth-only passes)
-    std::vector<SpecializationConstant> constants;    ///< given to both stages; ids are shared
+    Shader vertex;
+    Shader fragment;                                  ///< an empty module name: none (depth-only passes)
+    std::vector<SpecializationConstant> constants;    ///< each for the stages that have it
     VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;  ///< VK_FORMAT_UNDEFINED: no colour attachment
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -81,7 +92,7 @@ struct GraphicsState {
 /// Triangle list, no vertex buffers, dynamic viewport and scissor, dynamic rendering, depth LESS.
 class GraphicsPipeline : public Pipeline {
   public:
-    /// Throws as ComputePipeline does; and descriptors of these stages must be read only.
+    /// Throws as ComputePipeline does; and descriptors of these stages must be read only, and mean the same in both.
     GraphicsPipeline(const Device& device, std::string name, const GraphicsState& state);
 };
 

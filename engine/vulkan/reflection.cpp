@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <spirv_cross_c.h>
 
+#include <algorithm>
 #include <memory>
+
+#include "spirv_modules.h"
 
 namespace drape::vulkan {
 
@@ -71,6 +74,22 @@ constexpr ResourceKind resource_kinds[] = {
     {SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE, "acceleration structure", std::nullopt},
 };
 
+std::string stride_difference(std::uint32_t shader, std::uint32_t layout) {
+    return shader == layout ? "" : fmt::format("the array's stride is {} in the shader, {} in C++", shader, layout);
+}
+
+std::string member_difference(const ReflectedStruct& shader, const StructLayout& layout) {
+    if (shader.name != layout.name) return fmt::format("struct {} in the shader, {} in C++", shader.name, layout.name);
+    if (shader.members.size() != layout.offsets.size())
+        return fmt::format("{} has {} members in the shader, {} in C++", shader.name, shader.members.size(),
+                           layout.offsets.size());
+    for (std::size_t i = 0; i < layout.offsets.size(); ++i)
+        if (shader.members[i].offset != layout.offsets[i])
+            return fmt::format("the offset of {}.{} is {} in the shader, {} in C++", shader.name,
+                               shader.members[i].name, shader.members[i].offset, layout.offsets[i]);
+    return {};
+}
+
 /// One parse of one module.
 class Reflector {
   public:
@@ -94,6 +113,7 @@ class Reflector {
         for (const ResourceKind& kind : resource_kinds) {
             for (const spvc_reflected_resource& resource : list(resources, kind.type)) {
                 result.descriptors.push_back(descriptor(resource, kind));
+                result.descriptors.back().stages = result.stage;
             }
         }
         for (const spvc_reflected_resource& resource : list(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT)) {
@@ -103,7 +123,8 @@ class Reflector {
         std::size_t count = 0;
         require(spvc_compiler_get_specialization_constants(compiler_, &constants, &count));
         for (const auto& constant : std::span(constants, count)) {
-            result.constant_ids.push_back(constant.constant_id);
+            const std::string name = spvc_compiler_get_name(compiler_, constant.id);
+            if (!name.empty()) result.constants.emplace(name, constant.constant_id);  // a workgroup's size has none
         }
         if (result.stage == VK_SHADER_STAGE_COMPUTE_BIT) read_local_size(result);
         return result;
@@ -159,6 +180,7 @@ class Reflector {
                                   spvc_type_array_dimension_is_literal(member, 0) &&
                                   spvc_type_get_array_dimension(member, 0) == 0;
         if (!result.is_runtime_array) return;
+        result.name = spvc_compiler_get_member_name(compiler_, resource.base_type_id, 0);
         require(spvc_compiler_type_struct_member_array_stride(compiler_, block, 0, &result.stride));
         if (spvc_type_get_basetype(member) == SPVC_BASETYPE_STRUCT) {
             result.element = structure_of(spvc_type_get_base_type_id(member));
@@ -180,7 +202,6 @@ class Reflector {
         return result;
     }
 
-    /// A block with a shared struct as its only member means that struct.
     ReflectedStruct push_constants(spvc_type_id id) const {
         const spvc_type block = spvc_compiler_get_type_handle(compiler_, id);
         if (spvc_type_get_num_member_types(block) == 1) {
@@ -199,7 +220,8 @@ class Reflector {
         for (unsigned axis = 0; axis < 3; ++axis) {
             result.local_size[axis] =
                 spvc_compiler_get_execution_mode_argument_by_index(compiler_, SpvExecutionModeLocalSize, axis);
-            if (constants[axis].id != 0) result.local_size_constant_ids[axis] = constants[axis].constant_id;
+            if (constants[axis].id != 0)
+                result.constants[std::string(local_size_names[axis])] = constants[axis].constant_id;
         }
     }
 
@@ -215,6 +237,38 @@ class Reflector {
 
 ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view module) {
     return Reflector(words, module).module();
+}
+
+std::string element_difference(const ReflectedDescriptor& shader, const StructLayout& layout) {
+    if (shader.element.has_value() == layout.offsets.empty())
+        return fmt::format("{} in the shader, {} in C++",
+                           shader.element ? "struct " + shader.element->name : "a scalar or vector", layout.name);
+    const std::string stride = stride_difference(shader.stride, layout.size);
+    return shader.element && stride.empty() ? member_difference(*shader.element, layout) : stride;
+}
+
+std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const StructLayout* layout) {
+    if (!shader && !layout) return {};
+    if (!shader) return fmt::format("{} in C++, but the shader has none", layout->name);
+    if (!layout) return fmt::format("{} in the shader, none in C++", shader->name);
+    if (layout->size < shader->size || layout->size > (shader->size + 15) / 16 * 16)
+        return fmt::format("{} bytes in the shader, {} in C++", shader->size, layout->size);
+    return member_difference(*shader, *layout);
+}
+
+std::span<const std::uint32_t> spirv_module(std::string_view name) {
+    for (const SpirvModule& module : spirv_modules()) {
+        if (module.name == name) return module.words;
+    }
+    throw VulkanError(fmt::format("there is no shader module \"{}\"", name));
+}
+
+std::string variant_name(std::string_view shader, std::initializer_list<std::pair<std::string_view, bool>> variants) {
+    const std::size_t dot = shader.rfind('.');
+    std::string name(shader.substr(0, dot));
+    for (const auto& [variant, chosen] : variants)
+        if (chosen) name.append("_").append(variant);
+    return name.append(shader.substr(dot));
 }
 
 }  // namespace drape::vulkan

@@ -1,32 +1,40 @@
-// What a SPIR-V module says of itself, read once with SPIRV-Cross, and its comparison with a declaration.
+// What a SPIR-V module says of itself, read once with SPIRV-Cross: descriptors and push constants by the names that
+// GLSL gives them, so that C++ binds by name and nobody repeats a binding's number.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "vulkan/shader_interface.h"
+#include "vulkan/error.h"
+#include "vulkan/struct_layout.h"
 
 namespace drape::vulkan {
+
+enum class DescriptorKind { storage_image, storage_buffer };
 
 struct ReflectedMember {
     std::string name;
     std::uint32_t offset;  ///< bytes from the struct's start
+    bool operator==(const ReflectedMember&) const = default;
 };
 
 struct ReflectedStruct {
     std::string name;
     std::uint32_t size = 0;  ///< bytes, without padding at the end
     std::vector<ReflectedMember> members;
+    bool operator==(const ReflectedStruct&) const = default;
 };
 
 /// A descriptor that the entry point statically uses.
 struct ReflectedDescriptor {
     std::uint32_t set = 0, binding = 0;
-    std::string name;                    ///< variable (image) or block (buffer)
+    std::string name;                    ///< GLSL's variable: of an image, or of a buffer's runtime array
     std::string kind_name;               ///< "storage image", "uniform buffer", ...
     std::optional<DescriptorKind> kind;  ///< none: a kind that Drape does not use
     bool is_array = false;               ///< of descriptors
@@ -35,21 +43,36 @@ struct ReflectedDescriptor {
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
     std::uint32_t stride = 0;                ///< of that array, bytes
     std::optional<ReflectedStruct> element;  ///< when that array's elements are structs
+    VkShaderStageFlags stages = 0;           ///< that use it
+    bool operator==(const ReflectedDescriptor&) const = default;
 };
+
+/// What the constant of a workgroup size given by local_size_x_id is called.
+inline constexpr std::array<std::string_view, 3> local_size_names = {"local_size_x", "local_size_y", "local_size_z"};
 
 struct ReflectedModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_ALL;
     std::vector<ReflectedDescriptor> descriptors;
+    /// The block; when its only member is a struct, that struct.
     std::optional<ReflectedStruct> push_constants;
-    std::vector<std::uint32_t> constant_ids;  ///< specialization constants
-    std::array<std::uint32_t, 3> local_size{};
-    std::array<std::optional<std::uint32_t>, 3> local_size_constant_ids;
+    /// Specialization constants, name -> id; those of the workgroup's size by local_size_names.
+    std::map<std::string, std::uint32_t, std::less<>> constants;
+    std::array<std::uint32_t, 3> local_size{};  ///< by default
 };
 
 /// Throws VulkanError naming `module` when SPIRV-Cross cannot read the words.
 ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view module);
 
-/// Throws VulkanError listing every difference; see check_interface.
-void require_match(const ReflectedModule& module, const ShaderInterface& declared);
+/// In which way the C++ struct is not the shader's; empty when it is. `shader` none: a scalar or a vector.
+std::string element_difference(const ReflectedDescriptor& shader, const StructLayout& layout);
+/// Likewise; C++ may round the size up to 16 bytes.
+std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const StructLayout* layout);
+
+/// The committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
+std::span<const std::uint32_t> spirv_module(std::string_view name);
+
+/// Name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true}, {"tension", false}}
+/// -> "line_masked.comp". In the order of the shader's pragma.
+std::string variant_name(std::string_view shader, std::initializer_list<std::pair<std::string_view, bool>> variants);
 
 }  // namespace drape::vulkan

@@ -1,6 +1,7 @@
-// One checked and specialised stage of a pipeline that is being made.
+// One specialised stage of a pipeline that is being made.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +12,12 @@
 
 namespace drape::vulkan {
 
-/// Finds the module, checks stage and interface, makes the VkShaderModule and keeps it as long as the
-/// pipeline's creation needs it.
+/// Finds the module, checks that it is of the stage and uses nothing that Drape does not, makes the VkShaderModule and
+/// keeps it as long as the pipeline's creation needs it.
 class ShaderStage {
   public:
-    ShaderStage(const Device& device, const std::string& pipeline, const ShaderInterface& shader,
-                VkShaderStageFlagBits stage, std::span<const SpecializationConstant> constants);
+    ShaderStage(const Device& device, const std::string& pipeline, const Shader& shader, VkShaderStageFlagBits stage,
+                std::span<const SpecializationConstant> constants);
     ~ShaderStage();
     ShaderStage(const ShaderStage&) = delete;
     ShaderStage& operator=(const ShaderStage&) = delete;
@@ -24,18 +25,24 @@ class ShaderStage {
     /// Points into this object.
     VkPipelineShaderStageCreateInfo create_info() const;
     const ReflectedModule& reflected() const { return reflected_; }
-    bool has_constant(std::uint32_t id) const;
+    const std::string& module() const { return name_; }
+    /// As specialised.
+    std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
+    void specialise(std::span<const SpecializationConstant> constants);
+
     const Device& device_;
+    std::string name_;
     ReflectedModule reflected_;
+    std::array<std::uint32_t, 3> local_size_{};
     VkShaderModule module_ = VK_NULL_HANDLE;
-    std::vector<SpecializationConstant> constants_;
+    std::vector<std::uint32_t> values_;
     std::vector<VkSpecializationMapEntry> entries_;
     VkSpecializationInfo specialization_{};
 };
 
-/// Throws VulkanError when a constant is in none of the stages: a wrong id would silently change nothing.
+/// Throws VulkanError when a constant is in none of the stages: a wrong name would silently change nothing.
 void require_constants(const std::string& pipeline, std::span<const SpecializationConstant> constants,
                        std::span<const ShaderStage* const> stages);
 

@@ -1,4 +1,4 @@
-// Sums the lights of a frame over a surface. SHADOWED: the first light's shadow map is bound at binding 3.
+// Sums the lights of a frame over a surface. SHADOWED: with the first light's shadow map.
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
 

@@ -7,7 +7,7 @@
 
 SHARED ResidualRecord empty_residual() { return ResidualRecord(-0.0f, 0u); }
 
-SHARED ResidualRecord joined_residuals(ResidualRecord a, ResidualRecord b) {
+SHARED ResidualRecord joined(ResidualRecord a, ResidualRecord b) {
     precise float squares = a.squares + b.squares;
     return ResidualRecord(squares, a.count + b.count);
 }

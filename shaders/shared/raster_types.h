@@ -1,5 +1,5 @@
-// Structs that the raster shaders and the C++ side share. std430; every member's offset is checked by
-// reflection when a pipeline is made. Colours are linear, lengths in metres.
+// Structs that the raster shaders and the C++ side share. std430; every member's offset is compared
+// with the SPIR-V when a pass is recorded. Colours are linear, lengths in metres.
 #ifndef DRAPE_RASTER_TYPES_H
 #define DRAPE_RASTER_TYPES_H
 

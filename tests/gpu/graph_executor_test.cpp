@@ -18,17 +18,10 @@ using test::gpu;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
-using vulkan::DescriptorAccess;
-using vulkan::DescriptorDeclaration;
-using vulkan::DescriptorKind;
 using Plans = std::vector<std::pair<const Graph*, const Plan*>>;
 
 constexpr std::uint32_t width = 70, height = 5;
 constexpr std::size_t float_count = std::size_t{width} * height * 4;
-
-constexpr DescriptorDeclaration copy_descriptors[] = {
-    {0, "source", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT},
-    {1, "target", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32G32B32A32_SFLOAT}};
 
 VkBufferImageCopy whole_image() {
     VkBufferImageCopy region{};
@@ -38,7 +31,7 @@ VkBufferImageCopy whole_image() {
 }
 
 struct GraphExecution : ::testing::Test {
-    vulkan::ComputePipeline canary{gpu().device, "canary", {"canary.comp", copy_descriptors}, {}};
+    vulkan::ComputePipeline canary{gpu().device, "canary", {"canary.comp"}, {}};
     Graph graph;
 
     Handle image(const std::string& name, Lifetime lifetime) {
@@ -48,18 +41,14 @@ struct GraphExecution : ::testing::Test {
         return graph.buffer({.name = name, .byte_count = float_count * sizeof(float), .lifetime = lifetime});
     }
 
-    void dispatch(PassContext& context) const {
-        context.bind(canary);
-        const auto [x, y, z] = canary.local_size();
-        vkCmdDispatch(context.commands(), (width + x - 1) / x, (height + y - 1) / y, 1);
-    }
+    void dispatch(PassContext& context) const { context.dispatch(canary, width, height); }
 
     void copy(const std::string& name, const std::string& stage, Handle from, Handle& to) {
         graph.add_pass(
             {name, stage, name},
             [&](PassSetup& setup) {
-                setup.read(from, Access::compute_read, 0);
-                to = setup.write(to, Access::compute_write, 1);
+                setup.read(from, Access::compute_read, "source");
+                to = setup.write(to, Access::compute_write, "target");
             },
             [this](PassContext& context) { dispatch(context); });
     }
@@ -306,58 +295,133 @@ TEST_P(GraphBinding, MistakeIsRefusedByName) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, GraphBinding,
-    ::testing::Values(BindingMistake{"BindingNotDeclared",
+    ::testing::Values(BindingMistake{"VariableNotDeclared",
                                      [](PassSetup& setup, Handle, Handle& target, Handle, Handle) {
-                                         target = setup.write(target, Access::compute_write, 1);
+                                         target = setup.write(target, Access::compute_write, "target");
                                      },
-                                     {"binding 0", "'source'"}},
-                      BindingMistake{"BindingThePipelineLacks",
+                                     {"'source'", "nothing is bound"}},
+                      BindingMistake{"VariableThePipelineLacks",
                                      [](PassSetup& setup, Handle good, Handle& target, Handle wrong_format, Handle) {
-                                         setup.read(good, Access::compute_read, 0);
-                                         target = setup.write(target, Access::compute_write, 1);
-                                         setup.read(wrong_format, Access::compute_read, 2);
+                                         setup.read(good, Access::compute_read, "source");
+                                         target = setup.write(target, Access::compute_write, "target");
+                                         setup.read(wrong_format, Access::compute_read, "mask");
                                      },
-                                     {"'wrong format'", "binding 2"}},
+                                     {"'wrong format'", "'mask'", "no such variable"}},
                       BindingMistake{"ReadDeclaredWhereTheShaderWrites",
                                      [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
-                                         setup.read(good, Access::compute_read, 1);
-                                         target = setup.write(target, Access::compute_write, 0);
+                                         setup.read(good, Access::compute_read, "target");
+                                         target = setup.write(target, Access::compute_write, "source");
                                      },
-                                     {"'good'", "binding 1", "writes"}},
+                                     {"'good'", "'target'", "writes"}},
                       BindingMistake{"WrongFormat",
                                      [](PassSetup& setup, Handle, Handle& target, Handle wrong_format, Handle) {
-                                         setup.read(wrong_format, Access::compute_read, 0);
-                                         target = setup.write(target, Access::compute_write, 1);
+                                         setup.read(wrong_format, Access::compute_read, "source");
+                                         target = setup.write(target, Access::compute_write, "target");
                                      },
-                                     {"'wrong format'", "VkFormat 100", "109"}},
+                                     {"'wrong format'", "r32f", "rgba32f"}},
                       BindingMistake{"BufferForAnImage",
                                      [](PassSetup& setup, Handle, Handle& target, Handle, Handle some_buffer) {
-                                         setup.read(some_buffer, Access::compute_read, 0);
-                                         target = setup.write(target, Access::compute_write, 1);
+                                         setup.read(some_buffer, Access::compute_read, "source");
+                                         target = setup.write(target, Access::compute_write, "target");
                                      },
-                                     {"'buffer'", "not an image"}},
-                      BindingMistake{"VertexReadInACompute",
-                                     [](PassSetup& setup, Handle good, Handle& target, Handle, Handle) {
-                                         setup.read(good, Access::vertex_read, 0);
-                                         target = setup.write(target, Access::compute_write, 1);
-                                     },
-                                     {"'good'", "vertex_read"}}),
+                                     {"'buffer'", "not an image"}}),
     [](const auto& parameter) { return parameter.param.name; });
 
-TEST_F(GraphExecution, PushConstantsOfTheWrongSizeAreRefused) {
+TEST_F(GraphExecution, PushConstantsThatTheShaderLacksAreRefused) {
     const Handle a = image("a", Lifetime::constant);
     Handle b = image("b", Lifetime::persistent);
     graph.add_pass(
         {"pushes", "s", "pushes"},
         [&](PassSetup& setup) {
-            setup.read(a, Access::compute_read, 0);
-            b = setup.write(b, Access::compute_write, 1);
+            setup.read(a, Access::compute_read, "source");
+            b = setup.write(b, Access::compute_write, "target");
         },
-        [this](PassContext& context) { context.dispatch(canary, 1.0f, width, height); });
+        [this](PassContext& context) {
+            context.dispatch(canary, glsl::vec2{1, 1}, width, height);
+        });
     const Plan plan = make_plan(graph);
     const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
     EXPECT_THAT([&] { const RecordedPlan recorded(graph, plan, pool, TimestampMode::none); },
-                testing::ThrowsMessage<GraphError>(AllOf(HasSubstr("'pushes'"), HasSubstr("4 bytes"))));
+                testing::ThrowsMessage<GraphError>(AllOf(HasSubstr("'pushes'"), HasSubstr("'canary'"),
+                                                         HasSubstr("vec2 in C++, but the shader has none"))));
+}
+
+/// Of tests/gpu/shaders/interface.comp.
+struct Element {
+    glsl::vec4 position;
+    float mass, age;
+    glsl::ivec2 cell;
+};
+struct Push {
+    glsl::ivec2 grid;
+    float scale;
+};
+namespace wrong {
+struct Element {
+    glsl::vec4 position;
+    float age;
+    glsl::ivec2 cell;
+    float mass;
+};
+struct Push {
+    float scale;
+    glsl::ivec2 grid;
+};
+}  // namespace wrong
+
+struct GraphLayouts : GraphExecution {
+    vulkan::ComputePipeline pipeline{
+        gpu().device, "interface", {"interface.comp", test::test_shader("interface.comp")}, {}};
+
+    /// What recording says of a pass with these elements and push constants; empty when it is content.
+    template <class Constants>
+    std::string error(Handle elements, const Constants& push) {
+        Handle sums = graph.buffer<glsl::vec2>("sums", width * height, Lifetime::persistent);
+        Handle flags = graph.buffer<glsl::uint>("flags", width * height, Lifetime::persistent);
+        Handle target =
+            graph.image({"target", VK_FORMAT_R32_SFLOAT, width, height, VK_SAMPLE_COUNT_1_BIT, Lifetime::persistent});
+        const Handle source = image("source", Lifetime::constant);
+        graph.add_pass(
+            {"pass", "s", "pass"},
+            [&](PassSetup& setup) {
+                setup.read(source, Access::compute_read, "source");
+                target = setup.write(target, Access::compute_write, "target");
+                setup.read(elements, Access::compute_read, "elements");
+                setup.read(sums, Access::compute_read);
+                sums = setup.write(sums, Access::compute_write, "sums");
+                flags = setup.write(flags, Access::compute_write, "flags");
+            },
+            [this, push](PassContext& context) { context.dispatch(pipeline, push, width, height); });
+        const Plan plan = make_plan(graph);
+        const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
+        try {
+            const RecordedPlan recorded(graph, plan, pool, TimestampMode::none);
+        } catch (const GraphError& refusal) {
+            return refusal.what();
+        }
+        return {};
+    }
+    template <class T>
+    Handle elements() {
+        return graph.buffer<T>("elements", width * height, Lifetime::constant);
+    }
+};
+
+TEST_F(GraphLayouts, SharedStructsAreAccepted) { EXPECT_EQ(error(elements<Element>(), Push{{1, 1}, 1}), ""); }
+
+TEST_F(GraphLayouts, AnElementOfAnotherLayoutIsRefused) {
+    EXPECT_THAT(error(elements<wrong::Element>(), Push{}),
+                AllOf(HasSubstr("'pass'"), HasSubstr("'elements' of pipeline 'interface'"),
+                      HasSubstr("the offset of Element.cell is 24 in the shader, 28 in C++")));
+}
+
+TEST_F(GraphLayouts, AnElementOfNoDeclaredTypeIsRefused) {
+    EXPECT_THAT(error(buffer("elements", Lifetime::constant), Push{}), HasSubstr("without the type of its elements"));
+}
+
+TEST_F(GraphLayouts, PushConstantsOfAnotherLayoutAreRefused) {
+    EXPECT_THAT(error(elements<Element>(), wrong::Push{}),
+                AllOf(HasSubstr("'push constants' of pipeline 'interface'"), HasSubstr("the offset of Push.scale")));
 }
 
 TEST_F(GraphExecution, TimingsAreSummedByStageOrByLabel) {

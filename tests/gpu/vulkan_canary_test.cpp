@@ -14,19 +14,12 @@ namespace drape::test {
 
 using testing::Contains;
 using testing::HasSubstr;
-using vulkan::DescriptorAccess;
-using vulkan::DescriptorDeclaration;
-using vulkan::DescriptorKind;
 using vulkan::Image;
 using vulkan::structure;
 
 namespace {
 
 constexpr std::uint32_t width = 101, height = 7;
-
-constexpr DescriptorDeclaration copy_descriptors[] = {
-    {0, "source", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT},
-    {1, "target", DescriptorKind::storage_image, DescriptorAccess::write, VK_FORMAT_R32G32B32A32_SFLOAT}};
 
 Image make_image(const char* name) {
     return Image(gpu().device,
@@ -36,7 +29,7 @@ Image make_image(const char* name) {
 
 /// Three images, first filled with `texels`, the others with zero.
 struct Chain {
-    vulkan::ComputePipeline copy{gpu().device, "canary", {"canary.comp", copy_descriptors}, {}};
+    vulkan::ComputePipeline copy{gpu().device, "canary", {"canary.comp"}, {}};
     Image first = make_image("first"), second = make_image("second"), third = make_image("third");
     std::vector<float> texels = std::vector<float>(width * height * 4);
 

@@ -101,12 +101,7 @@ TEST(VulkanFaults, a_buffer_is_whole_or_not_at_all) {
 }
 
 TEST(VulkanFaults, a_compute_pipeline_is_whole_or_not_at_all) {
-    static constexpr vulkan::DescriptorDeclaration descriptors[] = {
-        {0, "source", vulkan::DescriptorKind::storage_image, vulkan::DescriptorAccess::read,
-         VK_FORMAT_R32G32B32A32_SFLOAT},
-        {1, "target", vulkan::DescriptorKind::storage_image, vulkan::DescriptorAccess::write,
-         VK_FORMAT_R32G32B32A32_SFLOAT}};
-    const auto make = [&] { vulkan::ComputePipeline(gpu().device, "copy", {"canary.comp", descriptors}, {}); };
+    const auto make = [&] { vulkan::ComputePipeline(gpu().device, "copy", {"canary.comp"}, {}); };
     EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make), HasSubstr("vkCreateShaderModule(canary.comp)"));
     EXPECT_THAT(error_with<&vkCreateDescriptorSetLayout>(no_memory, make), HasSubstr("(copy)"));
     EXPECT_THAT(error_with<&vkCreatePipelineLayout>(no_memory, make), HasSubstr("vkCreatePipelineLayout(copy)"));
@@ -114,14 +109,9 @@ TEST(VulkanFaults, a_compute_pipeline_is_whole_or_not_at_all) {
 }
 
 TEST(VulkanFaults, a_graphics_pipeline_is_whole_or_not_at_all) {
-    static constexpr vulkan::DescriptorDeclaration descriptors[] = {
-        {0, "corners", vulkan::DescriptorKind::storage_image, vulkan::DescriptorAccess::read,
-         VK_FORMAT_R32G32B32A32_SFLOAT}};
-    static constexpr vulkan::MemberLayout members[] = {{"tint", 0}};
-    static constexpr vulkan::StructLayout push{"TintPush", 16, members};
     vulkan::GraphicsState state;
-    state.vertex = {"triangle.vert", descriptors, nullptr, test_shader("triangle.vert")};
-    state.fragment = {"triangle.frag", {}, &push, test_shader("triangle.frag")};
+    state.vertex = {"triangle.vert", test_shader("triangle.vert")};
+    state.fragment = {"triangle.frag", test_shader("triangle.frag")};
     const auto make = [&] { vulkan::GraphicsPipeline(gpu().device, "cloth", state); };
     EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make), HasSubstr("vkCreateShaderModule(triangle.vert)"));
     EXPECT_THAT(error_with<&vkCreateShaderModule>(no_memory, make, 1), HasSubstr("(triangle.frag)"));

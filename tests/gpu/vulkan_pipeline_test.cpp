@@ -19,15 +19,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using vulkan::Buffer;
 using vulkan::ComputePipeline;
-using vulkan::DescriptorAccess;
-using vulkan::DescriptorDeclaration;
-using vulkan::DescriptorKind;
 using vulkan::GraphicsPipeline;
 using vulkan::Image;
-using vulkan::MemberLayout;
-using vulkan::ShaderInterface;
+using vulkan::Shader;
 using vulkan::SpecializationConstant;
-using vulkan::StructLayout;
 using vulkan::structure;
 using vulkan::VulkanError;
 
@@ -37,14 +32,7 @@ struct ScalePush {
     std::uint32_t count;
     float term;
 };
-constexpr MemberLayout scale_push_members[] = {{"count", offsetof(ScalePush, count)},
-                                               {"term", offsetof(ScalePush, term)}};
-constexpr StructLayout scale_push{"ScalePush", sizeof(ScalePush), scale_push_members};
-constexpr DescriptorDeclaration scale_descriptors[] = {
-    {1, "Target", DescriptorKind::storage_buffer, DescriptorAccess::write, VK_FORMAT_UNDEFINED, nullptr, 4},
-    {0, "Source", DescriptorKind::storage_buffer, DescriptorAccess::read, VK_FORMAT_UNDEFINED, nullptr, 4}};
-
-ShaderInterface scale_shader() { return {"scale.comp", scale_descriptors, &scale_push, test_shader("scale.comp")}; }
+Shader scale_shader() { return {"scale.comp", test_shader("scale.comp")}; }
 
 template <class Function>
 std::string error_of(Function function) {
@@ -56,20 +44,15 @@ std::string error_of(Function function) {
     return "no VulkanError";
 }
 
-std::string compute_error(const ShaderInterface& shader, std::vector<SpecializationConstant> constants = {}) {
+std::string compute_error(const Shader& shader, std::vector<SpecializationConstant> constants = {}) {
     return error_of([&] { ComputePipeline(gpu().device, "broken", shader, constants); });
 }
 
-constexpr DescriptorDeclaration corner_descriptors[] = {
-    {0, "corners", DescriptorKind::storage_image, DescriptorAccess::read, VK_FORMAT_R32G32B32A32_SFLOAT}};
-constexpr MemberLayout tint_members[] = {{"tint", 0}};
-constexpr StructLayout tint_push{"TintPush", 16, tint_members};
-
 vulkan::GraphicsState triangle_state() {
     vulkan::GraphicsState state;
-    state.vertex = {"triangle.vert", corner_descriptors, nullptr, test_shader("triangle.vert")};
-    state.fragment = {"triangle.frag", {}, &tint_push, test_shader("triangle.frag")};
-    state.constants = {{0, std::bit_cast<std::uint32_t>(1.0f)}};
+    state.vertex = {"triangle.vert", test_shader("triangle.vert")};
+    state.fragment = {"triangle.frag", test_shader("triangle.frag")};
+    state.constants = {{"red", std::bit_cast<std::uint32_t>(1.0f)}};
     return state;
 }
 
@@ -140,7 +123,7 @@ class TriangleFrame {
         vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
         constexpr std::array<float, 4> tint = {0, 1, 0, 0};
         vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0,
-                           pipeline.push_constant_size(), tint.data());
+                           pipeline.push_constants()->size, tint.data());
         vkCmdDraw(commands, 3, 1, 0, 0);
         vkCmdEndRendering(commands);
     }
@@ -184,7 +167,7 @@ std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<
 }  // namespace
 
 TEST(VulkanComputePipeline, specialises_constants_and_workgroup_size) {
-    const SpecializationConstant constants[] = {{5, std::bit_cast<std::uint32_t>(2.5f)}, {3, 16}};
+    const SpecializationConstant constants[] = {{"factor", std::bit_cast<std::uint32_t>(2.5f)}, {"local_size_x", 16}};
     const ComputePipeline pipeline(gpu().device, "scale", scale_shader(), constants);
     EXPECT_EQ(pipeline.local_size(), (std::array<std::uint32_t, 3>{16, 1, 1}));
     EXPECT_EQ(run_scale(pipeline, {1, -2, 4, 0.5f, 8}, 0.25f),
@@ -194,34 +177,30 @@ TEST(VulkanComputePipeline, specialises_constants_and_workgroup_size) {
 TEST(VulkanComputePipeline, has_its_descriptors_sorted_and_its_push_constants) {
     const ComputePipeline pipeline(gpu().device, "scale", scale_shader(), {});
     ASSERT_EQ(pipeline.descriptors().size(), 2u);
-    EXPECT_EQ(pipeline.descriptors()[0].name, "Source");
-    EXPECT_EQ(pipeline.descriptors()[1].name, "Target");
-    EXPECT_EQ(pipeline.push_constant_size(), sizeof(ScalePush));
+    EXPECT_EQ(pipeline.descriptors()[0].name, "source");
+    EXPECT_EQ(pipeline.descriptors()[1].name, "target");
+    ASSERT_TRUE(pipeline.push_constants());
+    EXPECT_EQ(pipeline.push_constants()->size, sizeof(ScalePush));
     EXPECT_EQ(pipeline.push_constant_stages(), VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT});
     EXPECT_EQ(pipeline.name(), "scale");
     EXPECT_EQ(run_scale(pipeline, {3}, 1), (std::vector<float>{1004})) << "the shader's own defaults";
 }
 
 TEST(VulkanComputePipeline, refuses_a_constant_that_the_shader_lacks) {
-    EXPECT_THAT(compute_error(scale_shader(), {{6, 0}}),
-                HasSubstr("pipeline broken: no shader has the specialization constant 6"));
+    EXPECT_THAT(compute_error(scale_shader(), {{"facter", 0}}),
+                HasSubstr("pipeline broken: no shader has the specialization constant 'facter'"));
 }
 
 TEST(VulkanComputePipeline, refuses_a_workgroup_that_the_device_cannot_have) {
-    EXPECT_THAT(compute_error(scale_shader(), {{3, 1u << 20}}), HasSubstr("cannot have workgroups of 1048576 x 1 x 1"));
-    EXPECT_THAT(compute_error(scale_shader(), {{3, 0}}), HasSubstr("cannot have workgroups of 0 x 1 x 1"));
-}
-
-TEST(VulkanComputePipeline, refuses_a_shader_that_differs_from_its_declaration) {
-    ShaderInterface shader = scale_shader();
-    shader.descriptors = std::span(scale_descriptors).first(1);
-    EXPECT_THAT(compute_error(shader), HasSubstr("binding 0 (Source) is used by the shader"));
+    EXPECT_THAT(compute_error(scale_shader(), {{"local_size_x", 1u << 20}}),
+                HasSubstr("cannot have workgroups of 1048576 x 1 x 1"));
+    EXPECT_THAT(compute_error(scale_shader(), {{"local_size_x", 0}}), HasSubstr("cannot have workgroups of 0 x 1 x 1"));
 }
 
 TEST(VulkanComputePipeline, refuses_another_stages_shader_and_unknown_modules) {
     EXPECT_THAT(compute_error(triangle_state().vertex),
                 HasSubstr("shader module triangle.vert is a vertex shader, not a compute shader"));
-    EXPECT_THAT(compute_error({"no such module", {}}), HasSubstr("there is no shader module \"no such module\""));
+    EXPECT_THAT(compute_error({"no such module"}), HasSubstr("there is no shader module \"no such module\""));
 }
 
 TEST(VulkanGraphicsPipeline, draws_what_the_vertex_image_says) {
@@ -242,18 +221,26 @@ TEST(VulkanGraphicsPipeline, can_have_no_fragment_stage_and_no_colour) {
     state.color_format = VK_FORMAT_UNDEFINED;
     const GraphicsPipeline pipeline(gpu().device, "shadow", state);
     EXPECT_NE(pipeline.handle(), VkPipeline{VK_NULL_HANDLE});
-    EXPECT_EQ(pipeline.push_constant_size(), 0u);
+    EXPECT_FALSE(pipeline.push_constants());
 }
 
 TEST(VulkanGraphicsPipeline, refuses_constants_of_neither_stage_and_swapped_stages) {
     vulkan::GraphicsState state = triangle_state();
-    state.constants.push_back({9, 1});
+    state.constants.push_back({"blue", 1});
     EXPECT_THAT(error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
-                HasSubstr("no shader has the specialization constant 9"));
+                HasSubstr("no shader has the specialization constant 'blue'"));
     state = triangle_state();
     std::swap(state.vertex, state.fragment);
     EXPECT_THAT(error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
                 HasSubstr("triangle.frag is a fragment shader, not a vertex shader"));
+}
+
+TEST(VulkanGraphicsPipeline, refuses_stages_that_contradict_each_other) {
+    vulkan::GraphicsState state = triangle_state();
+    state.fragment = {"contradiction.frag", test_shader("contradiction.frag")};
+    state.constants = {};
+    EXPECT_THAT(error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
+                AllOf(HasSubstr("pipeline triangle: 'tints' at binding 0 of contradiction.frag is not the 'corners'")));
 }
 
 }  // namespace drape::test

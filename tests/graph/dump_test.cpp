@@ -23,14 +23,14 @@ struct Dumping : ::testing::Test {
             for (const std::string label : {"force", "spring row even", "spring row odd"}) {
                 graph.add_pass({label + number, "simulate", label},
                                [&](PassSetup& p) {
-                                   p.read(frame, Access::compute_read, 2);
-                                   p.read(position, Access::compute_read, 0);
-                                   position = p.write(position, Access::compute_write, 1);
+                                   p.read(frame, Access::compute_read, "frame");
+                                   p.read(position, Access::compute_read, "position_in");
+                                   position = p.write(position, Access::compute_write, "position_out");
                                },
                                {});
             }
             graph.add_pass({"normal" + number, "simulate", "normal"},
-                           [&](PassSetup& p) { normal = p.write(normal, Access::compute_write, 0); }, {});
+                           [&](PassSetup& p) { normal = p.write(normal, Access::compute_write, "normal"); }, {});
         }
         graph.skip("wind \"gust\"", "the scene has none");
         plan = make_plan(graph);

@@ -36,7 +36,7 @@ struct GraphBuilding : ::testing::Test {
 
 TEST_F(GraphBuilding, WritingReturnsTheNextVersion) {
     Handle written;
-    pass("force", [&](PassSetup& setup) { written = setup.write(image, Access::compute_write, 0); });
+    pass("force", [&](PassSetup& setup) { written = setup.write(image, Access::compute_write, "position"); });
     EXPECT_EQ(written, (Handle{image.resource, 1}));
     EXPECT_EQ(graph.resources()[image.resource].version, 1u);
     ASSERT_EQ(graph.passes().size(), 1u);
@@ -45,8 +45,8 @@ TEST_F(GraphBuilding, WritingReturnsTheNextVersion) {
 
 TEST_F(GraphBuilding, ReadingThenWritingOneResourceIsAReadModifyWrite) {
     pass("spring", [&](PassSetup& setup) {
-        setup.read(image, Access::compute_read, 0);
-        image = setup.write(image, Access::compute_write, 1);
+        setup.read(image, Access::compute_read, "in");
+        image = setup.write(image, Access::compute_write, "out");
     });
     EXPECT_EQ(graph.passes()[0].uses.size(), 2u);
     EXPECT_EQ(image.version, 1u);
@@ -137,32 +137,34 @@ TEST_F(GraphBuilding, UnknownHandleIsRefused) {
         {"bad pass", "cloth/position", "unknown version 5"});
 }
 
-TEST_F(GraphBuilding, BindingUsedTwiceIsRefusedNamingBothResources) {
+TEST_F(GraphBuilding, VariableUsedTwiceIsRefusedNamingBothResources) {
     expect_refused(
         [&](PassSetup& setup) {
-            setup.read(image, Access::compute_read, 3);
-            setup.read(buffer, Access::compute_read, 3);
+            setup.read(image, Access::compute_read, "in");
+            setup.read(buffer, Access::compute_read, "in");
         },
-        {"bad pass", "flags", "binding 3", "cloth/position"});
+        {"bad pass", "flags", "variable 'in'", "cloth/position"});
     expect_refused(
         [&](PassSetup& setup) {
-            setup.read(image, Access::compute_read, 3);
-            (void)setup.write(image, Access::compute_write, 3);
+            setup.read(image, Access::compute_read, "in");
+            (void)setup.write(image, Access::compute_write, "in");
         },
-        {"bad pass", "cloth/position", "binding 3"});
+        {"bad pass", "cloth/position", "variable 'in'"});
 }
 
-TEST_F(GraphBuilding, TwoShaderStagesMayReadThroughOneBinding) {
-    pass("raster", [&](PassSetup& setup) {
-        setup.read(image, Access::vertex_read, 0);
-        setup.read(image, Access::fragment_read, 0);
+TEST_F(GraphBuilding, OneVersionMayBeReadByTwoVariables) {
+    pass("collision", [&](PassSetup& setup) {
+        setup.read(buffer, Access::compute_read, "spheres");
+        setup.read(buffer, Access::compute_read, "boxes");
     });
     EXPECT_EQ(graph.passes()[0].uses.size(), 2u);
 }
 
-TEST_F(GraphBuilding, BindingOnAnAttachmentOrTransferIsRefused) {
-    expect_refused([&](PassSetup& setup) { setup.read(image, Access::transfer_read, 0); },
-                   {"bad pass", "cloth/position", "takes no binding"});
+TEST_F(GraphBuilding, VariableOfADrawOrTransferIsRefused) {
+    expect_refused([&](PassSetup& setup) { setup.read(image, Access::transfer_read, "source"); },
+                   {"bad pass", "cloth/position", "transfer_read takes no variable", "'source'"});
+    expect_refused([&](PassSetup& setup) { setup.read(image, Access::vertex_read, "position"); },
+                   {"bad pass", "cloth/position", "vertex_read takes no variable"});
 }
 
 TEST_F(GraphBuilding, TwoLayoutsInOnePassAreRefused) {
@@ -203,6 +205,7 @@ TEST_F(GraphBuilding, DeclarationsThatDoNotFitAreRefused) {
     EXPECT_THROW(graph.buffer({.name = "none", .byte_count = 0}), GraphError);
     EXPECT_THROW(graph.buffer({.name = "odd", .byte_count = 6}), GraphError);
     EXPECT_THROW(graph.buffer({.name = "", .byte_count = 4}), GraphError);
+    EXPECT_THROW(graph.buffer<glsl::vec4>("no elements", 0, Lifetime::persistent), GraphError);
 }
 
 TEST_F(GraphBuilding, SizesAreCheckedIn64Bits) {

@@ -114,8 +114,8 @@ TEST_F(Planning, ReadModifyWriteChainGetsOneBarrierEach) {
     Handle position = image("position");
     for (int i = 0; i < 4; ++i) {
         pass("spring", [&](PassSetup& p) {
-            p.read(position, Access::compute_read, 0);
-            position = p.write(position, Access::compute_write, 1);
+            p.read(position, Access::compute_read, "in");
+            position = p.write(position, Access::compute_write, "out");
         });
     }
     const Plan plan = make_plan(graph);

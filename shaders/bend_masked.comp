@@ -1,8 +1,0 @@
-// Relaxes one colour of the bending elements of one axis; stiffness from an image.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#include "shared/simulation_types.h"
-#include "include/bend.h"
-#include "include/spring.h"
-#define MASKED
-#include "include/bend_pass.h"

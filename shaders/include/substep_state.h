@@ -1,0 +1,37 @@
+// What the passes share that carry a cloth's state from substep to substep: its images, and the compensated sums that
+// move position and displacement on. WIND: the wind's force is one of the images. Needs `verlet.h`.
+layout(local_size_x = workgroup_width) in;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D displacement_out;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D position_remainder_out;
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder_out;
+#ifdef WIND
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
+#endif
+
+/// X += d.
+void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
+    CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_remainder_in, texel).xyz);
+    imageStore(position_out, texel, vec4(advanced.value, position.w));
+    imageStore(position_remainder_out, texel, vec4(advanced.rest, 0.0f));
+}
+
+/// d += increment.
+void step_displacement(ivec2 texel, vec3 displacement, vec3 increment) {
+    CompensatedSum stepped = compensated_add(displacement, increment, imageLoad(displacement_remainder_in, texel).xyz);
+    imageStore(displacement_out, texel, vec4(stepped.value, 0.0f));
+    imageStore(displacement_remainder_out, texel, vec4(stepped.rest, 0.0f));
+}
+
+/// N, on the particle of a texel.
+vec3 force_on(ivec2 texel) {
+#ifdef WIND
+    return imageLoad(wind_force, texel).xyz;
+#else
+    return vec3(0.0f, 0.0f, 0.0f);
+#endif
+}

@@ -1,7 +1,0 @@
-// Relaxes one parity of one spring direction; stiffness from an image.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#include "shared/simulation_types.h"
-#include "include/spring.h"
-#define MASKED
-#include "include/spring_pass.h"
