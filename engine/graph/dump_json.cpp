@@ -120,6 +120,7 @@ Json::Value resource_value(const Resource& resource, const Lifespan& lifespan) {
         value["width"] = resource.image.width;
         value["height"] = resource.image.height;
         value["samples"] = static_cast<int>(resource.image.samples);
+        if (resource.image.buffer_view) value["buffer_view"] = true;
     }
     return value;
 }

@@ -97,6 +97,7 @@ std::string describe(const Resource& resource) {
     const ImageDeclaration& image = resource.image;
     std::string text = fmt::format("image {} {}x{}", format_name(image.format), image.width, image.height);
     if (image.samples != VK_SAMPLE_COUNT_1_BIT) text += fmt::format(" {} samples", static_cast<int>(image.samples));
+    if (image.buffer_view) text += ", buffer view";
     return text;
 }
 

@@ -39,6 +39,9 @@ class ResourcePool {
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
 };
 
+/// Why the device cannot give an image a buffer view; empty when it can. Callers without one use the image alone.
+std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image);
+
 enum class TimestampMode { none, stages, passes };
 
 /// What a draw gives a variable of its shaders.
@@ -55,6 +58,8 @@ class PassContext {
     /// Throw GraphError, naming pass and resource, when the pass did not declare the handle.
     const vulkan::Image& image(Handle handle) const;
     const vulkan::Buffer& buffer(Handle handle) const;
+    /// Texels from one row to the next in the buffer view of an image that has one.
+    std::uint32_t row_pitch(Handle handle) const { return image(handle).row_pitch(); }
     /// The layout the image is in during this pass: that of its declared access. Throws as `image`.
     VkImageLayout layout(Handle handle) const;
 

@@ -63,6 +63,7 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
             unfit("an image, not a buffer");
         const bool depth = is_depth(resource.image.format);
         const bool multisampled = resource.image.samples != VK_SAMPLE_COUNT_1_BIT;
+        if (resource.image.buffer_view && is_attachment(access)) unfit("an image with a buffer view stays in GENERAL");
         if (access == Access::depth_write && !depth) unfit("the format is no depth format");
         if (access != Access::depth_write && !is_transfer(access) && depth) unfit("the format is a depth format");
         if (access == Access::resolve_write && multisampled) unfit("a resolve target has one sample");
@@ -185,6 +186,10 @@ Handle Graph::image(const ImageDeclaration& declaration) {
     if (declaration.lifetime == Lifetime::host_input || declaration.lifetime == Lifetime::host_output) {
         throw GraphError(
             fmt::format("image '{}': {} is for buffers", declaration.name, lifetime_name(declaration.lifetime)));
+    }
+    if (declaration.buffer_view && (is_depth(declaration.format) || declaration.samples != VK_SAMPLE_COUNT_1_BIT)) {
+        throw GraphError(
+            fmt::format("image '{}': depth and multisampled images have no buffer view", declaration.name));
     }
     Resource resource;
     resource.name = declaration.name;

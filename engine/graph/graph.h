@@ -55,6 +55,11 @@ struct ImageDeclaration {
     std::uint32_t width = 1, height = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     Lifetime lifetime = Lifetime::transient;
+    /// Shaders may bind it as a storage image and as a storage buffer of texels (PassContext::row_pitch apart), by the
+    /// kind of the variable that a pass names. Both views are one resource: hazards and versions are shared. It stays
+    /// in GENERAL, transient or not, so that every barrier is one on all memory, which covers both views; a barrier on
+    /// the image would leave the buffer out. Not every device can: ask buffer_view_obstacle (executor.h) first.
+    bool buffer_view = false;
 };
 
 struct BufferDeclaration {

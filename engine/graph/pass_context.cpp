@@ -58,7 +58,14 @@ void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_v
     const auto unfit = [&](const std::string& why) { refuse(pipeline, variable, "'" + resource.name + "' " + why); };
     const ReflectedDescriptor* const descriptor = find(pipeline, variable);
     if (!descriptor) return unfit("is bound to it, but the shader has no such variable");
-    if (resource.is_image != (descriptor->kind == DescriptorKind::storage_image))
+    const bool as_image = descriptor->kind == DescriptorKind::storage_image;
+    if (!as_image && resource.image.buffer_view) {
+        if (descriptor->element || descriptor->stride != vulkan::texel_size(resource.image.format))
+            unfit(fmt::format("is a buffer of {} texels, the shader has other elements",
+                              format_name(resource.image.format)));
+        return;
+    }
+    if (resource.is_image != as_image)
         unfit(resource.is_image ? "is an image, not a buffer" : "is a buffer, not an image");
     if (resource.is_image) {
         if (resource.image.format != descriptor->format)
@@ -128,7 +135,8 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
             images[d] = {VK_NULL_HANDLE, image(bound->handle).view(), layout(bound->handle)};
             writes[d].pImageInfo = &images[d];
         } else {
-            buffers[d] = {buffer(bound->handle).handle(), 0, VK_WHOLE_SIZE};
+            const bool is_view = graph_.resources()[bound->handle.resource].is_image;
+            buffers[d] = {is_view ? image(bound->handle).buffer() : buffer(bound->handle).handle(), 0, VK_WHOLE_SIZE};
             writes[d].pBufferInfo = &buffers[d];
         }
     }

@@ -52,7 +52,8 @@ struct Plan {
 /// same resources, so the first use of every persistent resource waits for all earlier work (also
 /// write-after-read), transients included because their memory is reused; host inputs need none (a
 /// submit makes host writes visible); these entry barriers all stand before the first pass. Images rest in
-/// GENERAL between plans; transients start UNDEFINED. A pass that declares host_read is always wanted.
+/// GENERAL between plans; transients start UNDEFINED, but for those with a
+/// buffer view: those never change their layout. A pass that declares host_read is always wanted.
 /// Throws GraphError when a wanted pass reads a transient or host_output version nobody wrote.
 Plan make_plan(const Graph& graph);
 

@@ -56,6 +56,7 @@ void require_equal(const Resource& one, const Resource& other) {
     const bool equal = one.is_image == other.is_image && one.lifetime == other.lifetime &&
                        one.image.format == other.image.format && one.image.width == other.image.width &&
                        one.image.height == other.image.height && one.image.samples == other.image.samples &&
+                       one.image.buffer_view == other.image.buffer_view &&
                        one.buffer.byte_count == other.buffer.byte_count && one.buffer.element == other.buffer.element;
     if (!equal) throw GraphError(fmt::format("resource '{}': two graphs declare it differently", one.name));
 }
@@ -109,7 +110,7 @@ vulkan::ImageDescription describe_image(const Wanted& wanted) {
     if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
         usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     }
-    return {image.name, image.format, image.width, image.height, usage, image.samples};
+    return {image.name, image.format, image.width, image.height, usage, image.samples, image.buffer_view};
 }
 
 vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
@@ -164,7 +165,7 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
     }
     device.run_once([&](VkCommandBuffer commands) {
         for (const auto& [name, image] : images_) {
-            if (set_up_once(*all.at(name).resource)) record_clear(commands, image);
+            if (set_up_once(*all.at(name).resource) || image.buffer()) record_clear(commands, image);
         }
         for (const auto& [name, copies] : buffers_) {
             for (const vulkan::Buffer& buffer : copies) {
@@ -176,6 +177,13 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
             }
         }
     });
+}
+
+std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image) {
+    constexpr VkImageUsageFlags usage =
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return vulkan::Image::obstacle(device,
+                                   {image.name, image.format, image.width, image.height, usage, image.samples, true});
 }
 
 bool ResourcePool::has(const std::string& name) const { return images_.contains(name) || buffers_.contains(name); }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <volk.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "vulkan/resources.h"
@@ -23,7 +24,7 @@ VkImageCreateInfo create_info(const ImageDescription& description) {
     info.mipLevels = 1;
     info.arrayLayers = 1;
     info.samples = description.samples;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.tiling = description.buffer_view ? VK_IMAGE_TILING_LINEAR : VK_IMAGE_TILING_OPTIMAL;
     info.usage = description.usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -43,8 +44,9 @@ void require_possible(const Device& device, const ImageDescription& description)
     const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType,
                                                                      info.tiling, info.usage, info.flags, &properties);
     if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) {
-        refuse(description, fmt::format("the device has no images of VkFormat {} with the usage {:#x}",
-                                        static_cast<int>(info.format), info.usage));
+        refuse(description,
+               fmt::format("the device has no {}images of VkFormat {} with the usage {:#x}",
+                           description.buffer_view ? "LINEAR " : "", static_cast<int>(info.format), info.usage));
     }
     check(result, "vkGetPhysicalDeviceImageFormatProperties", description.name);
     if (description.width > properties.maxExtent.width || description.height > properties.maxExtent.height) {
@@ -95,18 +97,62 @@ Image::Image(const Device& device, const ImageDescription& description, Empty)
     : device_(&device), description_(description) {}
 
 Image::Image(const Device& device, const ImageDescription& description) : Image(device, description, Empty{}) {
-    require_possible(device, description);
-    const VkImageCreateInfo info = create_info(description);
-    create_handle(vkCreateImage, device.handle(), info, handle_, "vkCreateImage", description.name);
-    device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_), description.name);
-    VkMemoryRequirements requirements;
-    vkGetImageMemoryRequirements(device.handle(), handle_, &requirements);
+    const VkMemoryRequirements requirements = make_handles();
     memory_ = device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
     byte_count_ = requirements.size;
     check(vkBindImageMemory(device.handle(), handle_, memory_, 0), "vkBindImageMemory", description.name);
+    if (buffer_)
+        check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory", description.name);
     // An image that is only copied can have no view.
     constexpr VkImageUsageFlags transfer = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (description.usage & ~transfer) make_view();
+}
+
+std::string Image::obstacle(const Device& device, const ImageDescription& description) {
+    try {
+        Image(device, description, Empty{}).make_handles();
+    } catch (const VulkanError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+VkMemoryRequirements Image::make_handles() {
+    require_possible(*device_, description_);
+    const VkImageCreateInfo info = create_info(description_);
+    create_handle(vkCreateImage, device_->handle(), info, handle_, "vkCreateImage", description_.name);
+    device_->set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_), description_.name);
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(device_->handle(), handle_, &requirements);
+    if (description_.buffer_view) make_buffer(requirements);
+    return requirements;
+}
+
+void Image::make_buffer(VkMemoryRequirements& requirements) {
+    const VkImageSubresource texels{aspect(), 0, 0};
+    VkSubresourceLayout layout;
+    vkGetImageSubresourceLayout(device_->handle(), handle_, &texels, &layout);
+    const std::uint32_t texel = texel_size(description_.format);
+    if (layout.offset != 0 || layout.rowPitch % texel != 0)
+        refuse(description_, "the device lays its rows so that they are no array of texels");
+    row_pitch_ = static_cast<std::uint32_t>(layout.rowPitch / texel);
+    const std::uint64_t bytes = layout.rowPitch * description_.height;
+    const std::uint64_t limit =
+        std::min<std::uint64_t>(device_->limits().maxStorageBufferRange, device_->max_buffer_size());
+    if (bytes > limit)
+        refuse(description_, fmt::format("a buffer view of {} bytes, the device's limit is {}", bytes, limit));
+    auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+    info.size = bytes;
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    create_handle(vkCreateBuffer, device_->handle(), info, buffer_, "vkCreateBuffer", description_.name);
+    device_->set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), description_.name);
+    VkMemoryRequirements needed;
+    vkGetBufferMemoryRequirements(device_->handle(), buffer_, &needed);
+    requirements.size = std::max(requirements.size, needed.size);
+    requirements.alignment = std::max(requirements.alignment, needed.alignment);
+    requirements.memoryTypeBits &= needed.memoryTypeBits;
+    if (requirements.memoryTypeBits == 0) refuse(description_, "no memory of the device serves an image and a buffer");
 }
 
 void Image::make_view() {
@@ -123,6 +169,7 @@ Image::~Image() {
     if (!handle_) return;
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImage(device_->handle(), handle_, nullptr);
+    vkDestroyBuffer(device_->handle(), buffer_, nullptr);
     device_->free(memory_, byte_count_);
 }
 
@@ -132,6 +179,8 @@ Image::Image(Image&& other) noexcept
       handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
       memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
       view_(std::exchange(other.view_, VK_NULL_HANDLE)),
+      buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
+      row_pitch_(other.row_pitch_),
       byte_count_(std::exchange(other.byte_count_, 0)) {}
 
 VkImageAspectFlags Image::aspect() const {

@@ -19,6 +19,9 @@ struct ImageDescription {
     std::uint32_t width = 1, height = 1;
     VkImageUsageFlags usage = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    /// The same memory is a storage buffer too: texels row by row, `row_pitch` apart. LINEAR tiling, so not every
+    /// device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
+    bool buffer_view = false;
 };
 
 class Image {
@@ -26,6 +29,8 @@ class Image {
     /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is
     /// beyond the device, or the texels beyond the memory budget.
     Image(const Device& device, const ImageDescription& description);
+    /// Why the device or its budget cannot have such an image; empty when they can.
+    static std::string obstacle(const Device& device, const ImageDescription& description);
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&&) = delete;
@@ -35,11 +40,17 @@ class Image {
     VkImageAspectFlags aspect() const;
     const ImageDescription& description() const { return description_; }
     std::uint64_t byte_count() const { return byte_count_; }  ///< as allocated
+    /// Of an image with a buffer view: the buffer, and texels of it from one row to the next.
+    VkBuffer buffer() const { return buffer_; }
+    std::uint32_t row_pitch() const { return row_pitch_; }
 
   private:
     struct Empty {};
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Image(const Device& device, const ImageDescription& description, Empty);
+    /// Image and buffer without memory; what both need of it.
+    VkMemoryRequirements make_handles();
+    void make_buffer(VkMemoryRequirements& requirements);
     void make_view();
 
     const Device* device_;
@@ -47,6 +58,8 @@ class Image {
     VkImage handle_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     VkImageView view_ = VK_NULL_HANDLE;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    std::uint32_t row_pitch_ = 0;
     std::uint64_t byte_count_ = 0;
 };
 

@@ -86,6 +86,14 @@ TEST_F(Dumping, DumpsAreDeterministic) {
     }
 }
 
+TEST_F(Dumping, BufferViewsAreTold) {
+    const Handle shared = graph.image({.name = "shared", .lifetime = Lifetime::persistent, .buffer_view = true});
+    graph.add_pass({"fill", "s", "fill"}, [&](PassSetup& p) { (void)p.write(shared, Access::compute_write); }, {});
+    plan = make_plan(graph);
+    EXPECT_EQ(count(dump(graph, plan, "text"), "image rgba32f 1x1, buffer view"), 1u);
+    EXPECT_EQ(count(dump(graph, plan, "json"), "\"buffer_view\" : true"), 1u);
+}
+
 TEST_F(Dumping, UnknownFormatIsRefused) { EXPECT_THROW((void)dump(graph, plan, "xml"), GraphError); }
 
 }  // namespace

@@ -208,6 +208,15 @@ TEST_F(GraphBuilding, DeclarationsThatDoNotFitAreRefused) {
     EXPECT_THROW(graph.buffer<glsl::vec4>("no elements", 0, Lifetime::persistent), GraphError);
 }
 
+TEST_F(GraphBuilding, ABufferViewNeedsAPlainImageThatIsNoAttachment) {
+    EXPECT_THROW(graph.image({.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .buffer_view = true}), GraphError);
+    EXPECT_THROW(graph.image({.name = "samples", .samples = VK_SAMPLE_COUNT_4_BIT, .buffer_view = true}), GraphError);
+    const Handle shared = graph.image({.name = "shared", .buffer_view = true});
+    expect_refused([&](PassSetup& setup) { (void)setup.write(shared, Access::color_write); },
+                   {"bad pass", "shared", "stays in GENERAL"});
+    pass("good", [&](PassSetup& setup) { (void)setup.write(shared, Access::compute_write, "texels"); });
+}
+
 TEST_F(GraphBuilding, SizesAreCheckedIn64Bits) {
     const Handle large = graph.image({.name = "large", .width = 1u << 20, .height = 1u << 20});
     EXPECT_EQ(graph.resources()[large.resource].byte_count(), std::uint64_t{1} << 44);

@@ -212,12 +212,13 @@ class History {
         if (r == resources.size()) return;
         const Lifetime lifetime = resources[r].lifetime;
         is_image_ = resources[r].is_image;
+        has_buffer_view_ = resources[r].image.buffer_view;
         const bool rests = lifetime == Lifetime::persistent || lifetime == Lifetime::constant;
-        if (events_.empty() && rests) {
+        if (events_.empty() && (rests || has_buffer_view_)) {
             events_.push_back(use_event(Access::transfer_write, "set-up", command_++));
             layout_ = VK_IMAGE_LAYOUT_GENERAL;
         }
-        if (!rests) layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
+        if (!rests && !has_buffer_view_) layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
         holds_contents_ = rests;
         bool written = false;
         for (const PlannedPass& planned : execution.plan->passes) {
@@ -235,7 +236,7 @@ class History {
         if (lifetime == Lifetime::host_output && written) {
             add_use(use_event(Access::host_read, "host after the plan", command_));
         }
-        if (is_image_ && rests && layout_ != VK_IMAGE_LAYOUT_GENERAL) {
+        if (is_image_ && (rests || has_buffer_view_) && layout_ != VK_IMAGE_LAYOUT_GENERAL) {
             layout_hazards_.push_back({name_, "plan", "end of plan", "does not rest in GENERAL"});
         }
     }
@@ -263,13 +264,16 @@ class History {
             if (barrier.old_layout == VK_IMAGE_LAYOUT_UNDEFINED ? holds_contents_ : barrier.old_layout != layout_) {
                 layout_hazards_.push_back({name_, "layout", event.name, "changed from a layout it is not in"});
             }
+            // An image's barrier covers accesses through the image alone; the use may be one through the buffer.
+            if (has_buffer_view_)
+                layout_hazards_.push_back({name_, "layout", event.name, "changed under a buffer view"});
             layout_ = barrier.new_layout;
         }
         events_.push_back(std::move(event));
     }
 
     std::string name_;
-    bool is_image_ = false;
+    bool is_image_ = false, has_buffer_view_ = false;
     bool holds_contents_ = false;
     VkImageLayout layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
     std::size_t command_ = 0;

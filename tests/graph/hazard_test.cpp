@@ -199,6 +199,16 @@ TEST_F(HazardChecker, ReportsWrongLayoutsAndLostContents) {
     EXPECT_EQ(check(unrested)[0].problem, "does not rest in GENERAL");
 }
 
+TEST_F(HazardChecker, ReportsALayoutChangeUnderABufferView) {
+    color = graph.image({.name = "shared", .lifetime = Lifetime::persistent, .buffer_view = true});
+    pass("fill", Access::compute_write);
+    Plan plan = make_plan(graph);
+    EXPECT_TRUE(check(plan).empty()) << report(check(plan));
+    plan.passes[0].barriers[0].old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ASSERT_FALSE(check(plan).empty());
+    EXPECT_EQ(check(plan).back().problem, "changed under a buffer view");
+}
+
 TEST_F(HazardChecker, CountsARepeatedDependencyAsRedundant) {
     pass("force", Access::compute_write);
     Plan plan = make_plan(graph);

@@ -126,6 +126,25 @@ TEST_F(Planning, ReadModifyWriteChainGetsOneBarrierEach) {
     EXPECT_TRUE(redundant_barriers(graph, plan).empty());
 }
 
+TEST_F(Planning, ImageWithABufferViewNeverChangesItsLayoutAndWaitsForAllMemory) {
+    for (const Lifetime lifetime : {Lifetime::transient, Lifetime::persistent}) {
+        const std::string name = "shared " + std::string(lifetime_name(lifetime));
+        Handle shared = graph.image({.name = name, .lifetime = lifetime, .buffer_view = true});
+        write("by buffer", shared, Access::compute_write);
+        keep("by image of " + name, [&](PassSetup& p) { p.read(shared, Access::compute_read); });
+        const Plan plan = make_plan(graph);
+        std::size_t count = 0;
+        for (const PlannedPass& planned : plan.passes)
+            for (const Barrier& barrier : planned.barriers) {
+                if (barrier.resource != shared.resource) continue;
+                EXPECT_EQ(barrier.old_layout, VK_IMAGE_LAYOUT_GENERAL);
+                EXPECT_EQ(barrier.new_layout, VK_IMAGE_LAYOUT_GENERAL) << "else it covers the image alone";
+                ++count;
+            }
+        EXPECT_EQ(count, 2u);
+    }
+}
+
 TEST_F(Planning, FirstUseWaitsForAllEarlierSubmissionsAtTheStartOfThePlan) {
     Handle position = image("position");
     Handle index = buffer("index", Lifetime::constant);

@@ -17,7 +17,7 @@ bool readable(const Resource& resource) {
 
 RandomGraphs::RandomGraphs(std::uint32_t seed) : random_(seed) {
     const std::uint32_t count = 2 + below(6);
-    for (std::uint32_t i = 0; i < count; ++i) kinds_.push_back(below(13));
+    for (std::uint32_t i = 0; i < count; ++i) kinds_.push_back(below(15));
 }
 
 void RandomGraphs::declare(Graph& graph, std::uint32_t kind, std::uint32_t index) {
@@ -26,12 +26,14 @@ void RandomGraphs::declare(Graph& graph, std::uint32_t kind, std::uint32_t index
         handles_.push_back(graph.buffer({.name = name, .byte_count = 64, .lifetime = lifetimes[kind]}));
         return;
     }
+    // The last two have a buffer view.
     constexpr std::array formats = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT};
     handles_.push_back(graph.image({.name = name,
-                                    .format = formats[(kind - 5) % formats.size()],
+                                    .format = kind >= 13 ? formats[0] : formats[(kind - 5) % formats.size()],
                                     .width = 8,
                                     .height = 8,
-                                    .lifetime = kind < 9 ? Lifetime::persistent : Lifetime::transient}));
+                                    .lifetime = kind < 9 || kind == 13 ? Lifetime::persistent : Lifetime::transient,
+                                    .buffer_view = kind >= 13}));
 }
 
 void RandomGraphs::use_something(Graph& graph, PassSetup& setup) {
