@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
-#include <cstdlib>
-#include <functional>
 
 #include "output/frame_writer.h"
 
@@ -21,28 +20,27 @@ std::optional<std::uint32_t> parse_whole(std::string_view text, std::uint32_t le
     return value;
 }
 
-/// An option with a whole number; the message says what was expected.
-CLI::Option* add_whole(CLI::App& command, const std::string& names, const std::string& long_name, std::uint32_t least,
-                       const std::function<void(std::uint32_t)>& set, const std::string& help) {
-    const auto parse = [=](const std::string& text) {
+/// Takes a whole number or says what was expected.
+SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
+    return [=](const std::string& text) {
         const auto value = parse_whole(text, least, UINT32_MAX);
-        if (!value)
-            throw CLI::ValidationError(
-                long_name, fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text));
+        if (!value) return fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text);
         set(*value);
+        return std::string();
     };
-    return command.add_option_function<std::string>(names, parse, help);
 }
 
-std::array<std::uint32_t, 2> parse_size(const std::string& text) {
+std::string set_size(const std::string& text, SceneRequest& scene) {
     const std::size_t cross = text.find('x');
     if (cross != std::string::npos) {
         const auto width = parse_whole(std::string_view(text).substr(0, cross), 1, largest_side);
         const auto height = parse_whole(std::string_view(text).substr(cross + 1), 1, largest_side);
-        if (width && height) return {*width, *height};
+        if (width && height) {
+            scene.image_size = {*width, *height};
+            return {};
+        }
     }
-    throw CLI::ValidationError(
-        "--size", fmt::format("expected WIDTHxHEIGHT in pixels, 1 to {} each, got '{}'", largest_side, text));
+    return fmt::format("expected WIDTHxHEIGHT in pixels, 1 to {} each, got '{}'", largest_side, text);
 }
 
 std::string check_override(const std::string& text) {
@@ -86,6 +84,27 @@ void add_export_option(CLI::App& command, RunRequest& request) {
 
 }  // namespace
 
+void add_flag(CLI::App& command, const std::string& names, const std::string& help, bool& value) {
+    command.add_flag(names, value, help);
+}
+
+void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
+                const SetText& set) {
+    const auto take = [set, name = names.substr(names.find("--"))](const std::string& text) {
+        if (const std::string wrong = set(text); !wrong.empty()) throw CLI::ValidationError(name, wrong);
+    };
+    command.add_option_function<std::string>(names, take, help)->type_name(type);
+}
+
+void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
+                std::string& value) {
+    command.add_option(names, value, help)->type_name(type);
+}
+
+void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
+    command.add_option("SCENE", paths, "Scene files")->required()->type_name("");
+}
+
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
     CLI::Option* option = command.add_option("--set", overrides,
                                              "Replace a value of the scene, as in /solver/substeps=40 or\n"
@@ -95,17 +114,17 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-    command
-        .add_option("--device", device,
-                    "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them);\n"
-                    "default: a GPU when there is one")
-        ->type_name("DEVICE");
+    add_option(command, "--device", "DEVICE",
+               "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them);\n"
+               "default: a GPU when there is one",
+               device);
 }
 
 void add_validate_option(CLI::App& command, bool& validate) {
-    command.add_flag("--validate", validate,
-                     "Core and synchronization validation by the Khronos layer: each message on\n"
-                     "stderr, and exit code 6 when there was one");
+    add_flag(command, "--validate",
+             "Core and synchronization validation by the Khronos layer: each message on\n"
+             "stderr, and exit code 6 when there was one",
+             validate);
 }
 
 void add_scene_options(CLI::App& command, SceneRequest& scene) {
@@ -121,20 +140,15 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
 }
 
 void add_image_options(CLI::App& command, SceneRequest& scene) {
-    command
-        .add_option_function<std::string>(
-            "--size", [&scene](const std::string& text) { scene.image_size = parse_size(text); },
-            "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720")
-        ->type_name("WIDTHxHEIGHT");
-    const auto set_samples = [&scene](const std::string& text) {
-        if (text != "1" && text != "4")
-            throw CLI::ValidationError("--samples", fmt::format("expected 1 or 4, got '{}'", text));
-        scene.samples = text == "1" ? 1 : 4;
-    };
-    command
-        .add_option_function<std::string>("--samples", set_samples,
-                                          "Samples per pixel, 1 or 4; default: the scene's, else 4")
-        ->type_name("N");
+    add_option(command, "--size", "WIDTHxHEIGHT",
+               "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720",
+               [&scene](const std::string& text) { return set_size(text, scene); });
+    add_option(command, "--samples", "N", "Samples per pixel, 1 or 4; default: the scene's, else 4",
+               [&scene](const std::string& text) {
+                   if (text != "1" && text != "4") return fmt::format("expected 1 or 4, got '{}'", text);
+                   scene.samples = text == "1" ? 1 : 4;
+                   return std::string();
+               });
 }
 
 void add_run_options(CLI::App& command, RunRequest& request) {
@@ -145,20 +159,16 @@ void add_run_options(CLI::App& command, RunRequest& request) {
                     "--overwrite or --resume")
         ->required()
         ->type_name("DIR");
-    add_whole(
-        command, "-s,--start", "--start", 0, [&request](std::uint32_t value) { request.start = value; },
-        "First frame to write; default: 0, the initial state. Frame n shows the time\n"
-        "n/fps seconds")
-        ->type_name("FRAME");
-    add_whole(
-        command, "-e,--end", "--end", 0, [&request](std::uint32_t value) { request.end = value; },
-        "Last frame to write, inclusive; default, and at most: the scene's last")
-        ->type_name("FRAME");
-    add_whole(
-        command, "-j,--step", "--step", 1, [&request](std::uint32_t value) { request.step = value; },
-        "Write every N-th frame, counted from --start; default: 1. All frames up to\n"
-        "the last one are simulated")
-        ->type_name("N");
+    add_option(command, "-s,--start", "FRAME",
+               "First frame to write; default: 0, the initial state. Frame n shows the time\n"
+               "n/fps seconds",
+               whole(0, [&request](std::uint32_t value) { request.start = value; }));
+    add_option(command, "-e,--end", "FRAME", "Last frame to write, inclusive; default, and at most: the scene's last",
+               whole(0, [&request](std::uint32_t value) { request.end = value; }));
+    add_option(command, "-j,--step", "N",
+               "Write every N-th frame, counted from --start; default: 1. All frames up to\n"
+               "the last one are simulated",
+               whole(1, [&request](std::uint32_t value) { request.step = value; }));
     add_export_option(command, request);
     CLI::Option* overwrite = command.add_flag_callback(
         "--overwrite", [&request] { request.existing = ExistingFiles::overwrite; },
@@ -176,41 +186,6 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")
         ->excludes(quiet);
-}
-
-void add_accuracy_options(CLI::App& command, bench::AccuracyRequest& request) {
-    command
-        .add_option("--filter", request.filter,
-                    "Only cases whose name contains this regular expression; names are\n"
-                    "PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
-                    "default: all")
-        ->type_name("REGEX");
-    command.add_flag("--short", request.is_short, "A few small cases of every problem: under 3 minutes");
-    command
-        .add_option("--folder", request.folder,
-                    "Where finished cases and references are kept: the same command goes on from\n"
-                    "there, and only what has changed is measured again; default: bench")
-        ->type_name("DIR");
-    const auto check_minutes = [](const std::string& text) {
-        char* end = nullptr;
-        const double minutes = std::strtod(text.c_str(), &end);
-        return end != text.c_str() && *end == 0 && minutes > 0 && minutes < 1e6
-                   ? std::string()
-                   : "expected minutes above 0, got '" + text + "'";
-    };
-    command
-        .add_option("--budget", request.budget_minutes,
-                    "Start no case that would end later than after so many minutes, the important\n"
-                    "cases first; default: no limit")
-        ->type_name("MINUTES")
-        ->check(check_minutes, "");
-    command.add_option("--json", request.json, "Write results, orders, limits and ratios as JSON")->type_name("FILE");
-    command.add_option("--csv", request.csv, "Write a row per case")->type_name("FILE");
-    command.add_option("--svg", request.svg, "Write plots of error against time, passes, substeps and N")
-        ->type_name("DIR");
-    add_device_option(command, request.device);
-    add_validate_option(command, request.validate);
-    command.add_flag("-q,--quiet", request.quiet, "No progress");
 }
 
 }  // namespace drape::cli

@@ -1,15 +1,33 @@
-// The options that several commands share, with their help texts and checks.
+// The options of commands: how one is made, and those that several commands share, with their help texts and checks.
+// The parser itself is seen by program.cpp and options.cpp alone: it costs every file that includes it seconds to
+// compile.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "bench/accuracy.h"
 #include "drape.h"
+
+namespace CLI {
+class App;
+}
 
 namespace drape::cli {
 
+void add_flag(CLI::App& command, const std::string& names, const std::string& help, bool& value);
+
+/// Takes an option's text, or says what is wrong with it.
+using SetText = std::function<std::string(const std::string& text)>;
+
+/// `names`: "-s,--start"; `type`: what the help calls its value.
+void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
+                const SetText& set);
+void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
+                std::string& value);
+
+/// SCENE..., at least one
+void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
 /// --set
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
 /// --device
@@ -20,9 +38,7 @@ void add_validate_option(CLI::App& command, bool& validate);
 void add_scene_options(CLI::App& command, SceneRequest& scene);
 /// --size, --samples
 void add_image_options(CLI::App& command, SceneRequest& scene);
-/// Those of add_scene_options and where, which frames, how talkative
+/// Those of add_scene_options and where, which frames, which formats, how talkative
 void add_run_options(CLI::App& command, RunRequest& request);
-/// Those of `bench accuracy`
-void add_accuracy_options(CLI::App& command, bench::AccuracyRequest& request);
 
 }  // namespace drape::cli

@@ -36,4 +36,6 @@ void print_message(std::string_view text) {
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+void print_error(std::string_view text) { print_message("drape: " + std::string(text)); }
+
 }  // namespace drape::cli

@@ -19,4 +19,7 @@ void print_data(std::string_view text);
 /// Writes a line to stderr. Never fails: there is nowhere to say so.
 void print_message(std::string_view text);
 
+/// The same, of something that went wrong.
+void print_error(std::string_view text);
+
 }  // namespace drape::cli

@@ -9,7 +9,7 @@
 #include <regex>
 #include <set>
 
-#include "output/plot.h"
+#include "bench/plot.h"
 #include "results.h"
 
 namespace drape::bench {

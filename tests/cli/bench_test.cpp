@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 
 #include "output/temporary_folder.h"
 #include "program.h"
@@ -60,6 +61,23 @@ TEST(BenchAccuracy, ABudgetLeavesOutWhatItCannotPay) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("0 cases measured, 0 kept from before, 35 left out by --budget"));
     EXPECT_THAT(outcome.out, HasSubstr("The budget of time left cases out."));
+}
+
+TEST(BenchAccuracy, ALimitThatIsNotMetIsExitCode7AndEverythingIsWrittenAllTheSame) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments = {
+        "bench",    "accuracy",   "--short", "--filter",       "free fall/2/relax/1$",
+        "--folder", folder / "b", "--json",  folder / "a.json"};
+    EXPECT_EQ(drape(arguments).code, 0);
+    const std::string kept = read_text(folder / "b/results.jsonl");
+    const std::string worse = std::regex_replace(kept, std::regex("(\"position_relative\" ?: ?)[-+.e0-9]+"), "$010.5");
+    ASSERT_NE(worse, kept);
+    write_text(folder / "b/results.jsonl", worse);
+    const Outcome outcome = drape(arguments);
+    EXPECT_EQ(outcome.code, 7);
+    EXPECT_THAT(outcome.out, HasSubstr("NOT MET"));
+    EXPECT_THAT(outcome.err, HasSubstr("1 of the benchmark's limits, orders and promises not met"));
+    EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("0.5"));
 }
 
 TEST(BenchAccuracy, RefusesWhatItCannotDo) {

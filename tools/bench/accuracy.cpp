@@ -83,9 +83,9 @@ class AccuracyRun {
         : request_(request),
           device_(device),
           plan_(std::move(plan)),
-          store_(request.folder / "results.jsonl"),
+          store_(fs::path(request.folder) / "results.jsonl"),
           references_(
-              request.folder / "references", [this](const std::string& what) { begin_reference(what); },
+              fs::path(request.folder) / "references", [this](const std::string& what) { begin_reference(what); },
               [this](double fraction) { show_reference(fraction); }) {
         for (const PlannedSweep& p : plan_)
             for (const Setting& setting : p.sweep.settings) {
@@ -223,6 +223,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     evaluate(report);
     write_files(request, report, problems);
     summary.text = report_text(report, problems);
+    summary.missed_count = missed_count(report);
     summary.validation_count = instance.validation_log().count();
     return summary;
 }

@@ -1,7 +1,6 @@
 // `drape bench accuracy`: error against work for every solver.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,14 +8,14 @@
 namespace drape::bench {
 
 struct AccuracyRequest {
-    std::string filter;                      ///< regular expression that a case's name must contain; empty: all
-    bool is_short = false;                   ///< few small cases
-    std::string device;                      ///< selector; empty: the best there is
-    bool validate = false;                   ///< core and synchronization validation
-    std::filesystem::path folder = "bench";  ///< finished cases and references, kept for the next run
-    std::string json, csv;                   ///< files; empty: none
-    std::string svg;                         ///< folder of plots; empty: none
-    std::optional<double> budget_minutes;    ///< start no case that would end later
+    std::string filter;                    ///< regular expression that a case's name must contain; empty: all
+    bool is_short = false;                 ///< few small cases
+    std::string device;                    ///< selector; empty: the best there is
+    bool validate = false;                 ///< core and synchronization validation
+    std::string folder = "bench";          ///< finished cases and references, kept for the next run
+    std::string json, csv;                 ///< files; empty: none
+    std::string svg;                       ///< folder of plots; empty: none
+    std::optional<double> budget_minutes;  ///< start no case that would end later
     bool quiet = false;
     std::function<void(const std::string&)> message;  ///< progress, one line each
     std::function<bool()> stop;                       ///< true: end soon; what is finished is kept
@@ -27,6 +26,7 @@ struct AccuracySummary {
     bool stopped = false;
     std::size_t measured_count = 0, kept_count = 0, left_out_count = 0;  ///< left out by the budget
     std::size_t computed_reference_count = 0;
+    std::size_t missed_count = 0;        ///< limits, orders and promises of auto that the results do not meet
     std::uint64_t validation_count = 0;  ///< messages
 };
 

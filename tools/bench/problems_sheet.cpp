@@ -1,4 +1,4 @@
-// Sheets of 1 m with wave speed 100 m/s and shear a tenth of stretch, the model of solvers.md, against the
+// Sheets of 1 m with wave speed 100 m/s and shear a tenth of stretch, the model of docs/solvers.md, against the
 // converged double-precision network: swing, drum, drape, strip, the hanging sheet, the swing's energy.
 #include <algorithm>
 #include <cmath>

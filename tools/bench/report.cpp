@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "bench/result_json.h"
@@ -184,6 +185,14 @@ void evaluate(Report& report) {
     report.limits = check_limits(report.results);
     report.soonest = find_soonest(report.results);
     report.auto_ratios = auto_ratios(report.results);
+}
+
+std::size_t missed_count(const Report& report) {
+    const auto count = [](const auto& rows, auto met) {
+        return static_cast<std::size_t>(std::ranges::count_if(rows, std::not_fn(met)));
+    };
+    return count(report.orders, &OrderFit::met) + count(report.limits, &LimitCheck::met) +
+           count(report.auto_ratios, &AutoRatio::met);
 }
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems) {

@@ -7,7 +7,7 @@
 
 #include "bench/claims.h"
 #include "bench/fit.h"
-#include "output/plot.h"
+#include "bench/plot.h"
 
 namespace drape::bench {
 
@@ -25,6 +25,9 @@ struct Report {
 
 /// Orders, limits and ratios of the results that the report holds.
 void evaluate(Report& report);
+
+/// Of those, the orders and limits that are not met and the scenes where `auto` did not keep its tolerance.
+std::size_t missed_count(const Report& report);
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems);
 std::string report_json(const Report& report);

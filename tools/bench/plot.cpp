@@ -1,11 +1,11 @@
-#include "output/plot.h"
+#include "bench/plot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace drape {
+namespace drape::bench {
 
 namespace {
 
@@ -215,4 +215,4 @@ std::string svg_text(const LogPlot& plot) {
     return result + "</svg>\n";
 }
 
-}  // namespace drape
+}  // namespace drape::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace drape {
+namespace drape::bench {
 
 struct PlotSeries {
     std::string name;  ///< in the legend
@@ -30,4 +30,4 @@ struct LogPlot {
 /// with its name as title, even without a point.
 std::string svg_text(const LogPlot& plot);
 
-}  // namespace drape
+}  // namespace drape::bench

@@ -1,0 +1,71 @@
+#include <json/json.h>
+
+#include "options.h"
+#include "output/json_text.h"
+#include "program.h"
+#include "streams.h"
+
+namespace drape::cli {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> paths, overrides;
+    bool json = false, quiet = false;
+};
+
+Json::Value json_error(const SceneError& error) {
+    Json::Value value(Json::objectValue);
+    value["file"] = error.file;
+    value["line"] = error.line;
+    value["column"] = error.column;
+    value["pointer"] = error.pointer;
+    value["message"] = error.message;
+    return value;
+}
+
+/// Every error of every file on stderr, or as JSON on stdout.
+ExitCode check(const Options& options) {
+    ExitCode code = ExitCode::ok;
+    Json::Value report(Json::arrayValue);
+    for (const std::string& path : options.paths) {
+        const SceneResult result = read_scene(path, options.overrides);
+        if (!result.scene) code = result.unreadable || code == ExitCode::io ? ExitCode::io : ExitCode::scene;
+        Json::Value row(Json::objectValue);
+        row["file"] = path;
+        row["ok"] = result.scene.has_value();
+        row["errors"] = row["warnings"] = Json::Value(Json::arrayValue);
+        for (const SceneError& error : result.errors) {
+            row["errors"].append(json_error(error));
+            if (!options.json) print_message(error.text());
+        }
+        for (const SceneError& warning : result.warnings) {
+            row["warnings"].append(json_error(warning));
+            if (!options.json) print_message("warning: " + warning.text());
+        }
+        report.append(row);
+        if (!options.json && !options.quiet && result.scene) print_data(path + ": ok\n");
+    }
+    if (options.json) print_data(json_text(report));
+    return code;
+}
+
+}  // namespace
+
+void add_check(Program& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = program.add("check", "Check scene files; needs no device", R"text(
+Errors read file:line:column: /json/pointer: message.
+
+Examples:
+  drape check scenes/*.json
+  drape check my.json --set /solver/substeps=40 --json
+)text",
+                                    [=] { return check(*options); });
+    add_scene_list(command, options->paths);
+    add_override_option(command, options->overrides);
+    add_flag(command, "--json", "Errors and warnings as JSON on stdout", options->json);
+    add_flag(command, "-q,--quiet", "Say nothing about good files", options->quiet);
+}
+
+}  // namespace drape::cli

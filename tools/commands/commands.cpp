@@ -1,0 +1,16 @@
+// The table of commands. Everything about one stands in one file of this folder (found by glob): its words, options,
+// examples and what it does. A new one: its file, and its name here.
+#include "program.h"
+
+namespace drape::cli {
+
+using AddCommand = void(Program&);
+AddCommand add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy;
+
+void add_commands(Program& program) {
+    for (AddCommand* add :
+         {add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy})
+        add(program);
+}
+
+}  // namespace drape::cli

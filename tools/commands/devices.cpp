@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include "options.h"
+#include "output/json_text.h"
+#include "program.h"
+#include "streams.h"
+#include "vulkan/instance.h"
+
+namespace drape::cli {
+
+namespace {
+
+Json::Value json_device(const vulkan::DeviceInfo& info) {
+    Json::Value row(Json::objectValue);
+    row["index"] = info.index;
+    row["name"] = info.name;
+    row["type"] = info.type;
+    row["driver"] = info.driver;
+    row["driver_version"] = info.driver_version;
+    row["api_version"] = info.api_version;
+    row["uuid"] = info.uuid_text();
+    row["usable"] = info.usable;
+    if (!info.usable) row["unusable_reason"] = info.unusable_reason;
+    return row;
+}
+
+ExitCode list_devices(bool json) {
+    const vulkan::Instance instance({});
+    Json::Value list(Json::arrayValue);
+    std::string text;
+    for (const vulkan::DeviceInfo& info : instance.devices()) {
+        list.append(json_device(info));
+        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name, info.type,
+                            info.driver, info.driver_version, info.api_version, info.uuid_text(),
+                            info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n");
+    }
+    print_data(json ? json_text(list) : text);
+    if (!instance.devices().empty()) return ExitCode::ok;
+    print_error("no Vulkan device found");
+    return ExitCode::device;
+}
+
+}  // namespace
+
+void add_devices(Program& program) {
+    const auto json = std::make_shared<bool>(false);
+    CLI::App& command = program.add("devices", "List the Vulkan devices, and why one cannot be used",
+                                    "\nExample:\n  drape devices --json\n", [=] { return list_devices(*json); });
+    add_flag(command, "--json", "As JSON", *json);
+}
+
+}  // namespace drape::cli

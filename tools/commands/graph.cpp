@@ -1,0 +1,37 @@
+#include "options.h"
+#include "program.h"
+#include "streams.h"
+
+namespace drape::cli {
+
+void add_graph(Program& program) {
+    struct Options {
+        SceneRequest scene;
+        std::string format = "text";
+        bool simulate = false;
+    };
+    const auto options = std::make_shared<Options>();
+    const auto run = [=] {
+        print_data(describe_graph(options->scene, !options->simulate, options->format));
+        return ExitCode::ok;
+    };
+    CLI::App& command = program.add("graph", "Print what runs in a frame, what was skipped, and why", R"text(
+Examples:
+  drape graph scenes/flag.json
+  drape graph scenes/flag.json --simulate --format json
+  drape graph scenes/flag.json --format dot | dot -Tsvg > flag.svg
+)text",
+                                    run);
+    add_scene_options(command, options->scene);
+    add_image_options(command, options->scene);
+    add_option(command, "--format", "FORMAT", "text, json or dot (for Graphviz); default: text",
+               [=](const std::string& text) {
+                   if (text != "text" && text != "json" && text != "dot")
+                       return "expected text, json or dot, got '" + text + "'";
+                   options->format = text;
+                   return std::string();
+               });
+    add_flag(command, "--simulate", "As `drape simulate` runs it: nothing is drawn", options->simulate);
+}
+
+}  // namespace drape::cli

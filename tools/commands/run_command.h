@@ -1,0 +1,10 @@
+// What `render` and `simulate` share: a run into a folder.
+#pragma once
+
+#include "drape.h"
+
+namespace drape::cli {
+
+ExitCode run_into_folder(RunRequest request, const std::vector<std::string>& command_line);
+
+}  // namespace drape::cli
