@@ -18,7 +18,7 @@ glsl::vec4 texel(const Vec3& v, float w) {
 /// phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
 double damping_mean(double damping, double h) { return damping > 0 ? -std::expm1(-damping * h) / (damping * h) : 1.0; }
 
-/// Displacement of the substep before the start that makes damped ballistic flight exact (physics.md 3):
+/// Displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md 3):
 /// d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
 double start_displacement(double velocity, double acceleration, double damping, double h) {
     const double ch = damping * h;

@@ -1,4 +1,4 @@
-// The spring directions as a table, and the parity passes that relax them (physics.md 1: constraints are
+// The spring directions as a table, and the parity passes that relax them (docs/physics.md 2: constraints are
 // coloured, not particles); the same for bending elements and twisting cells. A new direction is one row here.
 #pragma once
 

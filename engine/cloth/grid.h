@@ -1,5 +1,5 @@
 // The grid on the CPU: which cells and triangles exist, and the masses and spring stiffnesses that follow
-// (design.md 5: each cell gives a quarter of its mass to each corner, half a spring to each side, and both its
+// (docs/physics.md 1: each cell gives a quarter of its mass to each corner, half a spring to each side, and both its
 // diagonals). Pure.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The constants of the line solver: the lines of each spring direction with their compliance, and the prediction in
-// second order (solvers.md, "Line solve with BDF2"). Pure.
+// second order (docs/solvers.md, "Line solve with BDF2"). Pure.
 #pragma once
 
 #include <vector>

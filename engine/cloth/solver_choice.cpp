@@ -92,7 +92,8 @@ double motion_factor(const Hang& hang) { return hang.calm ? 1.7 : 5; }
 /// What a method's law says of one cloth: the substeps per frame, as a real number, that keep the tolerance.
 using Law = double (*)(const Hang& hang, double frame, double tolerance);
 
-/// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (physics.md 2.1).
+/// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (docs/physics.md
+/// 2).
 double relax_substeps(const Hang& hang, double frame, double tolerance) {
     const double law =
         0.83 / std::sqrt(2.0) * (hang.length / hang.spacing) * hang.acceleration * square(frame) / (2 * hang.spacing);
@@ -100,7 +101,7 @@ double relax_substeps(const Hang& hang, double frame, double tolerance) {
 }
 
 /// Clamped springs: strain g L/c_s^2 at the top, 1/sqrt 6 of it RMS over rows and columns, c_s^2 = K l^2/h^2 with
-/// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (solvers.md, "Explicit micro-step").
+/// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (docs/solvers.md, "Explicit micro-step").
 double explicit_substeps(const Hang& hang, double frame, double tolerance) {
     constexpr double clamp = 0.45 / (1.1 * 1.4);
     const double law = hang.acceleration * hang.length * square(frame / hang.spacing) / (clamp * std::sqrt(6.0));
@@ -111,7 +112,7 @@ double explicit_substeps(const Hang& hang, double frame, double tolerance) {
 /// together: 1.3 for a cloth held by an edge, whose lines carry it alone; 0.45 where crossing directions fight (two
 /// corners, a ball), less from 64 links on, since iterations carry news by one line only. Measured on ten scenes of
 /// `bench accuracy
-/// --filter random` (seed 1000); solvers.md has 0.67 for a single sweep to 0.04 %.
+/// --filter random` (seed 1000); docs/solvers.md has 0.67 for a single sweep to 0.04 %.
 double line_substeps(const Hang& hang, double frame, double tolerance) {
     const double share = std::min(1.0, tolerance / default_tolerance);
     if (hang.by_an_edge)

@@ -1,5 +1,5 @@
-// The constants of a cloth's springs and bending elements (design.md 5), and what of them an explicit micro-step can
-// use without becoming unstable. Pure.
+// The constants of a cloth's springs and bending elements (docs/physics.md 1), and what of them an explicit micro-step
+// can use without becoming unstable. Pure.
 #pragma once
 
 #include <array>

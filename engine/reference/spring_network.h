@@ -1,6 +1,6 @@
 // The spring network of one cloth in double precision: the physical model that Drape's solvers approximate, as plain
-// data with its energy, gradient and Hessian. Built from the grid by design.md 5, independently of the arrays that
-// the device gets. Colliders are not part of it. Pure.
+// data with its energy, gradient and Hessian. Built from the grid by docs/physics.md 1, independently of the arrays
+// that the device gets. Colliders are not part of it. Pure.
 #pragma once
 
 #include <array>

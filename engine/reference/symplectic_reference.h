@@ -22,7 +22,7 @@ double symplectic_step(const SpringNetwork& network, const SymplecticOptions& op
 /// States at `times` (increasing, >= 0; 0 is the start), integrated three times for the error estimate. Kick-drift-kick
 /// with the flight of constant force and damping solved exactly, so free fall is exact at every step: with z = c h,
 ///   x' = x + phi h v + psi h^2 a,   v' = e^(-z)/phi (x' - x)/h + (phi - psi)/phi h a',
-/// which is d' = e^(-z) d + phi h^2 a with the start of physics.md 3. Second order; wind takes its velocity from
+/// which is d' = e^(-z) d + phi h^2 a with the start of docs/physics.md 3. Second order; wind takes its velocity from
 /// v + e^(-z), phi h a (still second order). Steps divide every interval between times and pin releases evenly.
 /// Throws std::runtime_error when the positions stop being finite, std::invalid_argument for wrong options or times.
 ReferenceRun run_symplectic(const SpringNetwork& network, std::span<const double> times,

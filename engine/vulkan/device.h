@@ -11,7 +11,7 @@
 namespace drape::vulkan {
 
 /// Bytes promised and bytes taken, in checked 64-bit. `reserve` throws VulkanError naming the object when
-/// the limit would be exceeded (robustness.md 2: an image too large fails only at bind on lavapipe).
+/// the limit would be exceeded (docs/devices.md: an image too large fails only at bind on lavapipe).
 class MemoryBudget {
   public:
     explicit MemoryBudget(std::uint64_t limit) : limit_(limit) {}

@@ -1,4 +1,4 @@
-// Two frames in flight behind one small type: fences, one queue, no timeline semaphores (lavapipe.md).
+// Two frames in flight behind one small type: fences, one queue, no timeline semaphores (docs/devices.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// BDF2 in displacement form (solvers.md, "Line solve with BDF2"), with a backward Euler step where there is no history
+// BDF2 in displacement form (docs/solvers.md, "Line solve"), with a backward Euler step where there is no history
 // worth trusting, and the control that decides which of the two a substep is.
 // State beside the position X: d = displacement of the substep, d_before = that of the substep before, and `excess` =
 // u - d, where u is h times the velocity at the substep's end and d h times its mean: after BDF2 (d - d_before)/2,

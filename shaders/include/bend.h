@@ -1,7 +1,7 @@
 // Quadratic bending on the regular grid. Three particles in a row or column: energy b/2 |x1 - 2 x2 + x3|^2, with
-// b = B w p/h^3, rigidity B, spacing h along the axis and p across it, w = 1/2 along a border (physics.md 2.10; Bergou
-// et al. 2006 for isometric surfaces). The corners of a cell: energy t/2 |x00 - x10 - x01 + x11|^2, t = 2 B/(dx dy).
-// The sum tends to B/2 times the integral of kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0: as
+// b = B w p/h^3, rigidity B, spacing h along the axis and p across it, w = 1/2 along a border (docs/physics.md 4;
+// Bergou et al. 2006 for isometric surfaces). The corners of a cell: energy t/2 |x00 - x10 - x01 + x11|^2, t = 2 B/(dx
+// dy). The sum tends to B/2 times the integral of kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0: as
 // stiff in every direction. It is linear in the positions, so its elements are never singular.
 #ifndef DRAPE_BEND_H
 #define DRAPE_BEND_H

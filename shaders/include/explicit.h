@@ -1,5 +1,5 @@
 // The explicit micro-step: every particle gathers the forces of the springs around it. Sources: symplectic Euler with
-// clamped stiffness and strain-rate damping (solvers.md, "Explicit micro-step").
+// clamped stiffness and strain-rate damping (docs/solvers.md, "Explicit micro-step").
 #ifndef DRAPE_EXPLICIT_H
 #define DRAPE_EXPLICIT_H
 

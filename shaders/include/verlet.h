@@ -1,4 +1,4 @@
-// Verlet in displacement form with compensated sums (physics.md 2.2 and 3, "damped free fall").
+// Verlet in displacement form with compensated sums (docs/physics.md 3).
 // State: X = position at the start of the substep, d = displacement of the substep, and what rounding lost
 // of each (`*_rest`), so that 1e5 substeps do not drift.
 #ifndef DRAPE_VERLET_H

@@ -1,4 +1,4 @@
-// Wind on a triangle and the normal of a cell (design.md 5).
+// Wind on a triangle and the normal of a cell (docs/physics.md 6).
 #ifndef DRAPE_WIND_H
 #define DRAPE_WIND_H
 

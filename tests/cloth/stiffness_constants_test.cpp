@@ -1,4 +1,4 @@
-// Spring constants by design.md 5, and the softening that keeps explicit steps stable.
+// Spring constants by docs/physics.md 1, and the softening that keeps explicit steps stable.
 #include "cloth/stiffness_constants.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(ExplicitStiffnessTest, LargeStepsAreSoftenedToTheStatedLimit) {
     for (const double kappa : {0.0, 0.2, 1.0}) {
         const ExplicitStiffness used =
             explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, kappa);
-        // solvers.md: K_s = 0.45 / ((1 + r_s)(1 + 2 kappa)), K_d = r_s K_s
+        // docs/solvers.md: K_s = 0.45 / ((1 + r_s)(1 + 2 kappa)), K_d = r_s K_s
         EXPECT_NEAR(used.spring[0], 0.45 / (1.1 * (1 + 2 * kappa)), 1e-12);
         EXPECT_NEAR(used.spring[1], used.spring[0], 1e-12);
         EXPECT_NEAR(used.spring[2], 0.1 * used.spring[0], 1e-12);

@@ -52,7 +52,7 @@ double mean(const std::vector<double>& values);
 double root_mean_square(const std::vector<double>& values);
 
 /// The relaxation's own mean strain of a hanging sheet of the cloth's N rows and height L, stretch springs
-/// only: N^2 g h^2 / (2 K L) (physics.md 2.1).
+/// only: N^2 g h^2 / (2 K L) (docs/physics.md 2).
 double stretch_law(const SceneDescription& scene, std::size_t cloth);
 
 }  // namespace drape::test

@@ -1,5 +1,5 @@
-// A strip clamped level at one end hangs like the heavy elastica of its rigidity (physics.md 3): fall over reach H/W
-// against Gamma = rho g L^3/B.
+// A strip clamped level at one end hangs like the heavy elastica of its rigidity (docs/physics.md 7): fall over reach
+// H/W against Gamma = rho g L^3/B.
 #include <gtest/gtest.h>
 
 #include <cmath>

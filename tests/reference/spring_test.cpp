@@ -51,7 +51,7 @@ TEST(SpringTest, ComplianceConvergesToTheForceBalanceOfXpbd) {
 }
 
 TEST(SpringTest, TheOscillatorOfTheXpbdPaperHasItsPeriod) {
-    // Two particles, one fixed: x0 = 1.5, rest 1, alpha = 1e-3, m = 1 (physics.md 3): 0.198692 s.
+    // Two particles, one fixed: x0 = 1.5, rest 1, alpha = 1e-3, m = 1 (docs/physics.md 7): 0.198692 s.
     const double h = 1e-5;
     const float compliance = static_cast<float>(1e-3 / (h * h));
     vec3 displacement{0, 0, 0};
