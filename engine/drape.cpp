@@ -132,9 +132,9 @@ class Sink {
         last_ = now;
     }
 
-    void add_cut(const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
-        cuts_.push_back({event.frame, cloth.name, event.counts.springs, event.counts.triangles});
-        const std::vector<std::uint32_t> faces = topology.whole_triangles(cloth);
+    void add_cut(const CutEvent& event, const CutTopology& topology) {
+        cuts_.push_back({event.frame, topology.cloth().name, event.counts.springs, event.counts.triangles});
+        const std::vector<std::uint32_t> faces = topology.whole_triangles();
         for (const Writer& writer : writers_) writer.files->set_faces(event.frame + 1, event.cloth, faces);
     }
 
@@ -192,17 +192,25 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     if (request.draws())
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
     const bool chosen = model.asked_method == SolverMethod::automatic;
-    manifest.solver = {model.method_name(),  scene.solver.substeps, scene.solver.iterations, scene.solver.tethers,
-                       chosen ? "auto" : "", model.choice.reason,   scene.solver.tolerance,  {}};
+    manifest.solver = {std::string(model.method().name),
+                       scene.solver.substeps,
+                       scene.solver.iterations,
+                       scene.solver.tethers,
+                       chosen ? std::string(named(model.asked_method).name) : "",
+                       model.choice.reason,
+                       scene.solver.tolerance,
+                       {}};
     for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
+    for (const Compromise& each : model.compromises())
+        manifest.compromises.push_back({each.what, each.reason, each.enough_substeps});
     manifest.created = utc_timestamp();
     manifest.command_line = request.command_line;
     return manifest;
 }
 
 ModelOptions model_options(const SceneRequest& request, const vulkan::Device& device) {
-    return {.skip = request.skip, .device = device.info().type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu};
+    return {.skip = request.skip, .device = device_kind(device.info())};
 }
 
 FrameLoopOptions loop_options(const SceneDescription& scene, bool draw, bool positions) {
@@ -231,7 +239,7 @@ std::vector<std::string> notes(const vulkan::Device& device, const SimulationMod
             fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", model.cloths.size(),
                         model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps,
                         model.scene.solver.iterations),
-            fmt::format("solver: {}{}", model.method_name(),
+            fmt::format("solver: {}{}", model.method().name,
                         model.asked_method == SolverMethod::automatic ? ": " + model.choice.reason : ""),
             fmt::format("plan: {} in a frame that is written, {} in one that is only simulated; `drape graph` "
                         "lists them, and what was skipped",
@@ -323,14 +331,18 @@ RunSummary run_scene(const RunRequest& request) {
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();
     const SimulationModel model(scene.description, model_options(request.scene, device));
+    for (const Compromise& each : model.compromises()) {
+        summary.warnings.push_back(each.what + ": " + each.reason);
+        say("warning: " + summary.warnings.back());
+    }
     Manifest manifest;
     {
         Sink* cut_sink = nullptr;
         FrameLoopOptions options = loop_options(
             scene.description, request.draws(),
             std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; }));
-        options.on_cut = [&](const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
-            if (cut_sink) cut_sink->add_cut(event, cloth, topology);
+        options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+            if (cut_sink) cut_sink->add_cut(event, topology);
         };
         FrameLoop loop(device, model, options);
         if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);

@@ -25,20 +25,15 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
 
 FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
     : device_(device), model_(model), options_(options), solver_(device, model_), slots_(device) {
-    if (!model_.scene.cutters.empty()) {
-        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            topologies_.emplace_back(model_.scene.cloths[cloth], model_.cloths[cloth]);
-        solver_.set_topologies(&topologies_);
-    }
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);
-    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) solver_.upload_cut(*pool_, cloth, {});
 }
 
 void FrameLoop::build_graphs() {
     frames_ = {};
-    const bool cut = std::ranges::any_of(topologies_, [](const CutTopology& t) { return !t.vertices().empty(); });
+    const bool cut =
+        std::ranges::any_of(solver_.topologies(), [](const CutTopology& t) { return !t.vertices().empty(); });
     if (options_.draw && (!raster_ || cut != draws_cut_)) {
         raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height, options_.samples,
                                                RasterOptions{.cut = cut});
@@ -84,7 +79,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
         CutImages before;
     };
     std::vector<Hit> hits;  // all are fetched before any resource changes
-    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) {
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const ClothModel& model = model_.cloths[cloth];
         std::uint32_t crossed = 0;
         std::memcpy(&crossed, pool_->buffer(cut_count_name(model), slot).mapped().data(), sizeof crossed);
@@ -92,11 +87,11 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
     }
     bool new_resources = false;
     for (const Hit& hit : hits) {
-        ClothModel& model = model_.cloths[hit.cloth];
-        new_resources = new_resources || !model.masked;
-        const CutCounts counts = topologies_[hit.cloth].apply(model, hit.findings);
-        new_resources = new_resources || outgrown(hit.before, topologies_[hit.cloth]);
-        if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, model, topologies_[hit.cloth]);
+        CutTopology& topology = solver_.topologies()[hit.cloth];
+        new_resources = new_resources || !topology.masked();
+        const CutCounts counts = topology.apply(hit.findings);
+        new_resources = new_resources || outgrown(hit.before, topology);
+        if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, topology);
     }
     if (new_resources) return rebuild_resources();
     for (const Hit& hit : hits) solver_.upload_cut(*pool_, hit.cloth, hit.before);
@@ -120,7 +115,6 @@ void FrameLoop::rebuild_resources() {
     allocate_and_record();
     solver_.upload(*pool_);
     solver_.upload_state(*pool_, state);
-    for (std::size_t cloth = 0; cloth < topologies_.size(); ++cloth) solver_.upload_cut(*pool_, cloth, {});
 }
 
 void FrameLoop::build(FrameKind kind) {

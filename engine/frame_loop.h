@@ -29,8 +29,8 @@ struct FrameLoopOptions {
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
-    /// Told of every cut, with the topology after it; the model is the loop's own, as cut so far.
-    std::function<void(const CutEvent&, const ClothModel&, const CutTopology&)> on_cut;
+    /// Told of every cut, with the cloth's topology after it.
+    std::function<void(const CutEvent&, const CutTopology&)> on_cut;
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 
@@ -58,9 +58,10 @@ struct FinishedFrame {
 class FrameLoop {
   public:
     /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
-    /// budget, before anything is allocated), records them, and uploads the initial state. `device`
-    /// must outlive the loop; `model` is copied, because cutting changes it.
+    /// budget, before anything is allocated), records them, and uploads the initial state. `device` and `model` must
+    /// outlive the loop.
     FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
+    FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
     ~FrameLoop();
 
     /// Frames 0 .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked before
@@ -97,8 +98,7 @@ class FrameLoop {
     void deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished);
 
     const vulkan::Device& device_;
-    SimulationModel model_;
-    std::vector<CutTopology> topologies_;  ///< per cloth, when the scene has cutters
+    const SimulationModel& model_;
     FrameLoopOptions options_;
     ClothSolver solver_;
     std::unique_ptr<RasterPass> raster_;

@@ -93,7 +93,7 @@ std::optional<std::string> missed_tolerance(const SimulationModel& model, std::u
         return fmt::format(
             "the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
             "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
-            frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method_name(), solver.substeps,
+            frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method().name, solver.substeps,
             solver.iterations);
     }
     return std::nullopt;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "cloth/schedule.h"
+#include "cloth/simulation_model.h"
 #include "shared/statistics_types.h"
 
 namespace drape {

@@ -1,5 +1,5 @@
-// What a cut does to a cloth: which springs and triangles are gone, and how the cut triangles are drawn. Pure; the
-// device finds the crossings, this keeps both sides consistent.
+// What cuts change of a cloth, and nothing else changes: which springs, triangles and tethers there are, and how the
+// cut triangles are drawn. Pure; the device finds the crossings, this keeps both sides consistent.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cloth/cloth_model.h"
+#include "cloth/cloth_geometry.h"
 #include "shared/cut_types.h"
 
 namespace drape {
@@ -26,21 +26,34 @@ struct CutCounts {
 
 class CutTopology {
   public:
-    explicit CutTopology(const Cloth& cloth, const ClothModel& model);
+    /// Uncut. `cloth` must outlive it.
+    explicit CutTopology(const ClothGeometry& cloth);
 
-    /// Cuts the springs that were crossed (their shares in `model` become 0), and the cell's other diagonal where
-    /// its corners no longer hang together; triangles with two or three cut edges leave the model's cells and are
-    /// split for drawing. A triangle with one cut edge is the end of a slit: it stays whole. Masses stay, tethers end.
-    CutCounts apply(ClothModel& model, const CutFindings& findings);
+    /// Cuts the springs that were crossed (their shares become 0), and the cell's other diagonal where its corners no
+    /// longer hang together; triangles with two or three cut edges leave the cells and are split for drawing. A
+    /// triangle with one cut edge is the end of a slit: it stays whole. Masses stay; tethers end: what was cut off no
+    /// longer hangs on what holds the rest. From the first findings on the cloth is masked, whether they cut or not.
+    CutCounts apply(const CutFindings& findings);
+    /// Cuts one spring, nothing else. Returns false when there is none.
+    bool cut_spring(std::size_t particle, std::size_t direction, float fraction);
+
+    const ClothGeometry& cloth() const { return *cloth_; }
+    /// Whether spring shares and cells need images.
+    bool masked() const { return !spring_shares_.empty(); }
+    /// Share of the stiffness per direction, by first particle; empty unless masked.
+    const std::vector<glsl::vec4>& spring_shares() const { return spring_shares_; }
+    /// The cells that are there now.
+    const Grid& grid() const { return grid_; }
+    const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }
 
     /// Three indices per triangle: each triangle of the uncut grid at its own place (its first index three times
     /// once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`.
     const std::vector<std::uint32_t>& indices() const { return indices_; }
     const std::vector<glsl::CutVertex>& vertices() const { return vertices_; }
     /// Whole triangles alone, as exported: particle indices.
-    std::vector<std::uint32_t> whole_triangles(const ClothModel& model) const;
+    std::vector<std::uint32_t> whole_triangles() const;
     /// Drawn area at rest, m^2: whole triangles and parts; cutting does not change it.
-    double drawn_rest_area(const ClothModel& model) const;
+    double drawn_rest_area() const;
     /// Fraction along an owned spring where it was cut; -1 when it was not.
     float cut_fraction(std::size_t particle, std::size_t direction) const;
 
@@ -53,21 +66,23 @@ class CutTopology {
 
     Triangle triangle(std::size_t cell, std::uint32_t which) const;
     float edge_cut(std::uint32_t from, std::uint32_t to) const;
-    bool cut_spring(ClothModel& model, std::size_t particle, std::size_t direction, float fraction);
+    void make_masked();
     bool diagonal_holds(std::size_t cell) const;
-    CutCounts take_crossings(ClothModel& model, const CutFindings& findings);
-    std::uint32_t split_triangles(ClothModel& model);
-    void rebuild_drawing(const ClothModel& model);
-    void add_parts(const ClothModel& model, const Triangle& triangle);
-    void add_isolated_corners(const ClothModel& model, const Triangle& triangle);
-    std::uint32_t edge_vertex(const ClothModel& model, std::uint32_t anchor, std::uint32_t other, float fraction);
-    std::uint32_t add_vertex(const ClothModel& model, std::uint32_t anchor, std::array<double, 2> material);
-    std::array<double, 2> material(const ClothModel& model, std::uint32_t vertex) const;
+    CutCounts take_crossings(const CutFindings& findings);
+    std::uint32_t split_triangles();
+    void rebuild_drawing();
+    void add_parts(const Triangle& triangle);
+    void add_isolated_corners(const Triangle& triangle);
+    std::uint32_t edge_vertex(std::uint32_t anchor, std::uint32_t other, float fraction);
+    std::uint32_t add_vertex(std::uint32_t anchor, std::array<double, 2> material);
+    std::array<double, 2> material(std::uint32_t vertex) const;
 
-    Vec3 world_u_, world_v_;  ///< unit directions of growing column and row at rest
+    const ClothGeometry* cloth_;
+    Grid grid_;
     std::uint32_t columns_, rows_;
-    std::vector<std::uint32_t> original_cells_;  ///< triangles that existed before any cut
-    std::vector<glsl::vec4> cuts_;               ///< per particle and direction: fraction, -1 = not cut
+    std::vector<glsl::vec4> spring_shares_;
+    std::vector<glsl::ParticleTethers> tethers_;
+    std::vector<glsl::vec4> cuts_;  ///< per particle and direction: fraction, -1 = not cut
     std::vector<std::uint32_t> indices_;
     std::vector<glsl::CutVertex> vertices_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_vertices_;  ///< (anchor, other) -> vertex

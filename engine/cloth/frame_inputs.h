@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/simulation_model.h"
 
 namespace drape {
 

@@ -117,6 +117,10 @@ class DotWriter {
             text_ += fmt::format("  skipped{} [style=dashed, color=gray, label={}, tooltip={}];\n", index++,
                                  quoted(group.what + times + ": " + group.reason), quoted(group.reason));
         }
+        index = 0;
+        for (const Compromised& compromise : graph_.compromises())
+            text_ += fmt::format("  compromise{} [style=dashed, color=orange, label={}];\n", index++,
+                                 quoted(compromise.what + ": " + compromise.reason));
     }
 
     const Graph& graph_;

@@ -139,13 +139,15 @@ std::string dump_json(const Graph& graph, const Plan& plan) {
     for (std::size_t r = 0; r < graph.resources().size(); ++r) {
         root["resources"].append(resource_value(graph.resources()[r], plan.lifespans[r]));
     }
-    root["skipped"] = Json::Value(Json::arrayValue);
-    for (const Skipped& skipped : plan.skipped) {
+    const auto add_remark = [&root](const char* list, const auto& remark) {
         Json::Value value;
-        value["what"] = skipped.what;
-        value["reason"] = skipped.reason;
-        root["skipped"].append(value);
-    }
+        value["what"] = remark.what;
+        value["reason"] = remark.reason;
+        root[list].append(value);
+    };
+    root["skipped"] = root["compromises"] = Json::Value(Json::arrayValue);
+    for (const Skipped& skipped : plan.skipped) add_remark("skipped", skipped);
+    for (const Compromised& compromise : graph.compromises()) add_remark("compromises", compromise);
     Json::StreamWriterBuilder writer;
     writer["indentation"] = "  ";
     return Json::writeString(writer, root) + "\n";

@@ -138,6 +138,9 @@ std::string dump_text(const Graph& graph, const Plan& plan) {
         text += fmt::format("  {}{}: {}\n", group.what, times, group.reason);
     }
     if (groups.empty()) text += "  nothing\n";
+    if (!graph.compromises().empty()) text += "compromised:\n";
+    for (const Compromised& compromise : graph.compromises())
+        text += fmt::format("  {}: {}\n", compromise.what, compromise.reason);
     return text;
 }
 

@@ -235,6 +235,10 @@ void Graph::add_pass(PassName name, const std::function<void(PassSetup&)>& setup
     passes_.push_back(std::move(pass));
 }
 
+void Graph::compromise(std::string what, std::string reason) {
+    compromises_.push_back({std::move(what), std::move(reason)});
+}
+
 void Graph::skip(std::string what, std::string reason) { skipped_.push_back({std::move(what), std::move(reason)}); }
 
 }  // namespace drape::graph

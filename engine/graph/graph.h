@@ -112,6 +112,11 @@ struct Skipped {
     std::string what, reason;
 };
 
+/// Something asked for that is done only in part.
+struct Compromised {
+    std::string what, reason;
+};
+
 class Graph;
 
 /// Given to a pass's set-up function; the only way to declare access.
@@ -151,16 +156,20 @@ class Graph {
                   std::function<void(PassContext&)> execute);
     /// Says in every dump that something was left out on purpose, and why.
     void skip(std::string what, std::string reason);
+    /// Likewise that something is done only in part.
+    void compromise(std::string what, std::string reason);
 
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Pass>& passes() const { return passes_; }
     const std::vector<Skipped>& skipped() const { return skipped_; }
+    const std::vector<Compromised>& compromises() const { return compromises_; }
 
   private:
     friend class PassSetup;
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
     std::vector<Skipped> skipped_;
+    std::vector<Compromised> compromises_;
 };
 
 }  // namespace drape::graph

@@ -103,6 +103,18 @@ Json::Value skipped_json(const std::vector<Manifest::Skipped>& skipped) {
     return array;
 }
 
+Json::Value compromises_json(const std::vector<Manifest::Compromise>& compromises) {
+    Json::Value array(Json::arrayValue);
+    for (const auto& [what, reason, enough_substeps] : compromises) {
+        Json::Value json;
+        json["what"] = what;
+        json["reason"] = reason;
+        if (enough_substeps > 0) json["enough_substeps"] = enough_substeps;
+        array.append(std::move(json));
+    }
+    return array;
+}
+
 Json::Value run_json(const Manifest& manifest) {
     Json::Value json;
     json["created"] = manifest.created;
@@ -168,6 +180,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
+    json["compromises"] = compromises_json(manifest.compromises);
     json["files"] = files_json(manifest.files);
     json["statistics"] = statistics_json(manifest.statistics);
     json["run"] = run_json(manifest);

@@ -62,6 +62,11 @@ struct Manifest {
         std::string what;  // a pass, a pipeline, an image, ...
         std::string reason;
     };
+    struct Compromise {
+        std::string what;  // "<cloth>/stiffness"
+        std::string reason;
+        std::uint32_t enough_substeps = 0;  // that would follow all of it; 0: none would
+    };
     struct Cut {  // found at the end of the frame, acts from the next one on
         std::int64_t frame = 0;
         std::string cloth;
@@ -88,6 +93,7 @@ struct Manifest {
     Solver solver;
     Validation validation;
     std::vector<Skipped> skipped;
+    std::vector<Compromise> compromises;
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     std::vector<FrameStatistics> statistics;

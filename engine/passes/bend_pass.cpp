@@ -15,7 +15,7 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
         [&](graph::PassSetup& setup) {
             setup.read(state.position, graph::Access::compute_read, "position");
             update(setup, state.displacement, "displacement");
-            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.element_count.x),
@@ -26,18 +26,18 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
 }  // namespace
 
 void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const BendWork& work = state.model->bends[step.work];
+    const auto& push = step.push<glsl::BendPush>();
     const std::string name =
-        fmt::format("bend {} {}", bend_axes[static_cast<std::size_t>(work.pass.axis)].name, work.pass.colour);
-    add_elements(graph, pipelines.get(vulkan::variant_name("bend.comp", {{"masked", state.model->masked}})), state,
-                 step, name, work.push);
+        fmt::format("bend {} {}", bend_axes[static_cast<std::size_t>(push.channel)].name, push.colour);
+    add_elements(graph, pipelines.get(vulkan::variant_name("bend.comp", {{"masked", state.masked()}})), state, step,
+                 name, push);
 }
 
 void add_twist(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const TwistWork& work = state.model->twists[step.work];
-    const std::string name = fmt::format("twist {} {}", work.pass.first.x, work.pass.first.y);
-    add_elements(graph, pipelines.get(vulkan::variant_name("twist.comp", {{"masked", state.model->masked}})), state,
-                 step, name, work.push);
+    const auto& push = step.push<glsl::TwistPush>();
+    const std::string name = fmt::format("twist {} {}", push.first.x, push.first.y);
+    add_elements(graph, pipelines.get(vulkan::variant_name("twist.comp", {{"masked", state.masked()}})), state, step,
+                 name, push);
 }
 
 }  // namespace drape

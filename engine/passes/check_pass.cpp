@@ -20,7 +20,7 @@ std::uint32_t partial_count(const Grid& grid) {
 
 void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("residual.comp", {{"masked", state.model->masked}}));
+        pipelines.get(vulkan::variant_name("residual.comp", {{"masked", state.masked()}}));
     const glsl::ResidualPush push = state.model->residual;
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.columns(), strip_count(state.model->grid));
     graph.add_pass(
@@ -31,7 +31,7 @@ void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& sta
             setup.read(state.tension[0], graph::Access::compute_read, "tension_row");
             setup.read(state.tension[1], graph::Access::compute_read, "tension_column");
             state.residuals = setup.write(state.residuals, graph::Access::compute_write, "partials");
-            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

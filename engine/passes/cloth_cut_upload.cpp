@@ -62,18 +62,18 @@ std::vector<std::string> state_image_parts() {
 std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::max<std::size_t>(count, 64)); }
 
 CutImages ClothSolver::cut_images(std::size_t cloth) const {
-    const CutTopology& topology = (*topologies_)[cloth];
-    const ClothModel& model = model_.cloths[cloth];
-    return {model.stiffness, model.grid.cells(), topology.indices(), topology.vertices(), model.tethers};
+    const CutTopology& topology = topologies_[cloth];
+    return {topology.spring_shares(), topology.grid().cells(), topology.indices(), topology.vertices(),
+            topology.tethers()};
 }
 
 void ClothSolver::upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const {
     const ClothModel& model = model_.cloths[cloth];
-    const CutTopology& topology = (*topologies_)[cloth];
-    upload_rows(pool, model.name + "/stiffness", model.grid.columns(), before.stiffness, model.stiffness);
-    upload_rows(pool, model.name + "/cells", model.grid.columns() - 1, before.cells, model.grid.cells());
+    const CutTopology& topology = topologies_[cloth];
+    upload_rows(pool, model.name + "/stiffness", model.grid.columns(), before.spring_shares, topology.spring_shares());
+    upload_rows(pool, model.name + "/cells", model.grid.columns() - 1, before.cells, topology.grid().cells());
     upload_list(pool, model.name + "/triangles", before.indices, topology.indices());
-    upload_list(pool, model.name + "/tethers", before.tethers, model.tethers);
+    upload_list(pool, model.name + "/tethers", before.tethers, topology.tethers());
     upload_list(pool, model.name + "/cut vertices", before.vertices, topology.vertices());
 }
 

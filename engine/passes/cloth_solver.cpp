@@ -38,28 +38,34 @@ void write_buffer(const graph::ResourcePool& pool, std::uint32_t slot, const std
 
 }  // namespace
 
+DeviceKind device_kind(const vulkan::DeviceInfo& device) {
+    return device.type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
+}
+
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
     : model_(model), pipelines_(device) {
-    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+    for (const ClothModel& cloth : model.cloths) {
+        topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
+    }
 }
 
 void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     cloths_.clear();
     inputs_ = {};
     for (const SkippedWork& work : model_.skipped()) graph.skip(work.what, work.reason);
+    for (const Compromise& each : model_.compromises()) graph.compromise(each.what, each.reason);
     const SceneDescription& scene = model_.scene;
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", scene.solver.substeps, Lifetime::host_input);
     for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
         if (const std::size_t count = collider_record_count(scene, static_cast<ColliderKind>(kind)))
             inputs_.colliders[kind] = graph.buffer<glsl::Collider>("colliders/" + std::string(collider_kind_name(kind)),
                                                                    count, Lifetime::host_input);
-    for (std::size_t index = 0; index < model_.cloths.size(); ++index)
-        declare_cloth(graph, model_.cloths[index], index, needs);
+    for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
 }
 
-void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index,
-                                const FrameNeeds& needs) {
+void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs) {
+    const ClothModel& model = model_.cloths[index];
     const auto image = [&](const std::string& part, Lifetime lifetime, VkFormat format, std::uint32_t smaller = 0) {
         return graph.image({model.name + "/" + part, format, model.grid.columns() - smaller,
                             model.grid.rows() - smaller, VK_SAMPLE_COUNT_1_BIT, lifetime});
@@ -67,25 +73,26 @@ void ClothSolver::declare_cloth(graph::Graph& graph, const ClothModel& model, st
     constexpr VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
     ClothState state;
     state.model = &model;
+    state.topology = &topologies_[index];
     state.index = index;
     state.position = image("position", Lifetime::persistent, vec4);
     state.displacement = image("displacement", Lifetime::persistent, vec4);
     state.position_rest = image("position rest", Lifetime::persistent, vec4);
     state.displacement_rest = image("displacement rest", Lifetime::persistent, vec4);
-    if (model_.method_name() == "explicit") {
+    if (model.plan.spare_state) {
         state.position_spare = image("position spare", Lifetime::transient, vec4);
         state.displacement_spare = image("displacement spare", Lifetime::transient, vec4);
     }
-    if (model_.method_name() == "line") declare_line(graph, state);
+    declare_line(graph, state);
     if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
     if (needs.drawing) state.normal = image("normal", Lifetime::transient, vec4);
-    if (model.masked) {
+    if (state.masked()) {
         state.stiffness = image("stiffness", Lifetime::constant, vec4);
         state.mass = image("mass share", Lifetime::constant, VK_FORMAT_R32_SFLOAT);
         state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
     }
     for (std::size_t direction = 0; direction < 4; ++direction)
-        if (model.carries_tension[direction] ||
+        if (model.plan.carries_tension[direction] ||
             ((needs.statistics || model_.adaptive()) && direction < stretch_direction_count))
             state.tension[direction] = image("tension " + std::string(spring_directions[direction].name),
                                              Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
@@ -116,14 +123,12 @@ void ClothSolver::declare_iterations(graph::Graph& graph, ClothState& state) {
 
 void ClothSolver::declare_drawing(graph::Graph& graph, ClothState& state) const {
     const std::string& name = state.model->name;
-    const bool cuttable = topologies_ != nullptr;
-    const std::size_t index_count =
-        cuttable ? (*topologies_)[state.index].indices().size() : state.model->grid.triangle_indices().size();
+    const std::size_t index_count = state.topology->indices().size(), vertex_count = state.topology->vertices().size();
     state.index_count = static_cast<std::uint32_t>(index_count);
-    const std::size_t room = cuttable ? draw_list_capacity(index_count) : index_count;
+    const std::size_t room = model_.scene.cutters.empty() ? index_count : draw_list_capacity(index_count);
     state.triangles = graph.buffer({name + "/triangles", room * sizeof(std::uint32_t), Lifetime::constant});
-    if (!cuttable || (*topologies_)[state.index].vertices().empty()) return;
-    const std::size_t vertex_room = draw_list_capacity((*topologies_)[state.index].vertices().size());
+    if (vertex_count == 0) return;
+    const std::size_t vertex_room = draw_list_capacity(vertex_count);
     state.cut_vertices = graph.buffer<glsl::CutVertex>(name + "/cut vertices", vertex_room, Lifetime::constant);
 }
 
@@ -134,8 +139,12 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
-    for (ClothState& state : cloths_)
-        for (const Step& step : model_.frame_steps(*state.model)) add_step(graph, state, step);
+    for (const Step& step : frame_steps(model_)) {
+        if (step.cloth != all_cloths)
+            add_step(graph, cloths_[step.cloth], step);
+        else
+            for (ClothState& state : cloths_) add_step(graph, state, step);
+    }
 }
 
 void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
@@ -179,7 +188,7 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 
 void ClothSolver::add_statistics(graph::Graph& graph) {
     for (ClothState& state : cloths_) {
-        if (state.model->gathers) add_tension(graph, pipelines_, state);
+        if (state.model->plan.gathered_tension) add_tension(graph, pipelines_, state);
         drape::add_statistics(graph, pipelines_, state, inputs_, model_);
         if (model_.adaptive()) add_iteration_readback(graph, state);
     }
@@ -207,12 +216,13 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
     };
     const auto buffer = [&](const ClothModel& cloth, const char* part, auto bytes) {
         const std::string name = cloth.name + "/" + part;
-        if (pool.has(name)) vulkan::upload(pool.device(), pool.buffer(name), bytes);
+        if (pool.has(name)) vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
     };
-    for (const ClothModel& cloth : model_.cloths) {
+    for (std::size_t index = 0; index < model_.cloths.size(); ++index) {
+        const ClothModel& cloth = model_.cloths[index];
         const std::vector<glsl::vec4> zero(cloth.grid.particle_count());
         image(cloth, "position", bytes_of(cloth.position));
-        image(cloth, "displacement", bytes_of(cloth.displacement));
+        image(cloth, "displacement", bytes_of(cloth.start_displacement()));
         image(cloth, "position rest", bytes_of(zero));
         image(cloth, "displacement rest", bytes_of(zero));
         image(cloth, "displacement before", bytes_of(zero));
@@ -220,16 +230,18 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         const std::vector<float> slack(cloth.grid.particle_count());
         for (const SpringDirection& direction : spring_directions)
             image(cloth, ("tension " + std::string(direction.name)).c_str(), bytes_of(slack));
-        if (cloth.masked) {
-            image(cloth, "stiffness", bytes_of(cloth.stiffness));
+        const CutTopology& topology = topologies_[index];
+        if (topology.masked()) {
+            image(cloth, "stiffness", bytes_of(topology.spring_shares()));
             image(cloth, "mass share", bytes_of(mass_shares(cloth)));
-            image(cloth, "cells", bytes_of(cloth.grid.cells()));
+            image(cloth, "cells", bytes_of(topology.grid().cells()));
         }
-        if (topologies_ == nullptr) buffer(cloth, "triangles", bytes_of(cloth.grid.triangle_indices()));
+        buffer(cloth, "triangles", bytes_of(topology.indices()));
+        buffer(cloth, "cut vertices", bytes_of(topology.vertices()));
+        buffer(cloth, "tethers", bytes_of(topology.tethers()));
         buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
-        buffer(cloth, "tethers", bytes_of(cloth.tethers));
         if (model_.adaptive()) {
-            std::vector<glsl::uvec4> sizes = *iteration_sizes_[static_cast<std::size_t>(&cloth - model_.cloths.data())];
+            std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
             sizes.resize(glsl::iteration_size_count);
             buffer(cloth, "iteration sizes", bytes_of(sizes));
         }

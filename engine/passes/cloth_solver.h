@@ -14,7 +14,7 @@ namespace drape {
 
 /// The host's copies of what a cut changes.
 struct CutImages {
-    std::vector<glsl::vec4> stiffness;
+    std::vector<glsl::vec4> spring_shares;
     std::vector<std::uint32_t> cells, indices;
     std::vector<glsl::CutVertex> vertices;
     std::vector<glsl::ParticleTethers> tethers;
@@ -27,6 +27,9 @@ std::vector<std::string> state_image_parts();
 /// new buffers.
 std::size_t draw_list_capacity(std::size_t count);
 
+/// What method `auto` has to know of a device.
+DeviceKind device_kind(const vulkan::DeviceInfo& device);
+
 /// What a frame is for, beside simulating.
 struct FrameNeeds {
     bool drawing = false;     ///< triangles and normals
@@ -38,8 +41,9 @@ class ClothSolver {
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
     ClothSolver(const vulkan::Device& device, const SimulationModel& model);
 
-    /// Cut cloths are drawn from their topology's lists; one per cloth, which must outlive the graphs.
-    void set_topologies(const std::vector<CutTopology>* topologies) { topologies_ = topologies; }
+    /// What cuts made of each cloth; what changes them acts from the next `declare` or `upload_cut` on.
+    std::vector<CutTopology>& topologies() { return topologies_; }
+    const std::vector<CutTopology>& topologies() const { return topologies_; }
     /// Declares the images and host inputs that the scene and what is wanted of the frame need, and only those.
     void declare(graph::Graph& graph, const FrameNeeds& needs);
     /// Adds the passes of one frame.
@@ -77,11 +81,11 @@ class ClothSolver {
   private:
     void declare_drawing(graph::Graph& graph, ClothState& state) const;
     void declare_iterations(graph::Graph& graph, ClothState& state);
-    void declare_cloth(graph::Graph& graph, const ClothModel& model, std::size_t index, const FrameNeeds& needs);
+    void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
-    const std::vector<CutTopology>* topologies_ = nullptr;
+    std::vector<CutTopology> topologies_;
     PipelineCache pipelines_;
     /// Per cloth; the same in the graph of every kind of frame.
     std::vector<std::shared_ptr<std::vector<glsl::uvec4>>> iteration_sizes_;

@@ -35,7 +35,7 @@ void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, g
             vkCmdFillBuffer(context.commands(), context.buffer(*cleared).handle(), 0, VK_WHOLE_SIZE, 0);
         });
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("cut.comp", {{"masked", model.masked}}));
+        pipelines.get(vulkan::variant_name("cut.comp", {{"masked", state.masked()}}));
     graph.add_pass(
         state.pass_name("cut", "cut"),
         [&](graph::PassSetup& setup) {
@@ -44,7 +44,7 @@ void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, g
             (void)setup.write(fractions, Access::compute_write, "cut_fractions");
             setup.read(cutters, Access::compute_read, "cutters");
             update_in_place(setup, count, "count");
-            if (!model.masked) return;
+            if (!state.masked()) return;
             setup.read(state.stiffness, Access::compute_read, "stiffness_image");
             setup.read(state.cells, Access::compute_read, "cells");
         },

@@ -3,13 +3,12 @@
 namespace drape {
 
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const ClothModel& model = *state.model;
     const bool wind = state.wind_force.valid();
-    const glsl::ExplicitPush& constants = model.explicit_step;
-    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = constants.stiffness.z > 0 ? 1 : 0,
-                        has_bend = constants.twist > 0 ? 1 : 0;
+    const auto& push = step.push<glsl::ExplicitPush>();
+    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.stiffness.z > 0 ? 1 : 0,
+                        has_bend = push.twist > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("explicit.comp", {{"masked", model.masked}, {"wind", wind}}),
+        pipelines.get(vulkan::variant_name("explicit.comp", {{"masked", state.masked()}, {"wind", wind}}),
                       {{"advance", advances}, {"has_shear", has_shear}, {"has_bend", has_bend}});
     graph.add_pass(
         state.step_name("explicit step", step),
@@ -22,9 +21,9 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
             update(setup, state.position_rest, "position_remainder");
             update(setup, state.displacement_rest, "displacement_remainder");
             if (wind) setup.read(state.wind_force, graph::Access::compute_read, "wind_force");
-            if (model.masked) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
         },
-        [&pipeline, push = model.explicit_step](graph::PassContext& context) {
+        [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y));
         });

@@ -16,7 +16,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
             update(setup, state.displacement_rest, "displacement_remainder");
             if (wind) setup.read(state.wind_force, graph::Access::compute_read, "wind_force");
         },
-        [&pipeline, push = state.model->force](graph::PassContext& context) {
+        [&pipeline, push = step.push<glsl::ForcePush>()](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y));
         });

@@ -4,13 +4,13 @@ namespace drape {
 
 void add_normals(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("normal.comp", {{"masked", state.model->masked}}));
+        pipelines.get(vulkan::variant_name("normal.comp", {{"masked", state.masked()}}));
     graph.add_pass(
         state.pass_name("normals", "normals"),
         [&](graph::PassSetup& setup) {
             setup.read(state.position, graph::Access::compute_read, "position");
             state.normal = setup.write(state.normal, graph::Access::compute_write, "normal");
-            if (state.model->masked) setup.read(state.cells, graph::Access::compute_read, "cells");
+            if (state.masked()) setup.read(state.cells, graph::Access::compute_read, "cells");
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

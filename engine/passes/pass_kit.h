@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cloth/cut_topology.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/schedule.h"
 #include "graph/executor.h"
 
 namespace drape {
@@ -48,6 +50,7 @@ class PipelineCache {
 ///   cells          r32ui    triangles that exist, one texel per cell; holes and cuts
 struct ClothState {
     const ClothModel* model = nullptr;
+    const CutTopology* topology = nullptr;
     std::size_t index = 0;
     graph::Handle position, displacement, position_rest, displacement_rest;
     graph::Handle position_spare, displacement_spare;
@@ -63,6 +66,8 @@ struct ClothState {
     std::uint32_t index_count = 0;
     graph::Handle pinned, pin_motions;  ///< dynamic pins
     graph::Handle tethers;              ///< ParticleTethers of every particle
+    /// Whether stiffness and cells are images.
+    bool masked() const { return topology->masked(); }
     /// What a micro-step wrote becomes the state.
     void turn();
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;

@@ -7,23 +7,22 @@
 namespace drape {
 
 void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const SpringWork& work = state.model->springs[step.work];
-    const auto direction = static_cast<std::size_t>(work.pass.direction);
-    const bool stores_tension = state.tension[direction].valid() &&
-                                (state.model->carries_tension[direction] || (step.last && work.push.compliance > 0));
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("spring.comp", {{"masked", state.model->masked}, {"tension", stores_tension}}));
-    glsl::SpringPush push = work.push;
+    glsl::SpringPush push = step.push<glsl::SpringPush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
-    const std::string name = std::string("spring ") + std::string(spring_directions[direction].name) +
-                             (work.pass.parity == 0 ? " even" : " odd");
+    const auto direction = static_cast<std::size_t>(push.channel);
+    const bool stores_tension = state.tension[direction].valid() &&
+                                (state.model->plan.carries_tension[direction] || (step.last && push.compliance > 0));
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("spring.comp", {{"masked", state.masked()}, {"tension", stores_tension}}));
+    const std::string name =
+        std::string("spring ") + std::string(spring_directions[direction].name) + (push.parity == 0 ? " even" : " odd");
     const StepDispatch dispatch(state, step, pipeline, push.pair_count);
     graph.add_pass(
         state.step_name(name, step),
         [&](graph::PassSetup& setup) {
             setup.read(state.position, graph::Access::compute_read, "position");
             update(setup, state.displacement, "displacement");
-            if (state.model->masked) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
             if (stores_tension) update(setup, state.tension[direction], "tension");
             dispatch.declare(setup);
         },

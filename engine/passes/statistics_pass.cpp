@@ -24,7 +24,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
         for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
             constants.push_back({collider_constants[kind], inputs.colliders[kind].valid() ? 1u : 0u});
     const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("statistics.comp", {{"masked", state.model->masked}, {"colliding", collides}}), constants);
+        vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", collides}}), constants);
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(
         state.model->name + "/statistics of workgroups", partial_count(state.model->grid), graph::Lifetime::transient);
     graph.add_pass(
@@ -35,7 +35,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
             records = setup.write(records, graph::Access::compute_write, "partials");
             setup.read(state.tension[0], graph::Access::compute_read, "tension_row");
             setup.read(state.tension[1], graph::Access::compute_read, "tension_column");
-            if (state.model->masked) {
+            if (state.masked()) {
                 setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
                 setup.read(state.mass, graph::Access::compute_read, "mass_image");
             }

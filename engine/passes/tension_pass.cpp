@@ -12,7 +12,7 @@ void add_tension(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             state.tension[0] = setup.write(state.tension[0], graph::Access::compute_write, "tension_row");
             state.tension[1] = setup.write(state.tension[1], graph::Access::compute_write, "tension_column");
         },
-        [&pipeline, push = state.model->tension](graph::PassContext& context) {
+        [&pipeline, push = *state.model->plan.gathered_tension](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y));
         });

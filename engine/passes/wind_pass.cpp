@@ -6,7 +6,7 @@ void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
               const Step& step) {
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("wind.comp", {{"masked", state.model->masked}}), {{"advance", advances}});
+        pipelines.get(vulkan::variant_name("wind.comp", {{"masked", state.masked()}}), {{"advance", advances}});
     glsl::WindPush push = state.model->wind;
     push.substep = static_cast<int>(step.substep);
     graph.add_pass(
@@ -16,7 +16,7 @@ void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             setup.read(state.displacement, graph::Access::compute_read, "displacement");
             state.wind_force = setup.write(state.wind_force, graph::Access::compute_write, "wind_force");
             setup.read(inputs.wind, graph::Access::compute_read, "wind");
-            if (state.model->masked) setup.read(state.cells, graph::Access::compute_read, "cells");
+            if (state.masked()) setup.read(state.cells, graph::Access::compute_read, "cells");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

@@ -20,9 +20,9 @@ bool intersects(vec3 p, vec3 q, vec3 r, const CutterTriangle& cutter) {
 
 }  // namespace
 
-CutFindings find_cuts(const ClothModel& model, const std::vector<vec4>& position,
+CutFindings find_cuts(const CutTopology& topology, const std::vector<vec4>& position,
                       const std::vector<CutterTriangle>& cutters) {
-    const Grid& grid = model.grid;
+    const Grid& grid = topology.grid();
     const std::uint32_t columns = grid.columns(), rows = grid.rows();
     CutFindings found{std::vector<std::uint32_t>(grid.cells().size() * 2),
                       std::vector<vec4>(grid.particle_count(), {not_crossed, not_crossed, not_crossed, not_crossed})};
@@ -47,8 +47,8 @@ CutFindings find_cuts(const ClothModel& model, const std::vector<vec4>& position
                 upper = upper || intersects(here, right, below, cutter);
                 lower = lower || intersects(right, across, below, cutter);
             }
-            if (model.masked) {
-                const vec4& share = model.stiffness[particle];
+            if (topology.masked()) {
+                const vec4& share = topology.spring_shares()[particle];
                 if (share.x == 0.0f) fraction.x = not_crossed;
                 if (share.y == 0.0f) fraction.y = not_crossed;
                 if (share.z == 0.0f) fraction.z = not_crossed;

@@ -8,7 +8,7 @@
 namespace drape {
 
 /// What the cut pass finds on `position` (one texel per particle); equals the device's images bit for bit.
-CutFindings find_cuts(const ClothModel& model, const std::vector<glsl::vec4>& position,
+CutFindings find_cuts(const CutTopology& topology, const std::vector<glsl::vec4>& position,
                       const std::vector<glsl::CutterTriangle>& cutters);
 
 }  // namespace drape

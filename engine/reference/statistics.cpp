@@ -22,11 +22,7 @@ StatisticsRecord joined_over_workgroup(Workgroup& lanes) {
 class Reduction {
   public:
     Reduction(const SimulationModel& model, const ClothModel& cloth, const TwinCloth& state, const FrameInputs& inputs)
-        : cloth_(cloth),
-          state_(state),
-          inputs_(inputs),
-          push_(statistics_push(model, cloth)),
-          masses_(mass_shares(cloth)) {}
+        : state_(state), inputs_(inputs), push_(statistics_push(model, cloth)), masses_(mass_shares(cloth)) {}
 
     StatisticsRecord run() const {
         std::vector<StatisticsRecord> partials;
@@ -61,7 +57,7 @@ class Reduction {
     StatisticsRecord statistics_of(ivec2 particle) const {
         const std::size_t index = at(particle);
         const vec4 position = state_.position[index];
-        const float share = cloth_.masked ? masses_[index] : border_mass_share(particle, push_.grid);
+        const float share = state_.topology.masked() ? masses_[index] : border_mass_share(particle, push_.grid);
         StatisticsRecord record = particle_statistics(xyz(position), xyz(state_.displacement[index]), share,
                                                       xyz(push_.reference), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
@@ -74,8 +70,8 @@ class Reduction {
         const ivec2 offset = spring_directions[static_cast<std::size_t>(direction)].offset;
         const ivec2 second{first.x + offset.x, first.y + offset.y};
         if (!inside(second)) return record;
-        const float share = cloth_.masked ? component(cloth_.stiffness[at(first)], direction)
-                                          : border_stiffness(first, offset, push_.grid);
+        const float share = state_.topology.masked() ? component(state_.topology.spring_shares()[at(first)], direction)
+                                                     : border_stiffness(first, offset, push_.grid);
         const float tension = direction < 2 ? state_.tension[static_cast<std::size_t>(direction)][at(first)] : 0.0f;
         return add_spring_strain(record, xyz(state_.position[at(first)]), xyz(state_.position[at(second)]),
                                  component(push_.rest_length, direction), component(push_.half_stiffness, direction),
@@ -100,7 +96,6 @@ class Reduction {
         return deepest;
     }
 
-    const ClothModel& cloth_;
     const TwinCloth& state_;
     const FrameInputs& inputs_;
     StatisticsPush push_;

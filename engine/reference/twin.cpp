@@ -23,19 +23,19 @@ void for_triangles_around(const Grid& grid, ivec2 particle, const Visit& visit) 
 
 Twin::Twin(const SimulationModel& model) : model_(model) {
     for (const ClothModel& cloth : model.cloths) {
-        TwinCloth state;
+        TwinCloth state(cloth);
         const std::size_t count = cloth.grid.particle_count();
         state.position = cloth.position;
-        state.displacement = cloth.displacement;
+        state.displacement = cloth.start_displacement();
         state.position_rest.resize(count);
         state.displacement_rest.resize(count);
         state.normal.resize(count);
         if (model.windy) state.wind_force.resize(count);
-        if (model.method_name() == "explicit") {
+        if (cloth.plan.spare_state) {
             state.position_spare.resize(count);
             state.displacement_spare.resize(count);
         }
-        if (cloth.second_order) {
+        if (cloth.plan.second_order) {
             state.displacement_before.resize(count);
             state.velocity_excess.resize(count);
         }
@@ -46,8 +46,12 @@ Twin::Twin(const SimulationModel& model) : model_(model) {
 
 void Twin::run_frame(std::uint32_t frame) {
     const FrameInputs inputs = frame_inputs(model_, frame);
-    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth)
-        for (const Step& step : model_.frame_steps(model_.cloths[cloth])) run_step(cloth, step, inputs);
+    for (const Step& step : frame_steps(model_)) run_step(step, inputs);
+}
+
+void Twin::run_step(const Step& step, const FrameInputs& inputs) {
+    if (step.cloth != all_cloths) return run_step(step.cloth, step, inputs);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) run_step(cloth, step, inputs);
 }
 
 void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs) {
@@ -62,23 +66,23 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::control:
             return control(state);
         case StepKind::predict:
-            return predict(model, state, step.substep > 0);
+            return predict(state, step);
         case StepKind::force:
-            return force(model, state, step.substep > 0);
+            return force(state, step);
         case StepKind::explicit_step:
-            return explicit_step(model, state, step.substep > 0);
+            return explicit_step(state, step);
         case StepKind::pin:
             return pin(model, state, inputs.pins[cloth], step.substep);
         case StepKind::bend:
-            return bend(model, state, step);
+            return bend(state, step);
         case StepKind::twist:
-            return twist(model, state, step);
+            return twist(state, step);
         case StepKind::spring:
             return spring(model, state, step);
         case StepKind::line:
             return line(model, state, step);
         case StepKind::tether:
-            return tether(model, state);
+            return tether(state);
         case StepKind::collide:
             return collide(model, state, inputs, step.substep);
         case StepKind::check:
@@ -109,7 +113,7 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
             vec3 sum = empty_sum();
-            for_triangles_around(model.grid, {x, y}, [&](ivec2 cell, int which) {
+            for_triangles_around(state.topology.grid(), {x, y}, [&](ivec2 cell, int which) {
                 std::size_t corner[3];
                 for (int k = 0; k < 3; ++k) {
                     const ivec2 offset = triangle_corner(which, k);
@@ -124,8 +128,9 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
         }
 }
 
-void Twin::force(const ClothModel& model, TwinCloth& state, bool advance) {
-    const ForcePush& push = model.force;
+void Twin::force(TwinCloth& state, const Step& step) {
+    const auto& push = step.push<ForcePush>();
+    const bool advance = step.substep > 0;
     for (std::size_t i = 0; i < state.position.size(); ++i) {
         const vec4 position = state.position[i];
         const vec3 displacement = xyz(state.displacement[i]);
@@ -156,16 +161,16 @@ void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinM
 }
 
 void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
-    const SpringPush& push = model.springs[step.work].push;
+    const auto& push = step.push<SpringPush>();
     std::vector<float>& tensions = state.tension[static_cast<std::size_t>(push.channel)];
-    const bool carried = step.iteration > 0 && model.carries_tension[push.channel];
+    const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
     for (int py = 0; py < push.pair_count.y; ++py)
         for (int px = 0; px < push.pair_count.x; ++px) {
             const ivec2 owner = spring_owner({px, py}, push.offset, push.parity_axis, push.parity);
             const std::size_t first = at(model.grid, owner);
             const std::size_t second = at(model.grid, {owner.x + push.offset.x, owner.y + push.offset.y});
-            const float share = model.masked ? component(model.stiffness[first], push.channel)
-                                             : border_stiffness(owner, push.offset, push.grid);
+            const float share = state.topology.masked() ? component(state.topology.spring_shares()[first], push.channel)
+                                                        : border_stiffness(owner, push.offset, push.grid);
             const float tension = carried ? tensions[first] : 0.0f;
             const float weight_first = state.position[first].w, weight_second = state.position[second].w;
             const vec3 moved_first = xyz(state.displacement[first]), moved_second = xyz(state.displacement[second]);
@@ -207,7 +212,8 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
     }
 }
 
-void Twin::tether(const ClothModel& model, TwinCloth& state) {
+void Twin::tether(TwinCloth& state) {
+    const std::vector<ParticleTethers>& tethers = state.topology.tethers();
     for (std::size_t i = 0; i < state.position.size(); ++i) {
         if (state.position[i].w == 0.0f) continue;
         vec3 moved = xyz(state.displacement[i]);
@@ -219,8 +225,8 @@ void Twin::tether(const ClothModel& model, TwinCloth& state) {
                 spring_edge(xyz(state.position[a]), xyz(state.position[i]), xyz(state.displacement[a]), moved);
             moved = moved_by(moved, tether_correction(edge, length), 1.0f);
         };
-        apply(model.tethers[i].anchor_a, model.tethers[i].length_a);
-        apply(model.tethers[i].anchor_b, model.tethers[i].length_b);
+        apply(tethers[i].anchor_a, tethers[i].length_a);
+        apply(tethers[i].anchor_b, tethers[i].length_b);
         state.displacement[i] = texel(moved);
     }
 }
@@ -235,8 +241,8 @@ void Twin::advance(TwinCloth& state) {
 }
 
 void Twin::normals(std::size_t index) {
-    const Grid& grid = model_.cloths[index].grid;
     TwinCloth& state = cloths_[index];
+    const Grid& grid = state.topology.grid();
     for (int y = 0; y < grid.size().y; ++y)
         for (int x = 0; x < grid.size().x; ++x) {
             vec3 sum = empty_sum();

@@ -7,18 +7,19 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::bend(const ClothModel& model, TwinCloth& state, const Step& step) {
-    const BendPush& push = model.bends[step.work].push;
+void Twin::bend(TwinCloth& state, const Step& step) {
+    const auto& push = step.push<BendPush>();
+    const CutTopology& topology = state.topology;
     const auto share = [&](ivec2 owner) {
-        return model.masked ? component(model.stiffness[at(model.grid, owner)], push.channel)
-                            : border_stiffness(owner, push.axis, push.grid);
+        return topology.masked() ? component(topology.spring_shares()[at(topology.grid(), owner)], push.channel)
+                                 : border_stiffness(owner, push.axis, push.grid);
     };
     for (int y = 0; y < push.element_count.y; ++y)
         for (int x = 0; x < push.element_count.x; ++x) {
             const ivec2 middle = bend_middle({x, y}, push.axis, push.colour);
             const ivec2 first{middle.x - push.axis.x, middle.y - push.axis.y};
-            const std::size_t i[3] = {at(model.grid, first), at(model.grid, middle),
-                                      at(model.grid, {middle.x + push.axis.x, middle.y + push.axis.y})};
+            const std::size_t i[3] = {at(topology.grid(), first), at(topology.grid(), middle),
+                                      at(topology.grid(), {middle.x + push.axis.x, middle.y + push.axis.y})};
             vec3 start[3], moved[3];
             float weight[3];
             for (std::size_t k = 0; k < 3; ++k) {
@@ -36,14 +37,16 @@ void Twin::bend(const ClothModel& model, TwinCloth& state, const Step& step) {
         }
 }
 
-void Twin::twist(const ClothModel& model, TwinCloth& state, const Step& step) {
-    const TwistPush& push = model.twists[step.work].push;
+void Twin::twist(TwinCloth& state, const Step& step) {
+    const auto& push = step.push<TwistPush>();
+    const CutTopology& topology = state.topology;
+    const std::vector<vec4>& shares = topology.spring_shares();
     for (int y = 0; y < push.element_count.y; ++y)
         for (int x = 0; x < push.element_count.x; ++x) {
             const ivec2 corner = twist_corner({x, y}, push.first);
-            const std::size_t i[4] = {at(model.grid, corner), at(model.grid, {corner.x + 1, corner.y}),
-                                      at(model.grid, {corner.x, corner.y + 1}),
-                                      at(model.grid, {corner.x + 1, corner.y + 1})};
+            const std::size_t i[4] = {at(topology.grid(), corner), at(topology.grid(), {corner.x + 1, corner.y}),
+                                      at(topology.grid(), {corner.x, corner.y + 1}),
+                                      at(topology.grid(), {corner.x + 1, corner.y + 1})};
             vec3 start[4], moved[4];
             float weight[4];
             for (std::size_t k = 0; k < 4; ++k) {
@@ -51,8 +54,7 @@ void Twin::twist(const ClothModel& model, TwinCloth& state, const Step& step) {
                 moved[k] = xyz(state.displacement[i[k]]);
                 weight[k] = state.position[i[k]].w;
             }
-            const float share =
-                model.masked ? twist_share(model.stiffness[i[0]], model.stiffness[i[1]], model.stiffness[i[2]]) : 1.0f;
+            const float share = topology.masked() ? twist_share(shares[i[0]], shares[i[1]], shares[i[2]]) : 1.0f;
             const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
                                                      spring_edge(start[2], start[3], moved[2], moved[3]));
             const vec3 correction = project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]),

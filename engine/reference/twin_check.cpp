@@ -28,7 +28,7 @@ ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model
     const vec3 edge = spring_edge(xyz(state.position[a]), xyz(state.position[b]), xyz(state.displacement[a]),
                                   xyz(state.displacement[b]));
     return add_residual(record, edge, channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y,
-                        model.masked ? component(model.stiffness[a], channel) : 1.0f,
+                        state.topology.masked() ? component(state.topology.spring_shares()[a], channel) : 1.0f,
                         state.tension[static_cast<std::size_t>(channel)][a]);
 }
 

@@ -13,11 +13,11 @@ bool inside(ivec2 p, ivec2 grid) { return p.x >= 0 && p.y >= 0 && p.x < grid.x &
 
 /// The images that a micro-step reads.
 struct Before {
-    const ClothModel& model;
     const TwinCloth& state;
+    const ExplicitPush& push;
     bool advance;
 
-    std::size_t index(ivec2 p) const { return at(model.grid, p); }
+    std::size_t index(ivec2 p) const { return at(state.topology.grid(), p); }
     vec3 edge(ivec2 from, ivec2 to) const {
         const vec3 first = xyz(state.position[index(from)]), second = xyz(state.position[index(to)]);
         return advance ? spring_edge(first, second, xyz(state.displacement[index(from)]),
@@ -25,11 +25,10 @@ struct Before {
                        : second - first;
     }
     float share(ivec2 owner, ivec2 offset, int channel) const {
-        return model.masked ? component(model.stiffness[index(owner)], channel)
-                            : border_stiffness(owner, offset, model.grid.size());
+        return state.topology.masked() ? component(state.topology.spring_shares()[index(owner)], channel)
+                                       : border_stiffness(owner, offset, push.grid);
     }
     vec3 with_springs(vec3 sum, ivec2 here) const {
-        const ExplicitPush& push = model.explicit_step;
         for (int k = 0; k < neighbour_count; ++k) {
             const ivec4 around = neighbour(k);
             if (around.z >= 2 && push.stiffness.z == 0.0f) continue;
@@ -46,20 +45,21 @@ struct Before {
     vec3 with_element(vec3 sum, ivec2 middle, int axis, float factor) const {
         const ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
         const ivec2 first{middle.x - offset.x, middle.y - offset.y}, third{middle.x + offset.x, middle.y + offset.y};
-        if (!inside(first, model.grid.size()) || !inside(third, model.grid.size())) return sum;
+        if (!inside(first, push.grid) || !inside(third, push.grid)) return sum;
         const float shared = bend_share(share(first, offset, axis), share(middle, offset, axis));
         return add_bend(sum, second_difference(edge(middle, first), edge(middle, third)), factor * shared);
     }
     vec3 with_cell(vec3 sum, ivec2 corner, float factor) const {
         const ivec2 right{corner.x + 1, corner.y}, below{corner.x, corner.y + 1}, across{corner.x + 1, corner.y + 1};
-        if (!inside(corner, model.grid.size()) || !inside(across, model.grid.size())) return sum;
-        const float whole = model.masked ? twist_share(model.stiffness[index(corner)], model.stiffness[index(right)],
-                                                       model.stiffness[index(below)])
-                                         : 1.0f;
+        if (!inside(corner, push.grid) || !inside(across, push.grid)) return sum;
+        const std::vector<vec4>& shares = state.topology.spring_shares();
+        const float whole = state.topology.masked()
+                                ? twist_share(shares[index(corner)], shares[index(right)], shares[index(below)])
+                                : 1.0f;
         return add_bend(sum, twist_difference(edge(corner, right), edge(below, across)), factor * whole);
     }
     vec3 with_twist(vec3 sum, ivec2 here) const {
-        const float twist = model.explicit_step.twist;
+        const float twist = push.twist;
         if (twist == 0.0f) return sum;
         sum = with_cell(sum, {here.x - 1, here.y - 1}, -twist);
         sum = with_cell(sum, {here.x, here.y - 1}, twist);
@@ -68,7 +68,7 @@ struct Before {
     }
     vec3 with_bending(vec3 sum, ivec2 here) const {
         for (int axis = 0; axis < 2; ++axis) {
-            const float bend = axis == 0 ? model.explicit_step.bend.x : model.explicit_step.bend.y;
+            const float bend = axis == 0 ? push.bend.x : push.bend.y;
             if (bend == 0.0f) continue;
             const ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
             sum = with_element(sum, {here.x - offset.x, here.y - offset.y}, axis, -bend);
@@ -81,14 +81,15 @@ struct Before {
 
 }  // namespace
 
-void Twin::explicit_step(const ClothModel& model, TwinCloth& state, bool advance) {
-    const ExplicitPush& push = model.explicit_step;
-    const Before before{model, state, advance};
+void Twin::explicit_step(TwinCloth& state, const Step& step) {
+    const auto& push = step.push<ExplicitPush>();
+    const bool advance = step.substep > 0;
+    const Before before{state, push, advance};
     std::vector<vec4>& position_out = state.position_spare;
     std::vector<vec4>& displacement_out = state.displacement_spare;
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
-            const std::size_t i = at(model.grid, {x, y});
+            const std::size_t i = at(state.topology.grid(), {x, y});
             const vec4 position = state.position[i];
             const vec3 displacement = xyz(state.displacement[i]);
             position_out[i] = position;
@@ -114,7 +115,7 @@ void Twin::explicit_step(const ClothModel& model, TwinCloth& state, bool advance
 }
 
 void Twin::tension(std::size_t index) {
-    const TensionPush& push = model_.cloths[index].tension;
+    const TensionPush& push = model_.cloths[index].plan.gathered_tension.value();
     const Grid& grid = model_.cloths[index].grid;
     TwinCloth& state = cloths_[index];
     const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {

@@ -16,8 +16,9 @@ void Twin::control(TwinCloth& state) {
     texels = {next.order, next.previous_order, next.violation, next.hold};
 }
 
-void Twin::predict(const ClothModel& model, TwinCloth& state, bool advance) {
-    const PredictPush& push = model.predict;
+void Twin::predict(TwinCloth& state, const Step& step) {
+    const auto& push = step.push<PredictPush>();
+    const bool advance = step.substep > 0;
     const bool is_bdf2 = state.line_control[control_order] == 2u;
     for (std::size_t i = 0; i < state.position.size(); ++i) {
         const vec4 position = state.position[i];
@@ -73,8 +74,8 @@ struct LineView {
     }
     float share(std::size_t e) const {
         if (particles[e].x == push.seam) return 0.0f;
-        return model.masked ? component(model.stiffness[index(e)], push.channel)
-                            : border_stiffness(particles[e], push.step, push.grid);
+        return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
+                                       : border_stiffness(particles[e], push.step, push.grid);
     }
 };
 
@@ -102,12 +103,12 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
 }  // namespace
 
 void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
-    const LinePush& push = model.lines[step.work].push;
-    const bool is_bdf2 = model.second_order && state.line_control[control_order] == 2u;
+    const auto& push = step.push<LinePush>();
+    const bool is_bdf2 = model.plan.second_order && state.line_control[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
     std::vector<float>& stored = state.tension[static_cast<std::size_t>(push.channel)];
-    const bool carried = step.iteration > 0 && model.carries_tension[push.channel];
+    const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
     float largest = 0;
     for (int k = 0; k < push.line_count; ++k) {
         const LineView line(model, push, state, k);
@@ -126,11 +127,11 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             const std::size_t i = line.index(p);
             state.displacement[i] = texel(moved_by(xyz(state.displacement[i]), correction, state.position[i].w));
-            if (!is_last && model.lines[step.work].compliant)
+            if (!is_last && !model.rigid)
                 stored[i] = changed_tension(tensions[p], change[p], line.share(p), compliance) * followed;
         }
     }
-    if (!model.second_order) return;
+    if (!model.plan.second_order) return;
     const std::uint32_t bits = floatBitsToUint(line_violation(largest, push.rest_length));
     state.line_control[control_violation] = std::max(state.line_control[control_violation], bits);
 }

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/solver_method.h"
+
 namespace drape {
 
 using Vec3 = std::array<double, 3>;
@@ -177,12 +179,6 @@ struct Cutter {
     MotionPath path;
     bool operator==(const Cutter&) const = default;
 };
-
-enum class SolverMethod { automatic, relax, explicit_steps, line };
-inline constexpr Spelling<SolverMethod> method_spellings[] = {{"relax", SolverMethod::relax},
-                                                              {"explicit", SolverMethod::explicit_steps},
-                                                              {"line", SolverMethod::line},
-                                                              {"auto", SolverMethod::automatic}};
 
 enum class CollideWhen { iteration, substep };
 inline constexpr Spelling<CollideWhen> collide_spellings[] = {{"iteration", CollideWhen::iteration},

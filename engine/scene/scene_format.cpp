@@ -1,4 +1,6 @@
 // The rows of the format. A new key is its field in scene_description.h and its row here.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/scene_rules.h"
@@ -219,23 +221,29 @@ const Object<Cutter> cutter{
          "Rigid motion on top of the given triangle; absent: at rest; rotations are about the triangle's centroid."},
     }};
 
+constexpr auto method_spellings = [] {
+    std::array<Spelling<SolverMethod>, solver_method_names.size()> spellings{};
+    std::ranges::transform(solver_method_names, spellings.begin(), [](const SolverMethodName& row) {
+        return Spelling<SolverMethod>{row.name, row.method};
+    });
+    return spellings;
+}();
+const std::string method_help = [] {
+    std::string text;
+    for (const SolverMethodName& row : solver_method_names)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : " ", row.name, row.help);
+    return text;
+}();
+
 const Object<SolverSettings> solver{
     "solver",
     "How the cloth is moved from frame to frame.",
     {
-        {"method", &SolverSettings::method, choice<SolverMethod>(method_spellings),
-         "relax: relaxation of springs, direction by direction; stable at any number of substeps. explicit: one "
-         "explicit micro-step per substep, which sums the springs around each particle; accurate from about 2.6 "
-         "substeps per particle along the cloth on, and softens the cloth below (the manifest says by how much). line: "
-         "whole rows, columns and diagonals of springs solved at a time, of second order in time (of first order in "
-         "scenes with colliders); accurate from about 0.1 substeps per particle along the cloth on where it hangs from "
-         "an edge, 0.6 where it hangs from points. auto: the program chooses method, substeps and iterations for the "
-         "tolerance (0.01 where none is given), and the manifest says what and why."},
+        {"method", &SolverSettings::method, choice<SolverMethod>(method_spellings), method_help},
         {"substeps", &SolverSettings::substeps, integer(1, 4096),
          "Time steps per frame. Ignored (with a warning) by method auto."},
         {"iterations", &SolverSettings::iterations, integer(1, 1024),
-         "Relaxations or line solves of every spring per substep. Ignored (with a warning above 1) by method "
-         "explicit."},
+         "Solves of every spring per substep. Ignored (with a warning above 1) by methods that solve nothing."},
         {"collide", &SolverSettings::collide, choice<CollideWhen>(collide_spellings),
          "Collision after the springs of every iteration, or once per substep."},
         {"tolerance", &SolverSettings::tolerance, number(not_negative),
@@ -247,9 +255,9 @@ const Object<SolverSettings> solver{
          "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "
          "substeps, and biases its motion a little. A cloth's first cut ends its tethers."},
         {"strain_damping", &SolverSettings::strain_damping, number(unit_interval),
-         "Method explicit: damping of each spring's strain rate, in units of its stiffness times the substep, so that "
-         "it vanishes as substeps grow. 0: none, for exact dynamics of cloth that does not crumple. Ignored (with a "
-         "warning) by methods relax and line."},
+         "Explicit micro-steps: damping of each spring's strain rate, in units of its stiffness times the substep, so "
+         "that it vanishes as substeps grow. 0: none, for exact dynamics of cloth that does not crumple. Ignored (with "
+         "a warning) by other methods."},
     },
     check_solver};
 

@@ -78,15 +78,15 @@ bool check_wind(const Members& members, Wind& wind) {
 
 bool check_solver(const Members& members, SolverSettings& solver) {
     const bool is_automatic = solver.method == SolverMethod::automatic;
-    const bool is_explicit = solver.method == SolverMethod::explicit_steps;
+    const SolverMethodName& method = named(solver.method);
     for (const std::string_view key : {"substeps", "iterations"})
         if (is_automatic && members[key] && members.fit({key}))
             members[key].warn(fmt::format("{} is ignored by method auto, which chooses: name a method to set it", key));
-    if (is_explicit && solver.iterations > 1)
-        members["iterations"].warn("iterations is ignored by method explicit: a micro-step solves nothing");
-    if (members["strain_damping"] && members.fit({"strain_damping"}) && !is_explicit && !is_automatic)
-        members["strain_damping"].warn(
-            fmt::format("strain_damping is ignored by method {}", spelling(method_spellings, solver.method)));
+    if (!method.iterates() && !is_automatic && solver.iterations > 1)
+        members["iterations"].warn(
+            fmt::format("iterations is ignored by method {}: {}", method.name, method.ignores_iterations));
+    if (members["strain_damping"] && members.fit({"strain_damping"}) && !method.damps_strain && !is_automatic)
+        members["strain_damping"].warn(fmt::format("strain_damping is ignored by method {}", method.name));
     return true;
 }
 

@@ -11,7 +11,7 @@ inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, doub
     CaseResult result;
     result.problem = "swing";
     result.size = 64;
-    result.method = method_name(method);
+    result.method = std::string(named(method).name);
     result.substeps = substeps;
     result.iterations = iterations;
     result.name = "swing/64/" + result.method + "/" + setting_name({method, substeps, iterations});

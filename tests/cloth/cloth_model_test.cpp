@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cloth/schedule.h"
+#include "support/method_steps.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -26,31 +27,33 @@ TEST(ClothModelTest, SpringConstantsFollowTheCellShape) {
     const ClothModel model(scene, 0);
     EXPECT_DOUBLE_EQ(model.inner_mass, 0.25 * 0.1 * 0.2);
     const double h = 1.0 / 600;
+    const auto springs = test::pushes<glsl::SpringPush>(model.plan);
     const auto stiffness = [&](std::size_t spring) {
-        return model.inner_mass / (h * h * static_cast<double>(model.springs[spring].push.compliance));
+        return model.inner_mass / (h * h * static_cast<double>(springs[spring].compliance));
     };
     EXPECT_NEAR(stiffness(0), 1000 * 0.2 / 0.1, 1e-3);
     EXPECT_NEAR(stiffness(2), 1000 * 0.1 / 0.2, 1e-3);
     EXPECT_NEAR(stiffness(4), 100 * (0.01 + 0.04) / (2 * 0.1 * 0.2), 1e-3);
-    EXPECT_FLOAT_EQ(model.springs[0].push.rest_length, 0.1f);
-    EXPECT_FLOAT_EQ(model.springs[2].push.rest_length, 0.2f);
-    EXPECT_FLOAT_EQ(model.springs[4].push.rest_length, std::sqrt(0.05f));
+    EXPECT_FLOAT_EQ(springs[0].rest_length, 0.1f);
+    EXPECT_FLOAT_EQ(springs[2].rest_length, 0.2f);
+    EXPECT_FLOAT_EQ(springs[4].rest_length, std::sqrt(0.05f));
 }
 
 TEST(ClothModelTest, RigidSpringsHaveNoComplianceAndNoTension) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 4, 8);
     scene.cloths[0].stiffness.rigid = true;
     const ClothModel model(scene, 0);
-    ASSERT_EQ(model.springs.size(), 8u);
-    for (const SpringWork& work : model.springs) EXPECT_EQ(work.push.compliance, 0.0f);
-    for (const bool has : model.carries_tension) EXPECT_FALSE(has);
+    const auto springs = test::pushes<glsl::SpringPush>(model.plan);
+    ASSERT_EQ(springs.size(), 8u);
+    for (const glsl::SpringPush& push : springs) EXPECT_EQ(push.compliance, 0.0f);
+    for (const bool has : model.plan.carries_tension) EXPECT_FALSE(has);
 }
 
 TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
     SceneDescription scene = test::sheet(2, 9, 1, 1, 4, 1);
     scene.cloths[0].stiffness.shear = 0;
     const SimulationModel model(scene);
-    EXPECT_EQ(model.cloths[0].springs.size(), 3u);  // row even, column even, column odd
+    EXPECT_EQ(model.cloths[0].plan.iterated.size(), 3u);  // row even, column even, column odd
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring row odd"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring shear down-right even"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/stiffness"));
@@ -79,16 +82,16 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     scene.wind.velocity = {1, 0, 0};
     scene.colliders.spheres.emplace_back();
     const SimulationModel model(scene);
-    EXPECT_EQ(model.method_name(), "explicit");
+    EXPECT_EQ(model.method().name, "explicit");
     std::vector<StepKind> kinds;
-    for (const Step& step : model.frame_steps(model.cloths[0])) kinds.push_back(step.kind);
+    for (const Step& step : frame_steps(model)) kinds.push_back(step.kind);
     std::vector<StepKind> expected;
     for (int substep = 0; substep < 3; ++substep)
         expected.insert(expected.end(), {StepKind::wind, StepKind::explicit_step, StepKind::collide});
     expected.push_back(StepKind::advance);
     EXPECT_EQ(kinds, expected);
     scene.solver.method = SolverMethod::relax;
-    EXPECT_EQ(SimulationModel(scene).method_name(), "relax");
+    EXPECT_EQ(SimulationModel(scene).method().name, "relax");
 }
 
 TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
@@ -96,9 +99,9 @@ TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
     scene.solver.method = SolverMethod::line;
     const auto kinds = [&] {
         const SimulationModel model(scene);
-        EXPECT_EQ(model.method_name(), "line");
+        EXPECT_EQ(model.method().name, "line");
         std::vector<StepKind> list;
-        for (const Step& step : model.frame_steps(model.cloths[0])) list.push_back(step.kind);
+        for (const Step& step : frame_steps(model)) list.push_back(step.kind);
         return list;
     };
     using enum StepKind;
@@ -117,19 +120,27 @@ TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
 TEST(ClothModelTest, LinesSayWhatTheySoften) {
     SceneDescription scene = test::sheet(33, 33, 1, 1, 20);
     scene.solver.method = SolverMethod::line;
-    const auto softened = [&] {
-        const ClothModel model(scene, 0);
-        for (const SkippedWork& skipped : model.skipped)
-            if (skipped.what == "sheet/full stiffness") return true;
-        return false;
-    };
-    EXPECT_FALSE(softened());
+    EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
     scene.cloths[0].stiffness.stretch = 1e9;
-    EXPECT_TRUE(softened());
-    const ClothModel model(scene, 0);
-    // Of compliance 1e-3 in units of (4/9) h^2/m.
-    EXPECT_NEAR(model.used_stiffness[0], 1e3 * 2.25 * model.inner_mass * 1200 * 1200, 1e-6 * model.used_stiffness[0]);
-    EXPECT_FLOAT_EQ(model.lines[2].push.compliance_bdf2, 1e-3f);
+    for (const bool collides : {false, true}) {
+        if (collides) scene.colliders.spheres.emplace_back();
+        scene.solver.substeps = 20;
+        const ClothModel model(scene, 0);
+        ASSERT_EQ(model.plan.compromises.size(), 1u);
+        EXPECT_EQ(model.plan.compromises[0].what, "sheet/stiffness");
+        // Of compliance 1e-3 in units of (4/9) h^2/m, or of h^2/m.
+        const double factor = collides ? 1 : 2.25, used = 1e3 * factor * model.inner_mass * 1200 * 1200;
+        EXPECT_NEAR(model.plan.used_stiffness[0], used, 1e-6 * used);
+        const glsl::LinePush push = test::pushes<glsl::LinePush>(model.plan)[2];
+        EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, 1e-3f);
+        // So many substeps soften nothing, and one less does.
+        scene.solver.substeps = model.plan.compromises[0].enough_substeps;
+        EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
+        --scene.solver.substeps;
+        EXPECT_FALSE(ClothModel(scene, 0).plan.compromises.empty());
+    }
+    scene.cloths[0].stiffness.rigid = true;
+    EXPECT_EQ(ClothModel(scene, 0).plan.compromises[0].enough_substeps, 0u);
 }
 
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
@@ -137,7 +148,7 @@ TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     scene.wind.velocity = {1, 0, 0};
     scene.colliders.spheres.emplace_back();
     const SimulationModel model(scene);
-    const std::vector<Step> steps = model.frame_steps(model.cloths[0]);
+    const std::vector<Step> steps = frame_steps(model);
     EXPECT_EQ(count(steps, StepKind::wind), 3);
     EXPECT_EQ(count(steps, StepKind::force), 3);
     EXPECT_EQ(count(steps, StepKind::spring), 3 * 2 * 8);
@@ -149,7 +160,38 @@ TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     EXPECT_EQ(steps.back().kind, StepKind::advance);
     scene.solver.collide = CollideWhen::substep;
     const SimulationModel once(scene);
-    EXPECT_EQ(count(once.frame_steps(once.cloths[0]), StepKind::collide), 3);
+    EXPECT_EQ(count(frame_steps(once), StepKind::collide), 3);
+}
+
+TEST(ScheduleTest, AllClothsTakeASubstepBeforeTheNextBegins) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 3);
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "other";
+    scene.cloths[1].stiffness.shear = 0;
+    const std::vector<Step> steps = frame_steps(SimulationModel(scene));
+    ASSERT_EQ(count(steps, StepKind::spring), 3 * (8 + 4));
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+        EXPECT_GE(steps[k].substep, steps[k - 1].substep);
+        if (steps[k].substep == steps[k - 1].substep) {
+            EXPECT_GE(steps[k].cloth, steps[k - 1].cloth);
+        }
+    }
+    EXPECT_EQ(count(steps, StepKind::advance), 1);
+    EXPECT_EQ(steps.back().kind, StepKind::advance);
+    EXPECT_EQ(steps.back().cloth, all_cloths);
+}
+
+TEST(MethodTest, PlansOfOneGeometryDifferBySubsteps) {
+    SceneDescription scene = test::sheet(9, 9, 1, 1, 10, 2);
+    scene.cloths[0].stiffness.bend = 1e-4;
+    const ClothGeometry cloth(scene, scene.cloths[0], false);
+    for (const Method& method : methods()) {
+        const auto bytes = [&](std::uint32_t substeps) {
+            return bytes_of(method.plan(cloth, {substeps, 2, 1.0 / (60 * substeps), scene.gravity, 0.2, false}));
+        };
+        EXPECT_EQ(bytes(10), bytes(10)) << method.name();
+        EXPECT_NE(bytes(10), bytes(11)) << method.name();
+    }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cloth/cloth_model.h"
+#include "cloth/method_explicit.h"
+#include "support/method_steps.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -67,9 +69,8 @@ TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
     SceneDescription scene = test::sheet(101, 101, 1, 1, 20);
     scene.solver.method = SolverMethod::explicit_steps;
     const auto note = [](const SceneDescription& described) {
-        for (const SkippedWork& work : ClothModel(described, 0).skipped)
-            if (work.what == "sheet/full stiffness") return work.reason;
-        return std::string("none");
+        const std::vector<Compromise> all = ClothModel(described, 0).plan.compromises;
+        return all.empty() ? std::string("none") : all[0].reason;
     };
     // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4): 20 sqrt(118.8) = 218.01 substeps.
     EXPECT_EQ(note(scene),
@@ -90,28 +91,29 @@ TEST(BendStiffnessTest, RelaxationTakesOffWhatItsSweepAddsAndSaysWhatItFollows) 
     const double cell = 1.0 / 64, mass = cloth.areal_density * cell * cell, h = 1.0 / 1200;
     const auto rigidity = [&](double compliance) { return mass * cell * cell / (compliance * h * h); };
     const auto note = [&] {
-        for (const SkippedWork& work : ClothModel(scene, 0).skipped)
-            if (work.what == "sheet/full bending") return work.reason;
-        return std::string("none");
+        const std::vector<Compromise> all = ClothModel(scene, 0).plan.compromises;
+        return all.empty() ? std::string("none") : all[0].reason;
     };
     cloth.stiffness.bend = rigidity(60);
     const ClothModel model(scene, 0);
-    ASSERT_EQ(model.bends.size(), 6u);
-    ASSERT_EQ(model.twists.size(), 4u);
-    EXPECT_FLOAT_EQ(model.bends[0].push.compliance, 57);
-    EXPECT_FLOAT_EQ(model.twists[0].push.compliance, 28);  // twice as stiff as an axis: 60/2 - 2
-    EXPECT_EQ(model.used_bend, cloth.stiffness.bend);
+    const auto bends = test::pushes<glsl::BendPush>(model.plan);
+    const auto twists = test::pushes<glsl::TwistPush>(model.plan);
+    ASSERT_EQ(bends.size(), 6u);
+    ASSERT_EQ(twists.size(), 4u);
+    EXPECT_FLOAT_EQ(bends[0].compliance, 57);
+    EXPECT_FLOAT_EQ(twists[0].compliance, 28);  // twice as stiff as an axis: 60/2 - 2
+    EXPECT_EQ(model.plan.used_bend, cloth.stiffness.bend);
     EXPECT_EQ(note(), "none");
     cloth.stiffness.bend = rigidity(1);  // four times what a sweep can do on the twist: twice as many substeps
     const ClothModel softened(scene, 0);
-    EXPECT_NEAR(softened.used_bend, rigidity(4), 1e-12);
-    EXPECT_FLOAT_EQ(softened.bends[0].push.compliance, 1);  // the axes follow no more than the twist
-    EXPECT_GT(softened.twists[0].push.compliance, 0);
-    EXPECT_LT(softened.twists[0].push.compliance, 1e-6f);
+    EXPECT_NEAR(softened.plan.used_bend, rigidity(4), 1e-12);
+    EXPECT_FLOAT_EQ(test::pushes<glsl::BendPush>(softened.plan)[0].compliance,
+                    1);  // the axes follow no more than the twist
+    EXPECT_GT(test::pushes<glsl::TwistPush>(softened.plan)[0].compliance, 0);
+    EXPECT_LT(test::pushes<glsl::TwistPush>(softened.plan)[0].compliance, 1e-6f);
     EXPECT_NE(note().find("40 substeps would follow all of it"), std::string::npos) << note();
     cloth.stiffness.bend = 0;
-    EXPECT_TRUE(ClothModel(scene, 0).bends.empty());
-    EXPECT_TRUE(ClothModel(scene, 0).twists.empty());
+    EXPECT_TRUE(ClothModel(scene, 0).plan.once.empty());
 }
 
 TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "support/method_steps.h"
+
 namespace drape::test {
 
 namespace {
@@ -29,10 +31,14 @@ void colliders_still(SimulationModel& model) {
     for (EllipsoidCollider& ellipsoid : model.scene.colliders.ellipsoids) ellipsoid.path = {};
 }
 void gravity_one_percent_off(SimulationModel& model) {
-    for_each_cloth(model, [](ClothModel& cloth) { cloth.force.gravity_step.y *= 1.01f; });
+    for_each_cloth(model, [](ClothModel& cloth) {
+        test::for_pushes<glsl::ForcePush>(cloth.plan, [](glsl::ForcePush& push) { push.gravity_step.y *= 1.01f; });
+    });
 }
 void no_damping(SimulationModel& model) {
-    for_each_cloth(model, [](ClothModel& cloth) { cloth.force.damping_loss = 0; });
+    for_each_cloth(model, [](ClothModel& cloth) {
+        test::for_pushes<glsl::ForcePush>(cloth.plan, [](glsl::ForcePush& push) { push.damping_loss = 0; });
+    });
 }
 void no_lift(SimulationModel& model) {
     for_each_cloth(model, [](ClothModel& cloth) { cloth.wind.lift_coefficient = 0; });
@@ -43,24 +49,28 @@ void no_wind(SimulationModel& model) {
 /// k h^2 becomes k h: the springs are 1 / h times too soft.
 void compliance_lacks_a_step(SimulationModel& model) {
     for_each_cloth(model, [](ClothModel& cloth) {
-        for (SpringWork& spring : cloth.springs) spring.push.compliance /= static_cast<float>(cloth.substep_length);
+        test::for_pushes<glsl::SpringPush>(
+            cloth.plan, [&](glsl::SpringPush& push) { push.compliance /= static_cast<float>(cloth.substep_length); });
     });
+}
+void leave_out_springs(ClothModel& cloth, bool (*is_out)(int channel)) {
+    std::erase_if(cloth.plan.iterated,
+                  [&](const MethodStep& step) { return is_out(std::get<glsl::SpringPush>(step.constants).channel); });
 }
 void no_shear_springs(SimulationModel& model) {
-    for_each_cloth(model, [](ClothModel& cloth) {
-        std::erase_if(cloth.springs, [](const SpringWork& spring) { return spring.push.channel >= 2; });
-    });
+    for_each_cloth(model,
+                   [](ClothModel& cloth) { leave_out_springs(cloth, [](int channel) { return channel >= 2; }); });
 }
 void one_diagonal_only(SimulationModel& model) {
-    for_each_cloth(model, [](ClothModel& cloth) {
-        std::erase_if(cloth.springs, [](const SpringWork& spring) { return spring.push.channel == 3; });
-    });
+    for_each_cloth(model,
+                   [](ClothModel& cloth) { leave_out_springs(cloth, [](int channel) { return channel == 3; }); });
 }
 /// The factor sqrt(2) of a diagonal's rest length.
 void diagonals_too_short(SimulationModel& model) {
     for_each_cloth(model, [](ClothModel& cloth) {
-        for (SpringWork& spring : cloth.springs)
-            if (spring.push.channel >= 2) spring.push.rest_length = static_cast<float>(cloth.spacing[0]);
+        test::for_pushes<glsl::SpringPush>(cloth.plan, [&](glsl::SpringPush& push) {
+            if (push.channel >= 2) push.rest_length = static_cast<float>(cloth.spacing[0]);
+        });
     });
 }
 void pins_let_go(SimulationModel& model) {

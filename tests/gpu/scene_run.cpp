@@ -32,12 +32,11 @@ SceneRun SceneRun::until(std::size_t last) const {
 
 namespace {
 
-CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, const ClothModel& cloth,
-                     const CutTopology& topology) {
+CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, const CutTopology& topology) {
     std::map<std::size_t, std::size_t> sizes;
-    const std::vector<std::size_t> piece_of = pieces(cloth);
+    const std::vector<std::size_t> piece_of = pieces(topology);
     for (const std::size_t piece : piece_of) ++sizes[piece];
-    CutRecord record{frame, index, springs, 0, 0, topology.drawn_rest_area(cloth)};
+    CutRecord record{frame, index, springs, 0, 0, topology.drawn_rest_area()};
     for (const auto& [piece, size] : sizes) ++(100 * size >= piece_of.size() ? record.pieces : record.crumbs);
     return record;
 }
@@ -50,12 +49,11 @@ SceneRun run_frames(const SceneDescription& scene, const SimulationModel& model,
     options.draw = false;
     options.positions = true;
     options.timestamps = graph::TimestampMode::none;
-    options.on_cut = [&](const CutEvent& event, const ClothModel& cloth, const CutTopology& topology) {
-        run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, cloth, topology));
+    options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+        run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };
     for (std::size_t cloth = 0; cloth < model.cloths.size() && !scene.cutters.empty(); ++cloth) {
-        const CutTopology topology(scene.cloths[cloth], model.cloths[cloth]);
-        run.cuts.push_back(cut_record(0, cloth, 0, model.cloths[cloth], topology));
+        run.cuts.push_back(cut_record(0, cloth, 0, CutTopology(model.cloths[cloth])));
     }
     FrameLoop loop(gpu().device, model, options);
     loop.run(

@@ -82,7 +82,7 @@ inline void compare(const SceneDescription& scene, const ModelOptions& options =
             expect_same("position rest", device.image(cloth, "position rest"), expected.position_rest, frame);
             expect_same("displacement rest", device.image(cloth, "displacement rest"), expected.displacement_rest,
                         frame);
-            if (model.cloths[cloth].second_order) {
+            if (model.cloths[cloth].plan.second_order) {
                 expect_same("displacement before", device.image(cloth, "displacement before"),
                             expected.displacement_before, frame);
                 expect_same("velocity excess", device.image(cloth, "velocity excess"), expected.velocity_excess, frame);
@@ -90,7 +90,7 @@ inline void compare(const SceneDescription& scene, const ModelOptions& options =
             }
             expect_same("normal", device.normals(cloth), expected.normal, frame);
             for (std::size_t direction = 0; direction < 4; ++direction) {
-                if (model.cloths[cloth].carries_tension[direction]) {
+                if (model.cloths[cloth].plan.carries_tension[direction]) {
                     EXPECT_EQ(device.tension(cloth, direction), expected.tension[direction]);
                 }
             }

@@ -37,7 +37,7 @@ TEST(TwinLineTest, EverythingAtOnce) { compare(everything_in_lines()); }
 
 TEST(TwinLineTest, SecondOrder) {
     const SimulationModel model(free_lines());
-    ASSERT_TRUE(model.cloths[0].second_order);
+    ASSERT_TRUE(model.cloths[0].plan.second_order);
     compare(free_lines());
 }
 

@@ -33,6 +33,7 @@ struct Dumping : ::testing::Test {
                            [&](PassSetup& p) { normal = p.write(normal, Access::compute_write, "normal"); }, {});
         }
         graph.skip("wind \"gust\"", "the scene has none");
+        graph.compromise("banner/stiffness", "half of it");
         plan = make_plan(graph);
     }
     std::size_t count(const std::string& text, const std::string& word) const {
@@ -52,6 +53,7 @@ TEST_F(Dumping, TextFoldsSubstepsAndGivesReasons) {
     EXPECT_EQ(count(text, "not made:\n  banner/normal"), 1u) << text;
     EXPECT_EQ(count(text, "  normal x 20: nothing reads banner/normal\n"), 1u) << text;
     EXPECT_EQ(count(text, "  wind \"gust\": the scene has none\n"), 1u) << text;
+    EXPECT_EQ(count(text, "compromised:\n  banner/stiffness: half of it\n"), 1u) << text;
 }
 
 TEST_F(Dumping, JsonListsEverythingUnfolded) {
@@ -62,6 +64,8 @@ TEST_F(Dumping, JsonListsEverythingUnfolded) {
     ASSERT_TRUE(reader->parse(text.data(), text.data() + text.size(), &root, &errors)) << errors;
     EXPECT_EQ(root["passes"].size(), 60u);
     EXPECT_EQ(root["skipped"].size(), 21u);
+    ASSERT_EQ(root["compromises"].size(), 1u);
+    EXPECT_EQ(root["compromises"][0]["reason"], "half of it");
     EXPECT_EQ(root["byte_count"].asUInt64(), plan.byte_count);
     EXPECT_EQ(root["passes"][1]["uses"][2]["access"], "compute_write");
     EXPECT_EQ(root["passes"][1]["uses"][2]["version"], 2);
@@ -77,6 +81,7 @@ TEST_F(Dumping, DotFoldsAndQuotes) {
     EXPECT_EQ(count(text, "pass0 -> pass1 [label=\"banner/position\"]"), 1u) << text;
     EXPECT_EQ(count(text, "pass2 -> pass0 [label=\"banner/position\", style=dashed"), 1u) << text;
     EXPECT_EQ(count(text, "wind \\\"gust\\\""), 1u) << text;
+    EXPECT_EQ(count(text, "half of it"), 1u) << text;
     EXPECT_EQ(count(text, "{"), count(text, "}"));
 }
 

@@ -44,7 +44,7 @@ TEST_P(FreeFlight, FollowsTheClosedForm) {
         }
     }
     std::printf("[ measured ] %s, %u substeps, damping %.1f: worst relative error %.2e (limit %.0e)\n",
-                model.method_name().c_str(), substeps, damping, worst, limit);
+                std::string(model.method().name).c_str(), substeps, damping, worst, limit);
     EXPECT_LE(worst, limit);
 }
 

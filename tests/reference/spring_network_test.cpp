@@ -8,8 +8,10 @@
 #include <stdexcept>
 
 #include "cloth/cloth_model.h"
+#include "cloth/cut_topology.h"
 #include "network_scenes.h"
 #include "reference/network_kernel.h"
+#include "support/method_steps.h"
 
 namespace drape {
 namespace {
@@ -37,22 +39,23 @@ TEST(SpringNetworkTest, HasTheMassesSpringsAndRestLengthsOfTheDevice) {
     EXPECT_NEAR(total, cloth.areal_density * (1.2 * 0.6 - 6 * 0.15 * 0.1), 1e-14);
     // Every spring of the device once, with share * k = share * m_inner / (compliance h^2).
     std::size_t found = 0;
-    for (const SpringWork& work : model.springs) {
-        if (work.pass.parity != 0) continue;
-        const double h = model.substep_length, k = model.inner_mass / (double(work.push.compliance) * h * h);
-        const int step = work.push.offset.y * 9 + work.push.offset.x;
+    const CutTopology topology(model);
+    for (const glsl::SpringPush& push : test::pushes<glsl::SpringPush>(model.plan)) {
+        if (push.parity != 0) continue;
+        const double h = model.substep_length, k = model.inner_mass / (double(push.compliance) * h * h);
+        const int step = push.offset.y * 9 + push.offset.x;
         for (const NetworkSpring& spring : network.springs) {
             if (static_cast<int>(spring.second) - static_cast<int>(spring.first) != step) continue;
-            const glsl::vec4 shares = model.stiffness[spring.first];
-            const double share = double((&shares.x)[work.pass.direction]);
+            const glsl::vec4 shares = topology.spring_shares()[spring.first];
+            const double share = double((&shares.x)[push.channel]);
             EXPECT_NEAR(spring.stiffness, share * k, 1e-6 * k);
-            EXPECT_NEAR(spring.rest_length, double(work.push.rest_length), 1e-7);
+            EXPECT_NEAR(spring.rest_length, double(push.rest_length), 1e-7);
             ++found;
         }
     }
     EXPECT_EQ(found, network.springs.size());
     std::size_t present = 0;
-    for (const glsl::vec4& shares : model.stiffness)
+    for (const glsl::vec4& shares : topology.spring_shares())
         for (std::size_t direction = 0; direction < 4; ++direction) present += (&shares.x)[direction] > 0;
     EXPECT_EQ(present, network.springs.size());
 }

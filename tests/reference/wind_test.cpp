@@ -19,7 +19,7 @@ Vec3 plate_force(const Vec3& wind, double drag, double lift) {
     const SimulationModel model(scene);
     Twin twin(model);
     twin.cloth(0).displacement.assign(13 * 9, {});
-    twin.run_step(0, {StepKind::wind, 0, 0, 0}, frame_inputs(model, 1));
+    twin.run_step({StepKind::wind, 0, 0}, frame_inputs(model, 1));
     Vec3 sum{};
     for (const glsl::vec4& force : twin.cloth(0).wind_force) {
         sum[0] += double(force.x);

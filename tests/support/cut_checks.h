@@ -16,39 +16,41 @@ namespace drape::test {
 
 inline double number(float x) { return static_cast<double>(x); }
 
-inline std::vector<std::size_t> pieces(const ClothModel& model) {
-    std::vector<std::size_t> parent(model.grid.particle_count());
+inline std::vector<std::size_t> pieces(const CutTopology& topology) {
+    const Grid& grid = topology.cloth().grid;
+    std::vector<std::size_t> parent(grid.particle_count());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](std::size_t k) {
         while (parent[k] != k) k = parent[k] = parent[parent[k]];
         return k;
     };
-    for (std::uint32_t row = 0; row < model.grid.rows(); ++row)
-        for (std::uint32_t column = 0; column < model.grid.columns(); ++column) {
-            const std::size_t here = model.grid.particle(column, row);
-            const glsl::vec4 share = model.masked ? model.stiffness[here] : model.grid.spring_shares(column, row);
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const std::size_t here = grid.particle(column, row);
+            const glsl::vec4 share =
+                topology.masked() ? topology.spring_shares()[here] : grid.spring_shares(column, row);
             const float shares[4] = {share.x, share.y, share.z, share.w};
             for (std::size_t k = 0; k < 4; ++k) {
                 const glsl::ivec2 offset = spring_directions[k].offset;
                 const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
-                if (shares[k] == 0 || x < 0 || x >= model.grid.size().x || y >= model.grid.size().y) continue;
-                parent[root(here)] = root(static_cast<std::size_t>(y * model.grid.size().x + x));
+                if (shares[k] == 0 || x < 0 || x >= grid.size().x || y >= grid.size().y) continue;
+                parent[root(here)] = root(static_cast<std::size_t>(y * grid.size().x + x));
             }
         }
     for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
     return parent;
 }
 
-inline std::size_t piece_count(const ClothModel& model) {
-    const std::vector<std::size_t> roots = pieces(model);
+inline std::size_t piece_count(const CutTopology& topology) {
+    const std::vector<std::size_t> roots = pieces(topology);
     return std::set<std::size_t>(roots.begin(), roots.end()).size();
 }
 
-inline int cut_edge_count(const CutTopology& topology, const ClothModel& model, const std::uint32_t* corner) {
+inline int cut_edge_count(const CutTopology& topology, const std::uint32_t* corner) {
     int count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = std::min(corner[k], corner[(k + 1) % 3]), b = std::max(corner[k], corner[(k + 1) % 3]);
-        const std::size_t direction = b - a == 1 ? 0 : b - a == model.grid.columns() ? 1 : 3;
+        const std::size_t direction = b - a == 1 ? 0 : b - a == topology.cloth().grid.columns() ? 1 : 3;
         count += topology.cut_fraction(a, direction) >= 0;
     }
     return count;
@@ -70,9 +72,9 @@ inline Vec3 evaluate(const glsl::CutVertex& vertex, const std::vector<glsl::vec4
 /// No index out of range; no drawn triangle spans a cut: the particles that a drawn triangle hangs on are one piece,
 /// and a whole triangle has at most one cut edge (a slit's end); no spring's share is negative; a cut spring has
 /// share 0; the corners of a cell that the mesh has let go are joined by no diagonal.
-inline void expect_consistent(const ClothModel& model, const CutTopology& topology) {
-    const std::vector<std::size_t> piece = pieces(model);
-    const std::size_t particle_count = model.grid.particle_count();
+inline void expect_consistent(const CutTopology& topology) {
+    const std::vector<std::size_t> piece = pieces(topology);
+    const std::size_t particle_count = topology.cloth().grid.particle_count();
     const std::vector<std::uint32_t>& indices = topology.indices();
     ASSERT_EQ(indices.size() % 3, 0u);
     const auto anchor = [&](std::uint32_t index) {
@@ -85,7 +87,7 @@ inline void expect_consistent(const ClothModel& model, const CutTopology& topolo
         const bool whole = indices[k] != indices[k + 1] && indices[k] < particle_count &&
                            indices[k + 1] < particle_count && indices[k + 2] < particle_count;
         if (whole) {
-            ASSERT_LE(cut_edge_count(topology, model, &indices[k]), 1);
+            ASSERT_LE(cut_edge_count(topology, &indices[k]), 1);
         }
     }
     for (const glsl::CutVertex& vertex : topology.vertices()) {
@@ -93,9 +95,9 @@ inline void expect_consistent(const ClothModel& model, const CutTopology& topolo
         ASSERT_EQ(piece[vertex.particles.x], piece[vertex.particles.y]) << "own side's particles alone";
         ASSERT_EQ(piece[vertex.particles.x], piece[vertex.particles.z]);
     }
-    if (!model.masked) return;
+    if (!topology.masked()) return;
     for (std::size_t particle = 0; particle < particle_count; ++particle) {
-        const glsl::vec4& s = model.stiffness[particle];
+        const glsl::vec4& s = topology.spring_shares()[particle];
         const float shares[4] = {s.x, s.y, s.z, s.w};
         for (std::size_t k = 0; k < 4; ++k) {
             ASSERT_TRUE(shares[k] == 0 || shares[k] == 0.5f || shares[k] == 1.0f);

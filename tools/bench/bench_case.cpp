@@ -4,19 +4,6 @@
 
 namespace drape::bench {
 
-std::string method_name(SolverMethod method) {
-    switch (method) {
-        case SolverMethod::explicit_steps:
-            return "explicit";
-        case SolverMethod::line:
-            return "line";
-        case SolverMethod::automatic:
-            return "auto";
-        default:
-            return "relax";
-    }
-}
-
 std::string setting_name(const Setting& setting) {
     if (setting.method == SolverMethod::automatic) return "chosen";
     return setting.iterations == 1 ? fmt::format("{}", setting.substeps)

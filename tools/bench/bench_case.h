@@ -18,8 +18,6 @@ struct Setting {
     bool operator==(const Setting&) const = default;
 };
 
-/// As a scene spells it: "relax", "explicit".
-std::string method_name(SolverMethod method);
 /// "20", or "1x40" for 1 substep of 40 iterations.
 std::string setting_name(const Setting& setting);
 /// Settings that differ only in how finely they are swept share a line in plots and fits: "relax",

@@ -122,14 +122,15 @@ std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
 }
 
 std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
+    const std::string_view automatic = named(SolverMethod::automatic).name;
     std::vector<AutoRatio> ratios;
     for (const CaseResult& chosen : results) {
-        if (chosen.method != "auto" || chosen.diverged) continue;
+        if (chosen.method != automatic || chosen.diverged) continue;
         AutoRatio ratio{
             chosen.problem, chosen.size, chosen.metrics.at("worst_stretch_error"), case_milliseconds(chosen), {},
             INFINITY};
         for (const CaseResult& other : results) {
-            if (other.problem != chosen.problem || other.size != chosen.size || other.method == "auto") continue;
+            if (other.problem != chosen.problem || other.size != chosen.size || other.method == automatic) continue;
             if (other.diverged || other.metrics.at("worst_stretch_error") > AutoRatio::auto_tolerance) continue;
             if (case_milliseconds(other) >= ratio.best_milliseconds) continue;
             ratio.best = other.name;
@@ -150,8 +151,9 @@ std::vector<Soonest> find_soonest(std::span<const CaseResult> results) {
         for (const Target& target : targets) {
             const std::size_t first = all.size();
             for (const auto& [family, members] : families) all.push_back(soonest_of(members, target));
-            const auto relax = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
-                                            [](const Soonest& s) { return s.family == "relax" && !s.name.empty(); });
+            const auto relax = std::find_if(
+                all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
+                [](const Soonest& s) { return s.family == named(SolverMethod::relax).name && !s.name.empty(); });
             if (relax == all.end()) continue;
             const double milliseconds = relax->milliseconds, passes = relax->passes;
             for (std::size_t k = first; k < all.size(); ++k) {

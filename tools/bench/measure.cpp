@@ -39,7 +39,7 @@ SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Sett
 /// Steps that read and write every particle; the others touch a few, or only look.
 double passes_of(const SimulationModel& model) {
     double passes = 0;
-    for (const Step& step : model.frame_steps(model.cloths[0])) switch (step.kind) {
+    for (const Step& step : frame_steps(model)) switch (step.kind) {
             case StepKind::release:
             case StepKind::pin:
             case StepKind::control:
@@ -135,30 +135,53 @@ template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return xxh3_128_hex(std::as_bytes(std::span(values)));
 }
+template <class T>
+std::string hash_of(const T& value) {
+    return xxh3_128_hex(std::as_bytes(std::span(&value, 1)));
+}
+
+/// Everything that the device is given of a model's frames.
+std::vector<std::string> hashes_of(const SimulationModel& model) {
+    std::vector<std::string> parts;
+    for (const ClothModel& cloth : model.cloths)
+        parts.insert(parts.end(),
+                     {hash_of(cloth.position), hash_of(cloth.start_displacement()), hash_of(cloth.grid.cells()),
+                      hash_of(cloth.pinned), hash_of(cloth.tethers), hash_of(bytes_of(cloth.plan)), hash_of(cloth.wind),
+                      hash_of(cloth.collision), hash_of(cloth.residual), hash_of(model.iteration_limit())});
+    std::string order;
+    for (const Step& step : frame_steps(model))
+        order += fmt::format("{} {} {} {}{} ", static_cast<int>(step.kind), step.cloth, step.substep, step.last ? 1 : 0,
+                             step.conditional ? 1 : 0);
+    parts.push_back(order);
+    for (std::uint32_t frame = 1; frame < model.scene.time.frame_count; ++frame) {
+        const FrameInputs inputs = frame_inputs(model, frame);
+        parts.push_back(hash_of(inputs.wind));
+        for (const auto& colliders : inputs.colliders) parts.push_back(hash_of(colliders));
+        for (const auto& pins : inputs.pins) parts.push_back(hash_of(pins));
+    }
+    return parts;
+}
+
+/// `auto` chooses for the device that is measured.
+SimulationModel model_of(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
+                         const Setting& setting) {
+    return SimulationModel(scene_of(problem, size, setting), {.device = device_kind(device)});
+}
 
 }  // namespace
 
 std::string case_name(const Problem& problem, std::uint32_t size, const Setting& setting) {
-    return fmt::format("{}/{}/{}/{}", problem.name, size, method_name(setting.method), setting_name(setting));
+    return fmt::format("{}/{}/{}/{}", problem.name, size, named(setting.method).name, setting_name(setting));
 }
 
 std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
                      const Setting& setting) {
-    const SimulationModel model(scene_of(problem, size, setting));
-    const ClothModel& cloth = model.cloths[0];
-    std::vector<std::string> parts{program_version(),       fmt::format("{}", measuring_version),
-                                   device.uuid_text(),      device.driver,
-                                   device.driver_version,   case_name(problem, size, setting),
-                                   hash_of(cloth.position), hash_of(cloth.displacement)};
-    for (const SpringWork& work : cloth.springs) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
-    for (const BendWork& work : cloth.bends) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
-    for (const TwistWork& work : cloth.twists) parts.push_back(xxh3_128_hex(std::as_bytes(std::span(&work.push, 1))));
-    parts.push_back(fmt::format("{} {} {} {}", cloth.force.damping_loss, cloth.force.gravity_step.y,
-                                cloth.explicit_step.stiffness.x, cloth.explicit_step.stiffness.z));
-    std::string steps;
-    for (const Step& step : model.frame_steps(cloth)) steps += static_cast<char>('a' + static_cast<int>(step.kind));
-    parts.push_back(steps);
-    parts.push_back(fmt::format("tolerance {} damping {}", model.scene.solver.tolerance, problem.strain_damping));
+    const SimulationModel model = model_of(device, problem, size, setting);
+    std::vector<std::string> parts{program_version(),     fmt::format("{}", measuring_version),
+                                   device.uuid_text(),    device.driver,
+                                   device.driver_version, case_name(problem, size, setting)};
+    const std::vector<std::string> given = hashes_of(model);
+    parts.insert(parts.end(), given.begin(), given.end());
     parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count, model.scene.time.fps,
                                 problem.record_every));
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
@@ -168,10 +191,11 @@ std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, s
 double case_work(const Problem& problem, std::uint32_t size, const Setting& setting) {
     const SceneDescription scene = scene_of(problem, size, setting);
     const std::array<std::uint32_t, 2> grid = scene.cloths[0].grid;
-    // A gather or line pass does the work of several.
-    const double passes = setting.method == SolverMethod::relax  ? setting.substeps * (1.0 + 8.0 * setting.iterations)
-                          : setting.method == SolverMethod::line ? setting.substeps * (1.0 + 16.0 * setting.iterations)
-                                                                 : 3.0 * setting.substeps;
+    const SolverSettings solver = choose_solver(scene, DeviceKind::cpu).settings;
+    const Method& method = row_of(solver.method);
+    // With a tolerance few of the iterations are run.
+    const double iterations = solver.tolerance > 0 ? std::min(solver.iterations, 2u) : solver.iterations;
+    const double passes = solver.substeps * (method.passes_per_substep + method.passes_per_iteration * iterations);
     constexpr double dispatch_share = 5000;  // particles whose pass takes as long as an empty dispatch
     const double frames = scene.time.frame_count + (problem.timed ? repetition_count * 10.0 : 0);
     return passes * frames * (double(grid[0]) * grid[1] + dispatch_share);
@@ -180,22 +204,22 @@ double case_work(const Problem& problem, std::uint32_t size, const Setting& sett
 CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
                     References& references, const std::function<bool()>& stop) {
     const auto start = Clock::now();
-    const SimulationModel model(scene_of(problem, size, setting));
+    const SimulationModel model = model_of(device.info(), problem, size, setting);
     CaseResult result;
     result.name = case_name(problem, size, setting);
     result.key = case_key(device.info(), problem, size, setting);
     result.problem = problem.name;
     result.size = size;
-    result.method = method_name(setting.method);
+    result.method = std::string(named(setting.method).name);
     result.substeps = setting.substeps;
     result.iterations = setting.iterations;
     result.passes = passes_of(model);
     const ClothModel& cloth = model.cloths[0];
     result.stiffness_share = 1;
     for (std::size_t axis = 0; axis < 2; ++axis)
-        if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.used_stiffness[axis]))
-            result.stiffness_share =
-                std::min(result.stiffness_share, cloth.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
+        if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.plan.used_stiffness[axis]))
+            result.stiffness_share = std::min(result.stiffness_share,
+                                              cloth.plan.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
 
     RecordedRun run = record(device, problem, model, stop);
     result.device_ms = median(run.device_ms);

@@ -103,12 +103,14 @@ Problem pendulum(bool is_short) {
                 // Of the energy at the start, m g L above the lowest point.
                 {"energy_lost_per_period", exact.height - own.height}};
     };
-    problem.sweeps = {{1, substep_settings(SolverMethod::explicit_steps, {4, 8, 16, 24, 32, 48, 64}), 1}};
-    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::line})
-        problem.sweeps.push_back({1,
-                                  is_short ? substep_settings(method, {5, 10, 20})
-                                           : substep_settings(method, {1, 2, 5, 10, 20, 40, 80, 160}),
-                                  1});
+    for (const Method& row : methods()) {
+        const SolverMethod method = row.method;
+        std::vector<Setting> settings = substep_settings(method, {4, 8, 16, 24, 32, 48, 64});
+        if (!row.sweep.per_link)
+            settings = is_short ? substep_settings(method, {5, 10, 20})
+                                : substep_settings(method, {1, 2, 5, 10, 20, 40, 80, 160});
+        problem.sweeps.push_back({1, settings, 1});
+    }
     return problem;
 }
 

@@ -1,7 +1,7 @@
 // Rows without springs at work: flight, the incline, momentum. Exact to rounding at every number of substeps.
 #include <cmath>
 
-#include "bench/problem.h"
+#include "bench/sheet_sweeps.h"
 #include "reference/closed_forms.h"
 #include "reference/model_scenes.h"
 
@@ -13,16 +13,9 @@ using namespace model_scenes;
 
 constexpr double gravity = 9.81;
 
-std::vector<Setting> substeps(SolverMethod method, std::initializer_list<std::uint32_t> counts) {
-    std::vector<Setting> settings;
-    for (const std::uint32_t count : counts) settings.push_back({method, count, 1});
-    return settings;
-}
-
 std::vector<Sweep> every_method(std::uint32_t size, std::initializer_list<std::uint32_t> counts) {
     std::vector<Sweep> sweeps;
-    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
-        sweeps.push_back({size, substeps(method, counts), 1});
+    for (const Method& method : methods()) sweeps.push_back({size, substep_settings(method.method, counts), 1});
     return sweeps;
 }
 

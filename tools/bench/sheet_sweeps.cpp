@@ -23,22 +23,30 @@ std::vector<Setting> explicit_settings(std::uint32_t links, std::initializer_lis
     return settings;
 }
 
+std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, bool quick) {
+    std::vector<Setting> settings;
+    for (const double count : quick ? method.sweep.quick : method.sweep.full)
+        settings.push_back(
+            {method.method, static_cast<std::uint32_t>(std::lround(method.sweep.per_link ? links * count : count)), 1});
+    return settings;
+}
+
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority) {
+    std::vector<Sweep> sweeps;
+    for (const Method& method : methods()) sweeps.push_back({links, sweep_settings(method, links, false), priority});
     std::vector<Setting> two_iterations;
     for (const std::uint32_t substeps : {8u, 20u, 40u}) two_iterations.push_back({SolverMethod::line, substeps, 2});
-    return {{links, explicit_settings(links, {0.5, 0.707, 1, 1.414, 2, 2.61, 3.2}), priority},
-            {links, substep_settings(SolverMethod::line, {4, 8, 12, 16, 20, 30, 40, 80, 160}), priority},
-            {links, two_iterations, priority + 1},
-            {links, substep_settings(SolverMethod::relax, {1, 2, 5, 10, 20, 40, 80, 160, 320}), priority},
-            {links, slides_settings({10, 20, 40, 80, 160}), priority},
-            {links, substep_settings(SolverMethod::relax, {640, 1280}), finest_relax_priority}};
+    sweeps.push_back({links, two_iterations, priority + 1});
+    sweeps.push_back({links, slides_settings({10, 20, 40, 80, 160}), priority});
+    sweeps.push_back({links, substep_settings(SolverMethod::relax, {640, 1280}), finest_relax_priority});
+    return sweeps;
 }
 
 std::vector<Sweep> short_sweeps(std::uint32_t links, int priority) {
-    return {{links, explicit_settings(links, {0.5, 1, 2.61}), priority},
-            {links, substep_settings(SolverMethod::line, {4, 8, 20}), priority},
-            {links, substep_settings(SolverMethod::relax, {5, 20, 80}), priority},
-            {links, slides_settings({10, 40}), priority}};
+    std::vector<Sweep> sweeps;
+    for (const Method& method : methods()) sweeps.push_back({links, sweep_settings(method, links, true), priority});
+    sweeps.push_back({links, slides_settings({10, 40}), priority});
+    return sweeps;
 }
 
 }  // namespace drape::bench

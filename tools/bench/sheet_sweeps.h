@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/problem.h"
+#include "cloth/method.h"
 
 namespace drape::bench {
 
@@ -16,7 +17,10 @@ std::vector<Setting> slides_settings(std::initializer_list<std::uint32_t> iterat
 /// wave speed 100 m/s and 60 frames/s.
 std::vector<Setting> explicit_settings(std::uint32_t links, std::initializer_list<double> per_link);
 
-/// Of every solver, for `links` links over 1 m. Relaxation needs very many substeps for the position error
+/// The method's own sweep (cloth/method.h) for `links` links along the cloth.
+std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, bool quick);
+
+/// Of every method, for `links` links over 1 m. Relaxation needs very many substeps for the position error
 /// that the others reach: those cases take longest and have a priority of their own.
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority);
 /// The same in a few settings.

@@ -1,5 +1,6 @@
 #include <json/json.h>
 
+#include "cloth/simulation_model.h"
 #include "options.h"
 #include "output/json_text.h"
 #include "program.h"
@@ -24,6 +25,12 @@ Json::Value json_error(const SceneError& error) {
     return value;
 }
 
+/// What a good scene's method follows only in part. What `auto` chooses depends on the device.
+std::vector<Compromise> known_compromises(const SceneResult& result) {
+    if (!result.scene || result.scene->solver.method == SolverMethod::automatic) return {};
+    return SimulationModel(*result.scene).compromises();
+}
+
 /// Every error of every file on stderr, or as JSON on stdout.
 ExitCode check(const Options& options) {
     ExitCode code = ExitCode::ok;
@@ -42,6 +49,13 @@ ExitCode check(const Options& options) {
         for (const SceneError& warning : result.warnings) {
             row["warnings"].append(json_error(warning));
             if (!options.json) print_message("warning: " + warning.text());
+        }
+        row["compromises"] = Json::Value(Json::arrayValue);
+        for (const Compromise& each : known_compromises(result)) {
+            Json::Value& entry = row["compromises"].append(Json::Value(Json::objectValue));
+            entry["what"] = each.what;
+            entry["reason"] = each.reason;
+            if (!options.json) print_message("warning: " + path + ": " + each.what + ": " + each.reason);
         }
         report.append(row);
         if (!options.json && !options.quiet && result.scene) print_data(path + ": ok\n");
@@ -64,7 +78,7 @@ Examples:
                                     [=] { return check(*options); });
     add_scene_list(command, options->paths);
     add_override_option(command, options->overrides);
-    add_flag(command, "--json", "Errors and warnings as JSON on stdout", options->json);
+    add_flag(command, "--json", "Errors, warnings and compromises as JSON on stdout", options->json);
     add_flag(command, "-q,--quiet", "Say nothing about good files", options->quiet);
 }
 

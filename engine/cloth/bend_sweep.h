@@ -1,0 +1,13 @@
+// Bending relaxed in one sweep per substep: for every method that iterates over springs or lines.
+#pragma once
+
+#include "cloth/method.h"
+
+namespace drape {
+
+/// Adds the elements of both axes, then the cells' twist, to the steps taken once. `compliance_factor`: of the method's
+/// own units on the compliance m/(b h^2) of a backward Euler step. What a sweep cannot follow is softened, and said.
+void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, double compliance_factor,
+                    MethodPlan& plan);
+
+}  // namespace drape

@@ -1,0 +1,89 @@
+#include "cloth/cloth_geometry.h"
+
+#include "cloth/vectors.h"
+
+namespace drape {
+
+ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks)
+    : name(cloth.name),
+      grid(cloth.grid[0], cloth.grid[1], cloth.holes),
+      starts_masked(!grid.whole() || keeps_masks),
+      placement(cloth.placement),
+      spacing{cloth.size[0] / (grid.columns() - 1), cloth.size[1] / (grid.rows() - 1)},
+      inner_mass(cloth.areal_density * spacing[0] * spacing[1]),
+      damping(cloth.damping),
+      velocity(cloth.velocity),
+      rigid(cloth.stiffness.rigid),
+      bend(cloth.stiffness.bend),
+      stiffness_constant(stiffness_constants(cloth.stiffness, spacing)) {
+    // An axis of two particles has no elements; explicit steps need not mind them.
+    if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
+    if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
+    place();
+    hold_pins(cloth.pins);
+    if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
+    if (scene.solver.tethers) set_tethers(scene, cloth);
+}
+
+void ClothGeometry::place() {
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            Vec3 at = placement.origin;
+            for (std::size_t k = 0; k < 3; ++k)
+                at[k] += column * spacing[0] * placement.u[k] + row * spacing[1] * placement.v[k];
+            free_weight.push_back(grid.relative_inverse_mass(column, row));
+            position.push_back(texel(at, free_weight.back()));
+        }
+    if (!starts_masked)
+        skipped.push_back({name + "/stiffness", "no holes or cuts: the grid's extent gives every stiffness"});
+}
+
+void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {
+    if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
+    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, scene.gravity));
+    if (!scene.cutters.empty())
+        skipped.push_back(
+            {name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});
+}
+
+void ClothGeometry::hold_pins(const std::vector<Pin>& pins) {
+    // A later pin overrides an earlier one on the particles that they share.
+    std::vector<int> owner(grid.particle_count(), -1);
+    for (std::size_t pin = 0; pin < pins.size(); ++pin) {
+        const IndexBox& box = pins[pin].particles;
+        for (std::uint32_t row = box.first[1]; row <= box.last[1]; ++row)
+            for (std::uint32_t column = box.first[0]; column <= box.last[0]; ++column)
+                owner[grid.particle(column, row)] = static_cast<int>(pin);
+    }
+    std::vector<int> dynamic_index(pins.size(), -1);
+    std::vector<std::vector<std::uint32_t>> held(pins.size());
+    for (std::uint32_t particle = 0; particle < owner.size(); ++particle) {
+        if (owner[particle] < 0) continue;
+        position[particle].w = 0;
+        held[static_cast<std::size_t>(owner[particle])].push_back(particle);
+    }
+    for (std::size_t index = 0; index < pins.size(); ++index) {
+        const Pin& pin = pins[index];
+        const bool moves = !pin.path.keys.empty();
+        if ((!moves && !pin.release) || held[index].empty()) continue;
+        has_motion = has_motion || moves;
+        has_release = has_release || pin.release.has_value();
+        Vec3 centroid{};
+        for (const std::uint32_t particle : held[index]) {
+            centroid[0] += static_cast<double>(position[particle].x) / static_cast<double>(held[index].size());
+            centroid[1] += static_cast<double>(position[particle].y) / static_cast<double>(held[index].size());
+            centroid[2] += static_cast<double>(position[particle].z) / static_cast<double>(held[index].size());
+        }
+        for (const std::uint32_t particle : held[index]) {
+            const glsl::vec4 at = position[particle];
+            pinned.push_back({{at.x, at.y, at.z, free_weight[particle]},
+                              {static_cast<int>(particle % grid.columns()), static_cast<int>(particle / grid.columns()),
+                               static_cast<int>(dynamic_pins.size()), 0}});
+        }
+        dynamic_pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release});
+    }
+    if (!has_motion) skipped.push_back({name + "/pin motion", "no pin has a path"});
+    if (!has_release) skipped.push_back({name + "/pin release", "no pin is released"});
+}
+
+}  // namespace drape

@@ -1,0 +1,68 @@
+// One cloth of a scene as numbers that no solver method and no cut changes: its grid, masses, wanted stiffness, the
+// flat state that it starts in, its pins and tethers. Pure.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cloth/grid.h"
+#include "cloth/stiffness_constants.h"
+#include "cloth/tethers.h"
+#include "scene/scene_description.h"
+#include "shared/simulation_types.h"
+
+namespace drape {
+
+/// Something that a scene does not need and therefore does not get.
+struct SkippedWork {
+    std::string what, reason;
+};
+
+/// Something that the scene asks for and that the method follows only in part.
+struct Compromise {
+    std::string what, reason;       ///< the reason with numbers: what is followed, and what would help
+    std::uint32_t enough_substeps;  ///< per frame, that would follow all of it; 0: none would
+};
+
+/// A pin that moves or lets go; pins at rest for ever are just w = 0.
+struct DynamicPin {
+    MotionPath path;
+    Vec3 pivot;                     ///< m
+    std::optional<double> release;  ///< s
+};
+
+struct ClothGeometry {
+    /// `keeps_masks`: masks of a whole cloth are images too.
+    ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks);
+
+    std::string name;
+    Grid grid;
+    bool starts_masked;  ///< holes: spring shares and cells are images from the start
+    Placement placement;
+    double spacing[2];                      ///< m along columns, rows
+    double inner_mass;                      ///< kg of a particle with four cells
+    double damping;                         ///< 1/s
+    Vec3 velocity;                          ///< m/s at the start
+    bool rigid;                             ///< stretch and shear springs are inextensible
+    double bend;                            ///< N m
+    StiffnessConstants stiffness_constant;  ///< what the scene asks for
+
+    // One per particle, row by row.
+    std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
+    std::vector<float> free_weight;    ///< w without pins
+    std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
+
+    std::vector<DynamicPin> dynamic_pins;
+    std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
+    bool has_release = false, has_motion = false;
+    std::vector<SkippedWork> skipped;
+
+  private:
+    void place();
+    void hold_pins(const std::vector<Pin>& pins);
+    void set_tethers(const SceneDescription& scene, const Cloth& cloth);
+};
+
+}  // namespace drape

@@ -1,0 +1,72 @@
+#include "cloth/hang.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/vectors.h"
+
+namespace drape {
+
+namespace {
+
+/// Share of the wind's pressure on a plate that stretches a cloth: it turns with the wind. Measured on the flag scene.
+constexpr double wind_share = 0.3;
+
+/// Largest straight distance of a particle from the nearest pin, m, on the flat cloth, sampled; half the size without
+/// pins.
+double hanging_length(const Cloth& cloth) {
+    const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
+    if (cloth.pins.empty()) return 0.5 * std::max(cloth.size[0], cloth.size[1]);
+    constexpr std::uint32_t samples = 33;
+    double longest = 0;
+    for (std::uint32_t j = 0; j < samples; ++j)
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            const double x = i * (cloth.grid[0] - 1.0) / (samples - 1), y = j * (cloth.grid[1] - 1.0) / (samples - 1);
+            double nearest = INFINITY;
+            for (const Pin& pin : cloth.pins) {
+                const auto outside = [](double at, double first, double last) {
+                    return std::max({first - at, at - last, 0.0});
+                };
+                const IndexBox& box = pin.particles;
+                nearest = std::min(nearest, std::hypot(dx * outside(x, box.first[0], box.last[0]),
+                                                       dy * outside(y, box.first[1], box.last[1])));
+            }
+            longest = std::max(longest, nearest);
+        }
+    return longest;
+}
+
+/// The axis (0: rows, 1: columns) along which links lead away from a whole edge that is held for good; -1: none is.
+int axis_from_held_edge(const Cloth& cloth) {
+    for (const Pin& pin : cloth.pins) {
+        const IndexBox& box = pin.particles;
+        if (!pin.path.keys.empty() || pin.release) continue;
+        if (box.first[0] == 0 && box.last[0] + 1 == cloth.grid[0]) return 1;
+        if (box.first[1] == 0 && box.last[1] + 1 == cloth.grid[1]) return 0;
+    }
+    return -1;
+}
+
+}  // namespace
+
+Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
+    Hang hang{};
+    hang.length = hanging_length(cloth);
+    hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double wind_speed = length(scene.wind.velocity) + scene.wind.gust.amplitude;
+    const double pressure =
+        0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (wind_speed * wind_speed);
+    hang.gravity = length(scene.gravity);
+    hang.acceleration = hang.gravity + (scene.wind.blows() ? wind_share * pressure / cloth.areal_density : 0);
+    const int axis = axis_from_held_edge(cloth);
+    hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
+    hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
+    hang.calm = hang.by_an_edge && !scene.wind.blows();
+    hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];
+    hang.longest_line = std::max(cloth.grid[0], cloth.grid[1]);
+    return hang;
+}
+
+double motion_factor(const Hang& hang) { return hang.calm ? 1.7 : 5; }
+
+}  // namespace drape

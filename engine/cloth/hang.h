@@ -1,0 +1,26 @@
+// How a cloth hangs: what the laws of the methods' stretch errors depend on. Pure.
+#pragma once
+
+#include "scene/scene_description.h"
+
+namespace drape {
+
+/// How a cloth hangs: what its stretch error depends on.
+struct Hang {
+    double length;        ///< m below the pins
+    double spacing;       ///< m, of the finer links
+    double gravity;       ///< m/s^2
+    double acceleration;  ///< m/s^2, the wind's share included
+    bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
+    double edge_spacing;  ///< m, of the links that lead away from that edge
+    bool calm;            ///< besides, no wind blows
+    std::size_t particle_count;
+    double longest_line;  ///< particles
+};
+
+Hang hang_of(const SceneDescription& scene, const Cloth& cloth);
+
+/// The worst frame of a moving cloth errs by so much more than a hanging one.
+double motion_factor(const Hang& hang);
+
+}  // namespace drape

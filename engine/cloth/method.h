@@ -1,0 +1,99 @@
+// The solver methods as values: from a cloth's geometry and the settings of its substeps, each makes the constants, the
+// steps and what others ask. A method is a row of `methods`; nobody asks for its name. Pure.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cloth/cloth_geometry.h"
+#include "cloth/hang.h"
+#include "cloth/step.h"
+
+namespace drape {
+
+/// What a method's constants follow from, beside the cloth.
+struct MethodSettings {
+    std::uint32_t substeps, iterations;  ///< per frame, per substep
+    double substep_length;               ///< s
+    Vec3 gravity;                        ///< m/s^2
+    double strain_damping;               ///< as SolverSettings
+    bool collides;                       ///< the scene has colliders
+    bool skip = true;                    ///< false: keep needless work that changes no bit
+};
+
+/// What a method does with one cloth at one number of substeps.
+struct MethodPlan {
+    // Steps of a substep. Those that no method changes (release, wind, pin motion, collision, check, tethers) are put
+    // between them by the schedule.
+    std::vector<MethodStep> prediction;  ///< before pin motion
+    std::vector<MethodStep> once;        ///< after it: bending
+    std::vector<MethodStep> iterated;    ///< in each iteration
+
+    glsl::vec4 start{};  ///< displacement of free particles at the start, m: x(0) - x(-h), the half-kick start, or what
+                         ///< else the prediction expects
+
+    // Fields that the steps need beside position and displacement with their rests.
+    bool spare_state = false;           ///< particles gather what springs do: a step reads one state, writes another
+    bool second_order = false;          ///< displacement before, velocity excess, line control
+    std::size_t line_spring_count = 0;  ///< springs of the largest direction, room of the line scratch
+    std::array<bool, 4> carries_tension{};  ///< by direction: from iteration to iteration, compliant and iterated
+    /// Tension is not kept by the steps: it is computed with these where it is wanted.
+    std::optional<glsl::TensionPush> gathered_tension;
+
+    std::array<double, 4> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
+    double used_bend = 0;                  ///< N m applied
+    std::vector<SkippedWork> skipped;
+    std::vector<Compromise> compromises;
+};
+
+/// A sweep of the benchmark: substeps per frame, or per frame and link along the cloth.
+struct MethodSweep {
+    bool per_link;
+    std::span<const double> full, quick;
+};
+
+struct Method {
+    SolverMethod method;
+    MethodPlan (*plan)(const ClothGeometry& cloth, const MethodSettings& settings);
+
+    // For `auto`: the law of the stretch error, substeps per frame (a real number) that keep a tolerance; where that is
+    // not enough, whether the method follows all bending at a substep length (s); what a substep costs
+    // (cloth/solver_choice.cpp); iterations at most.
+    double (*substeps)(const Hang& hang, double frame, double tolerance);
+    bool (*bends_fully)(const Cloth& cloth, double substep_length);  ///< null: the law knows no bending
+    double dispatches, particle_ns;
+    bool walks;  ///< an invocation goes along a whole line
+    std::uint32_t most_iterations;
+
+    // For benchmarks: passes over all particles that take as long as a substep's prediction, its iteration.
+    double passes_per_substep, passes_per_iteration;
+    MethodSweep sweep;
+
+    std::string_view name() const { return named(method).name; }
+};
+
+/// In the order in which `auto` prefers those that cost the same.
+std::span<const Method> methods();
+/// The row of a method; `automatic` has none: std::logic_error.
+const Method& row_of(SolverMethod method);
+
+/// Every number of a plan, in a fixed order: what two plans that do the same have in common.
+std::vector<std::byte> bytes_of(const MethodPlan& plan);
+
+/// phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
+double damping_mean(double damping, double substep_length);
+/// Verlet's prediction of the displacement.
+glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings);
+/// Displacement of the substep before the start that makes damped ballistic flight of that prediction exact.
+glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings);
+/// Notes that the cloth follows less of its `what` ("stiffness") than it was given; `followed`: how much. Without
+/// `enough_substeps` no substeps would be.
+void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,
+                     const std::string& followed, double enough_substeps, MethodPlan& plan);
+/// Notes why no tension goes from iteration to iteration, if so.
+void note_tension(const ClothGeometry& cloth, MethodPlan& plan);
+
+}  // namespace drape

@@ -1,0 +1,138 @@
+#include "cloth/method_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/bend_sweep.h"
+#include "cloth/solver_choice.h"
+#include "cloth/vectors.h"
+
+namespace drape {
+
+namespace {
+
+/// f = 1/(1 + (2/3) c h): what damping leaves of a BDF2 step's velocity.
+double bdf2_damping(const ClothGeometry& cloth, const MethodSettings& settings) {
+    return 1 / (1 + 2.0 / 3 * cloth.damping * settings.substep_length);
+}
+
+/// The compliance m/(k h^2) of a spring in the method's own units over that of a backward Euler step: BDF2 multiplies
+/// it by (9/4) (1 + (2/3) c h).
+double compliance_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
+    return settings.collides ? 1.0 : 2.25 / bdf2_damping(cloth, settings);
+}
+
+double euler_compliance(double constant, const ClothGeometry& cloth, const MethodSettings& settings) {
+    return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
+}
+
+/// All lines of one direction.
+glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth, const MethodSettings& settings) {
+    const glsl::ivec2 grid = cloth.grid.size(), step = spring_directions[direction].offset;
+    const bool is_row = step.y == 0;
+    const double euler = euler_compliance(cloth.stiffness_constant.spring[direction], cloth, settings);
+    const double own = compliance_factor(cloth, settings) * euler;
+    const auto limited = [](double compliance) { return std::max(compliance, least_line_compliance); };
+    const auto followed = [&](double compliance) { return static_cast<float>(compliance / limited(compliance)); };
+    const int seam = is_row || step.x == 0 ? -1 : step.x > 0 ? grid.x - 1 : 0;
+    return {grid,
+            step,
+            is_row ? grid.y : grid.x,
+            is_row ? grid.x : grid.y,
+            seam,
+            static_cast<int>(direction),
+            static_cast<float>(cloth.stiffness_constant.rest_length[direction]),
+            static_cast<float>(limited(euler)),
+            static_cast<float>(limited(own)),
+            followed(euler),
+            followed(own),
+            1,
+            0};
+}
+
+/// Stiffness (N/m) that a line's spring has, given the least compliance.
+double line_stiffness(double stiffness, const ClothGeometry& cloth, const MethodSettings& settings) {
+    if (stiffness == 0) return 0;
+    const double wanted = compliance_factor(cloth, settings) * euler_compliance(stiffness, cloth, settings);
+    return wanted < least_line_compliance ? stiffness * wanted / least_line_compliance : stiffness;
+}
+
+/// Per frame, that give the stiffest springs no less than the least compliance.
+double enough_substeps(const ClothGeometry& cloth, const MethodSettings& settings) {
+    const double undamped = settings.collides ? 1.0 : 2.25;  // the factor on the compliance as substeps become short
+    const double least = std::ranges::max(cloth.stiffness_constant.spring) * least_line_compliance;
+    return std::ceil(settings.substeps * settings.substep_length / std::sqrt(undamped * cloth.inner_mass / least));
+}
+
+glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSettings& settings) {
+    const glsl::ForcePush euler = force_constants(cloth, settings);
+    const double f = bdf2_damping(cloth, settings), h = settings.substep_length, step = f * 4 / 9 * h * h;
+    const auto rounded = [](double value) { return static_cast<float>(value); };
+    const Vec3& gravity = settings.gravity;
+    return {cloth.grid.size(),
+            {euler.damping_loss, rounded(2.0 / 3 * (1 - f))},
+            {euler.force_step, rounded(step / cloth.inner_mass)},
+            {rounded(f * 2 / 9), rounded(f * 8 / 9)},
+            euler.gravity_step,
+            {rounded(step * gravity[0]), rounded(step * gravity[1]), rounded(step * gravity[2]), 0}};
+}
+
+void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
+    plan.second_order = !settings.collides;
+    if (plan.second_order) {
+        const double h = settings.substep_length;
+        plan.start = texel(Vec3{cloth.velocity[0] * h, cloth.velocity[1] * h, cloth.velocity[2] * h}, 0);
+        plan.prediction = {{StepKind::control, {}}, {StepKind::predict, predict_constants(cloth, settings)}};
+    } else {
+        plan.start = verlet_start(cloth, settings);
+        plan.prediction = {{StepKind::force, force_constants(cloth, settings)}};
+        plan.skipped.push_back({cloth.name + "/second order", "colliders: contact is backward Euler throughout"});
+    }
+}
+
+void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
+    // Diagonals first: they disturb rows and columns, which carry the load and have the last word.
+    for (const std::size_t direction : {2u, 3u, 0u, 1u}) {
+        if (cloth.stiffness_constant.spring[direction] == 0) continue;
+        const glsl::LinePush push = line_constants(direction, cloth, settings);
+        plan.iterated.push_back({StepKind::line, push});
+        plan.carries_tension[direction] = !cloth.rigid && (settings.iterations > 1 || !settings.skip);
+        plan.line_spring_count =
+            std::max(plan.line_spring_count,
+                     static_cast<std::size_t>(push.line_count) * static_cast<std::size_t>(push.particle_count - 1));
+    }
+    note_tension(cloth, plan);
+}
+
+}  // namespace
+
+MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings) {
+    MethodPlan plan;
+    add_prediction(cloth, settings, plan);
+    add_bend_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
+    add_lines(cloth, settings, plan);
+    const std::array<double, 4>& wanted = cloth.stiffness_constant.spring;
+    if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
+    for (std::size_t direction = 0; direction < wanted.size(); ++direction)
+        plan.used_stiffness[direction] = line_stiffness(wanted[direction], cloth, settings);
+    if (plan.used_stiffness != wanted)
+        note_compromise(
+            cloth, settings, "stiffness",
+            fmt::format("line solves follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on diagonals",
+                        plan.used_stiffness[0], plan.used_stiffness[1], plan.used_stiffness[2]),
+            cloth.rigid ? 0 : enough_substeps(cloth, settings), plan);
+    return plan;
+}
+
+double line_substeps(const Hang& hang, double frame, double tolerance) {
+    const double share = std::min(1.0, tolerance / default_tolerance);
+    if (hang.by_an_edge)
+        return frame * std::sqrt(hang.gravity * hang.length) / (1.3 * hang.edge_spacing * std::sqrt(share));
+    const double few_links = std::min(1.0, std::sqrt(64 * hang.spacing / hang.length));
+    const double limit = 0.45 * few_links * std::sqrt(std::sqrt(share));
+    return frame * std::sqrt(hang.gravity * hang.length) / (hang.spacing * limit);
+}
+
+}  // namespace drape

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "cloth/method_explicit.h"
+#include "cloth/method_line.h"
+#include "cloth/method_relax.h"
+#include "cloth/vectors.h"
+
+namespace drape {
+
+namespace {
+
+// From 2.61 micro-steps per link on nothing is softened at wave speed 100 m/s and 60 frames/s.
+constexpr double explicit_sweep[] = {0.5, 0.707, 1, 1.414, 2, 2.61, 3.2}, explicit_quick[] = {0.5, 1, 2.61};
+constexpr double line_sweep[] = {4, 8, 12, 16, 20, 30, 40, 80, 160}, line_quick[] = {4, 8, 20};
+constexpr double relax_sweep[] = {1, 2, 5, 10, 20, 40, 80, 160, 320}, relax_quick[] = {5, 20, 80};
+
+constexpr Method rows[] = {
+    {SolverMethod::line, plan_line, line_substeps, nullptr, 10, 200, true, 32, 1, 16, {false, line_sweep, line_quick}},
+    {SolverMethod::explicit_steps,
+     plan_explicit,
+     explicit_substeps,
+     explicit_bends_fully,
+     1,
+     60,
+     false,
+     1,
+     3,
+     0,
+     {true, explicit_sweep, explicit_quick}},
+    {SolverMethod::relax,
+     plan_relax,
+     relax_substeps,
+     nullptr,
+     11,
+     140,
+     false,
+     8,
+     1,
+     8,
+     {false, relax_sweep, relax_quick}},
+};
+
+/// Displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md 3):
+/// d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
+double start_displacement(double velocity, double acceleration, double damping, double h) {
+    const double ch = damping * h;
+    if (ch < 1e-5) return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
+    const double growth = std::expm1(ch) / damping;
+    return velocity * growth + acceleration / damping * (h - growth);
+}
+
+/// Appends to a list of bytes. Push structures have no padding: every member is of four bytes or a vector of them.
+struct ByteList {
+    std::vector<std::byte> bytes;
+
+    template <class T>
+    void add(const T& value) {
+        const std::span<const std::byte> more = std::as_bytes(std::span(&value, 1));
+        bytes.insert(bytes.end(), more.begin(), more.end());
+    }
+    void add(std::monostate) {}
+    void add(const std::vector<MethodStep>& steps) {
+        add(steps.size());
+        for (const auto& [kind, constants] : steps) {
+            add(kind);
+            std::visit([this](const auto& push) { add(push); }, constants);
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<std::byte> bytes_of(const MethodPlan& plan) {
+    // A binding names every member: one that is added does not compile until it is added here.
+    const auto& [prediction, once, iterated, start, spare_state, second_order, line_spring_count, carries_tension,
+                 gathered_tension, used_stiffness, used_bend, skipped, compromises] = plan;
+    ByteList list;
+    list.add(prediction);
+    list.add(once);
+    list.add(iterated);
+    list.add(start);
+    list.add(spare_state);
+    list.add(second_order);
+    list.add(line_spring_count);
+    list.add(carries_tension);
+    if (gathered_tension) list.add(*gathered_tension);
+    list.add(used_stiffness);
+    list.add(used_bend);
+    static_cast<void>(skipped), static_cast<void>(compromises);  // words
+    return list.bytes;
+}
+
+std::span<const Method> methods() { return rows; }
+
+const Method& row_of(SolverMethod method) {
+    const auto row = std::ranges::find(rows, method, &Method::method);
+    if (row == std::end(rows)) throw std::logic_error("method auto is chosen before it is asked for its row");
+    return *row;
+}
+
+double damping_mean(double damping, double h) { return damping > 0 ? -std::expm1(-damping * h) / (damping * h) : 1.0; }
+
+glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings) {
+    const double h = settings.substep_length, step = damping_mean(cloth.damping, h) * h * h;
+    const Vec3& gravity = settings.gravity;
+    return {cloth.grid.size(), static_cast<float>(-std::expm1(-cloth.damping * h)),
+            static_cast<float>(step / cloth.inner_mass),
+            texel(Vec3{step * gravity[0], step * gravity[1], step * gravity[2]}, 0)};
+}
+
+glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings) {
+    Vec3 start;
+    for (std::size_t k = 0; k < 3; ++k)
+        start[k] = start_displacement(cloth.velocity[k], settings.gravity[k], cloth.damping, settings.substep_length);
+    return texel(start, 0);
+}
+
+void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,
+                     const std::string& followed, double enough_substeps, MethodPlan& plan) {
+    const std::string remedy = enough_substeps > 0
+                                   ? fmt::format("{:.0f} substeps would follow all of it", enough_substeps)
+                                   : "rigid springs are as stiff as the substeps allow";
+    plan.compromises.push_back({cloth.name + "/" + what,
+                                fmt::format("{} at {} substeps; {}", followed, settings.substeps, remedy),
+                                static_cast<std::uint32_t>(std::min(enough_substeps, 4294967295.0))});
+}
+
+void note_tension(const ClothGeometry& cloth, MethodPlan& plan) {
+    if (std::ranges::none_of(plan.carries_tension, std::identity()))
+        plan.skipped.push_back({cloth.name + "/tension between iterations",
+                                cloth.rigid ? "rigid springs need none" : "one iteration per substep needs none"});
+}
+
+}  // namespace drape

@@ -1,0 +1,37 @@
+// The whole scene, ready to be simulated. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cloth/cloth_model.h"
+
+namespace drape {
+
+struct SimulationModel {
+    explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
+
+    SceneDescription scene;     ///< its solver settings are those in use: `auto` is resolved
+    SolverMethod asked_method;  ///< as the scene file has it
+    double asked_tolerance;     ///< that a frame may not miss; 0: none
+    SolverChoice choice;
+    std::vector<ClothModel> cloths;
+    bool windy;
+    int collider_count;
+    /// Rounds over all colliders per collision step: one collider cannot overlap another.
+    std::uint32_t collision_rounds() const { return collider_count > 1 ? 32 : 1; }
+
+    /// The method in use, as a scene knows it.
+    const SolverMethodName& method() const { return named(scene.solver.method); }
+    /// Whether iterations end when the tolerance is met.
+    bool adaptive() const;
+    /// Squared RMS stretch error below which they end: a hundredth under the tolerance, so that what the frame's
+    /// statistics sum in another order is within it.
+    float iteration_limit() const;
+    /// What no cloth of this scene needs, and what each cloth does not need.
+    std::vector<SkippedWork> skipped() const;
+    /// What the cloths follow only in part.
+    std::vector<Compromise> compromises() const;
+};
+
+}  // namespace drape

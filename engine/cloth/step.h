@@ -1,0 +1,65 @@
+// What a frame is made of: a step is a kind and the constants that its pass gets. The device's solver adds graph passes
+// per step, the C++ twin runs one function per step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "shared/line_types.h"
+#include "shared/simulation_types.h"
+
+namespace drape {
+
+enum class StepKind {
+    release,
+    wind,
+    control,
+    predict,
+    force,
+    explicit_step,
+    pin,
+    bend,
+    twist,
+    spring,
+    line,
+    tether,
+    collide,
+    check,
+    advance
+};
+
+/// The push structure of a step whose constants are its method's own. SpringPush and LinePush: `first_iteration` is
+/// set per iteration.
+using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush,
+                                   glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush>;
+
+/// A step as a method plans it, for any substep.
+struct MethodStep {
+    StepKind kind;
+    StepConstants constants;
+};
+
+/// `Step::cloth` of a step that is taken for every cloth of the scene.
+inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1);
+
+/// A step of a frame.
+struct Step {
+    StepKind kind;
+    std::size_t cloth;
+    std::uint32_t substep;
+    std::uint32_t iteration = 0;
+    StepConstants constants{};
+    bool last = false;  ///< spring, line: of the frame's last iteration, after which its tension is the frame's
+    /// Runs only when the check before it found the tolerance not met: decided on the device.
+    bool conditional = false;
+
+    /// Throws std::bad_variant_access when the step has others.
+    template <class Push>
+    const Push& push() const {
+        return std::get<Push>(constants);
+    }
+};
+
+}  // namespace drape

@@ -1,0 +1,25 @@
+// The constants that a method plans, by their type.
+#pragma once
+
+#include <vector>
+
+#include "cloth/method.h"
+
+namespace drape::test {
+
+/// Calls visit(push) for every step of a plan whose constants are `Push`; a const plan's cannot be changed.
+template <class Push, class Plan, class Visit>
+void for_pushes(Plan& plan, const Visit& visit) {
+    for (auto* steps : {&plan.prediction, &plan.once, &plan.iterated})
+        for (auto& step : *steps)
+            if (auto* push = std::get_if<Push>(&step.constants)) visit(*push);
+}
+
+template <class Push>
+std::vector<Push> pushes(const MethodPlan& plan) {
+    std::vector<Push> all;
+    for_pushes<Push>(plan, [&](const Push& push) { all.push_back(push); });
+    return all;
+}
+
+}  // namespace drape::test
