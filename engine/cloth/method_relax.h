@@ -7,7 +7,8 @@ namespace drape {
 
 MethodPlan plan_relax(const ClothGeometry& cloth, const MethodSettings& settings);
 
-/// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (docs/physics.md 2).
+/// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (docs/physics.md
+/// 2).
 double relax_substeps(const Hang& hang, double frame, double tolerance);
 
 }  // namespace drape
