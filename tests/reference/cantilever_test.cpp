@@ -16,7 +16,7 @@ double fall_over_reach(std::uint32_t segments, double gamma, SolverMethod method
     const SceneDescription scene = model_scenes::hanging_cantilever(segments, gamma, method);
     const SimulationModel model(scene);
     EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
-    EXPECT_EQ(model.cloths[0].used_bend, scene.cloths[0].stiffness.bend);
+    EXPECT_EQ(model.cloths[0].plan.used_bend, scene.cloths[0].stiffness.bend);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame < scene.time.frame_count; ++frame) twin.run_frame(frame);
     const Vec3 tip = test::position_of(twin.cloth(0), model.cloths[0].grid.columns() - 1);
