@@ -98,7 +98,7 @@ Metrics static_errors(const Recording& run, References& references) {
 Problem motion(const char* name, const char* title, std::function<SceneDescription(std::uint32_t)> scene) {
     Problem problem{.name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
     problem.record_every = 3;
-    problem.scene = [scene](std::uint32_t size, const Setting&) {
+    problem.scene = [scene = std::move(scene)](std::uint32_t size, const Setting&) {
         SceneDescription result = scene(size);
         result.time.frame_count = 31;
         return result;
@@ -111,7 +111,7 @@ Problem motion(const char* name, const char* title, std::function<SceneDescripti
 Problem statics(const char* name, const char* title, std::function<SceneDescription(std::uint32_t)> scene) {
     Problem problem{.name = name, .title = title, .metric = "position_rms", .unit = "m", .floor = 5e-7, .timed = true};
     problem.record_every = 180;
-    problem.scene = [scene](std::uint32_t size, const Setting&) {
+    problem.scene = [scene = std::move(scene)](std::uint32_t size, const Setting&) {
         SceneDescription result = scene(size);
         result.time.frame_count = 181;
         result.cloths[0].damping = 6;
