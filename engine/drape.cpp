@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "frame_loop.h"
+#include "drape/simulation.h"
 #include "graph/dump.h"
 #include "output/frame_writer.h"
 #include "output/kept_frames.h"
@@ -22,15 +22,6 @@
 namespace drape {
 
 namespace {
-
-std::string failure_text(const SceneResult& result) {
-    std::string text;
-    for (const SceneError& error : result.errors) {
-        if (!text.empty()) text += '\n';
-        text += error.text();
-    }
-    return text;
-}
 
 struct FrameRange {
     std::uint32_t start, end, step;
@@ -73,7 +64,7 @@ LoadedScene load(const SceneRequest& request) {
 }
 
 /// Two runs with the same key give the same bytes for the same frame.
-std::string key_of(const RunRequest& request, const LoadedScene& scene, const vulkan::DeviceInfo& device) {
+std::string key_of(const RunRequest& request, const LoadedScene& scene, const DeviceInfo& device) {
     std::vector<std::string> parts{program_version(), scene.hash, device.uuid_text(), device.driver,
                                    device.driver_version};
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
@@ -93,16 +84,18 @@ std::vector<const OutputFormat*> asked_formats(const RunRequest& request) {
     return formats;
 }
 
-WrittenRun written_run(const SimulationModel& model, const FrameRange& range, const std::string& key) {
-    const SceneDescription& scene = model.scene;
+WrittenRun written_run(const Simulation& simulation, const FrameRange& range, const std::string& key) {
+    const SceneDescription& scene = simulation.scene();
     WrittenRun run;
     run.start = range.start, run.end = range.end, run.step = range.step, run.fps = scene.time.fps;
     run.cuts = !scene.cutters.empty();
     run.width = scene.image.size[0], run.height = scene.image.size[1];
     run.key = key;
-    for (const ClothModel& cloth : model.cloths)
-        run.cloths.push_back({model.cloths.size() == 1 ? "" : cloth.name, cloth.grid.columns(), cloth.grid.rows(),
-                              cloth.grid.triangle_indices()});
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
+        const Cloth& description = scene.cloths[cloth];
+        run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
+                              description.grid[1], simulation.triangles(cloth)});
+    }
     return run;
 }
 
@@ -110,32 +103,28 @@ WrittenRun written_run(const SimulationModel& model, const FrameRange& range, co
 class Sink {
   public:
     /// `kept`: frames whose pictures are there already.
-    Sink(OutputFolder& folder, const RunRequest& request, const SimulationModel& model, const WrittenRun& run,
+    Sink(OutputFolder& folder, const RunRequest& request, const SceneDescription& scene, const WrittenRun& run,
          const std::map<std::uint32_t, KeptFrame>& kept)
-        : model_(model), kept_(kept) {
+        : scene_(scene), kept_(kept) {
         for (const OutputFormat* format : asked_formats(request))
             writers_.push_back({format, format->open(folder, run)});
         for (const auto& [frame, picture] : kept) statistics_.add(frame, picture.values);
     }
 
-    /// Throws Diverged or ToleranceMissed before anything of the frame is kept.
     void add(const FinishedFrame& frame) {
-        if (const auto why = divergence(model_, frame.frame, frame.statistics)) throw Diverged(*why);
-        if (const auto why = missed_tolerance(model_, frame.frame, frame.statistics)) throw ToleranceMissed(*why);
-        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(model_, frame.statistics)};
+        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(scene_, frame.statistics)};
         statistics_.add(frame.frame, written.values);
         for (const Writer& writer : writers_)
             if (!writer.format->draws || !kept_.contains(frame.frame)) writer.files->add(written);
-        for (const graph::Timing& timing : frame.timings) stages_[timing.name].push_back(timing.milliseconds);
+        for (const StageTime& timing : frame.timings) stages_[timing.name].push_back(timing.milliseconds);
         const auto now = std::chrono::steady_clock::now();
         frame_ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
         last_ = now;
     }
 
-    void add_cut(const CutEvent& event, const CutTopology& topology) {
-        cuts_.push_back({event.frame, topology.cloth().name, event.counts.springs, event.counts.triangles});
-        const std::vector<std::uint32_t> faces = topology.whole_triangles();
-        for (const Writer& writer : writers_) writer.files->set_faces(event.frame + 1, event.cloth, faces);
+    void add_cut(const Cut& cut) {
+        cuts_.push_back({cut.frame, scene_.cloths[cut.cloth].name, cut.springs, cut.triangles});
+        for (const Writer& writer : writers_) writer.files->set_faces(cut.frame + 1, cut.cloth, cut.faces);
     }
 
     const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
@@ -170,7 +159,7 @@ class Sink {
         std::unique_ptr<FrameWriter> files;
     };
 
-    const SimulationModel& model_;
+    const SceneDescription& scene_;
     const std::map<std::uint32_t, KeptFrame>& kept_;
     std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;
@@ -180,72 +169,66 @@ class Sink {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const SimulationModel& model,
-                      const vulkan::Device& device, const FrameLoop& loop, const FrameRange& range) {
-    const SceneDescription& scene = model.scene;
-    const vulkan::DeviceInfo& info = device.info();
+Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
+                      const DeviceInfo& device, const FrameRange& range) {
+    const SceneDescription& scene = simulation.scene();
+    const SimulationFacts facts = simulation.facts();
     Manifest manifest;
     manifest.program_version = program_version();
     manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
-    manifest.device = {info.name, info.driver, info.driver_version, info.api_version, info.uuid_text()};
+    manifest.device = {device.name, device.driver, device.driver_version, device.api_version, device.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
     if (request.draws())
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
-    const bool chosen = model.asked_method == SolverMethod::automatic;
-    manifest.solver = {std::string(model.method().name),
+    const bool chosen = facts.asked_method != facts.method;
+    manifest.solver = {facts.method,
                        scene.solver.substeps,
                        scene.solver.iterations,
                        scene.solver.tethers,
-                       chosen ? std::string(named(model.asked_method).name) : "",
-                       model.choice.reason,
+                       chosen ? facts.asked_method : "",
+                       facts.choice_reason,
                        scene.solver.tolerance,
                        {}};
-    for (const graph::Skipped& skipped : loop.plan(FrameKind::simulate_and_output).skipped)
+    for (const SimulationFacts::Skipped& skipped : facts.skipped)
         manifest.skipped.push_back({skipped.what, skipped.reason});
-    for (const Compromise& each : model.compromises())
+    for (const Compromise& each : facts.compromises)
         manifest.compromises.push_back({each.what, each.reason, each.enough_substeps});
     manifest.created = utc_timestamp();
     manifest.command_line = request.command_line;
     return manifest;
 }
 
-ModelOptions model_options(const SceneRequest& request, const vulkan::Device& device) {
-    return {.skip = request.skip, .device = device_kind(device.info())};
-}
-
-FrameLoopOptions loop_options(const SceneDescription& scene, bool draw, bool positions) {
-    FrameLoopOptions options;
+SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions) {
+    SimulationOptions options;
     options.draw = draw;
     options.positions = positions;
-    options.statistics = true;
-    options.width = scene.image.size[0];
-    options.height = scene.image.size[1];
-    options.samples = scene.image.samples;
+    options.skip = request.skip;
     return options;
 }
 
+Device device_of(const SceneRequest& request) {
+    return Device(request.device, request.validate ? Validation::print : Validation::off);
+}
+
 /// What `-v` says before the first frame.
-std::vector<std::string> notes(const vulkan::Device& device, const SimulationModel& model, const FrameLoop& loop) {
-    const vulkan::DeviceInfo& info = device.info();
+std::vector<std::string> notes(const Device& device, const Simulation& simulation) {
+    const DeviceInfo& info = device.info();
+    const SceneDescription& scene = simulation.scene();
+    const SimulationFacts facts = simulation.facts();
     std::uint64_t particle_count = 0;
-    for (const ClothModel& cloth : model.cloths) particle_count += cloth.grid.particle_count();
-    const auto plan_text = [&](FrameKind kind) {
-        const graph::Plan& plan = loop.plan(kind);
-        return fmt::format("{} passes, {} barriers", plan.passes.size(), graph::barrier_count(plan));
-    };
-    const vulkan::MemoryBudget& budget = device.budget();
-    return {fmt::format("device {}: {} ({}), driver {} {}, Vulkan {}, UUID {}", info.index, info.name, info.type,
-                        info.driver, info.driver_version, info.api_version, info.uuid_text()),
-            fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", model.cloths.size(),
-                        model.cloths.size() == 1 ? "" : "s", particle_count, model.scene.solver.substeps,
-                        model.scene.solver.iterations),
-            fmt::format("solver: {}{}", model.method().name,
-                        model.asked_method == SolverMethod::automatic ? ": " + model.choice.reason : ""),
-            fmt::format("plan: {} in a frame that is written, {} in one that is only simulated; `drape graph` "
-                        "lists them, and what was skipped",
-                        plan_text(FrameKind::simulate_and_output), plan_text(FrameKind::simulate)),
-            fmt::format("device memory: {} of at most {}", graph::size_text(budget.used()),
-                        graph::size_text(budget.limit()))};
+    for (const Cloth& cloth : scene.cloths) particle_count += std::uint64_t{cloth.grid[0]} * cloth.grid[1];
+    return {
+        fmt::format("device {}: {} ({}), driver {} {}, Vulkan {}, UUID {}", info.index, info.name, info.type,
+                    info.driver, info.driver_version, info.api_version, info.uuid_text()),
+        fmt::format("scene: {} cloth{}, {} particles, {} substeps x {} iterations", scene.cloths.size(),
+                    scene.cloths.size() == 1 ? "" : "s", particle_count, scene.solver.substeps,
+                    scene.solver.iterations),
+        fmt::format("solver: {}{}", facts.method, facts.asked_method != facts.method ? ": " + facts.choice_reason : ""),
+        fmt::format("plan: {} passes, {} barriers in a frame that is written, {} passes, {} barriers in one that is "
+                    "only simulated; `drape graph` lists them, and what was skipped",
+                    facts.pass_count, facts.barrier_count, facts.simulated_pass_count, facts.simulated_barrier_count),
+        fmt::format("device memory: {} of at most {}", graph::size_text(device.memory_used()),
+                    graph::size_text(device.memory_limit()))};
 }
 
 /// Frames of the range that have to be handed out, and those whose pictures are there already.
@@ -272,7 +255,7 @@ MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& reque
 }
 
 /// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
-bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std::uint32_t last,
+bool write_frames(Simulation& simulation, Sink& sink, const MissingFrames& missing, std::uint32_t last,
                   const RunRequest& request, RunSummary& summary) {
     // A run again would fail again at the same frame: what came before it is the result.
     const auto keep_the_rest = [&](const std::runtime_error& error) {
@@ -283,7 +266,7 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
     };
     Progress progress(missing.frames.size(), Progress::standard_options(request.quiet));
     try {
-        return loop.run(
+        return simulation.run(
             last, [&](std::uint32_t frame) { return missing.frames.contains(frame); },
             [&](const FinishedFrame& frame) {
                 sink.add(frame);
@@ -300,18 +283,10 @@ bool write_frames(FrameLoop& loop, Sink& sink, const MissingFrames& missing, std
 
 }  // namespace
 
-SceneFailure::SceneFailure(SceneResult result) : std::runtime_error(failure_text(result)), result_(std::move(result)) {}
-
 const char* program_version() { return DRAPE_VERSION; }
 
 bool RunRequest::draws() const {
     return std::ranges::any_of(asked_formats(*this), [](const OutputFormat* format) { return format->draws; });
-}
-
-SceneDescription load_scene(const SceneRequest& request, std::vector<std::string>* warnings) {
-    LoadedScene loaded = load(request);
-    if (warnings) warnings->insert(warnings->end(), loaded.warnings.begin(), loaded.warnings.end());
-    return std::move(loaded.description);
 }
 
 RunSummary run_scene(const RunRequest& request) {
@@ -325,55 +300,47 @@ RunSummary run_scene(const RunRequest& request) {
     for (const std::string& warning : summary.warnings) say("warning: " + warning);
     OutputFolder folder(request.output, request.existing);
 
-    const vulkan::Instance instance({.validation = request.scene.validate});
-    const vulkan::Device device(instance, request.scene.device);
+    const Device device = device_of(request.scene);
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();
-    const SimulationModel model(scene.description, model_options(request.scene, device));
-    for (const Compromise& each : model.compromises()) {
-        summary.warnings.push_back(each.what + ": " + each.reason);
-        say("warning: " + summary.warnings.back());
-    }
     Manifest manifest;
     {
         Sink* cut_sink = nullptr;
-        FrameLoopOptions options = loop_options(
-            scene.description, request.draws(),
+        SimulationOptions options = simulation_options(
+            request.scene, request.draws(),
             std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; }));
-        options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
-            if (cut_sink) cut_sink->add_cut(event, topology);
-        };
-        FrameLoop loop(device, model, options);
-        if (request.verbose) std::ranges::for_each(notes(device, model, loop), say);
-        manifest = describe_run(request, scene, model, device, loop, range);
+        options.on_cut = [&](const Cut& cut) { cut_sink->add_cut(cut); };
+        Simulation simulation(scene.description, options, device);
+        for (const Compromise& each : simulation.facts().compromises) {
+            summary.warnings.push_back(each.what + ": " + each.reason);
+            say("warning: " + summary.warnings.back());
+        }
+        if (request.verbose) std::ranges::for_each(notes(device, simulation), say);
+        manifest = describe_run(request, scene, simulation, device.info(), range);
         manifest.run_key = key;
-        Sink sink(folder, request, model, written_run(model, range, key), missing.kept);
+        Sink sink(folder, request, simulation.scene(), written_run(simulation, range, key), missing.kept);
         cut_sink = &sink;
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
         const std::uint32_t last = to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
         summary.complete =
-            (missing.frames.empty() && !to_the_end) || write_frames(loop, sink, missing, last, request, summary);
+            (missing.frames.empty() && !to_the_end) || write_frames(simulation, sink, missing, last, request, summary);
         manifest.cuts = sink.cuts();
         manifest.statistics = sink.statistics().frames();
         manifest.solver.stretch_error = sink.statistics().worst_stretch_error();
         manifest.files = sink.finish(summary.complete, summary.dropped);
         sink.add_timings(manifest);
     }
-    summary.validation_count = instance.validation_log().count();
+    summary.validation_count = device.validation_count();
     manifest.validation = {request.scene.validate, summary.validation_count};
     if (summary.complete) write_manifest(folder, manifest);
     return summary;
 }
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
-    const SceneDescription scene = load_scene(request);
-    const vulkan::Instance instance({.validation = request.validate});
-    const vulkan::Device device(instance, request.device);
-    const SimulationModel model(scene, model_options(request, device));
-    const FrameLoop loop(device, model, loop_options(scene, draw, !draw));
-    return graph::dump(loop.graph(FrameKind::simulate_and_output), loop.plan(FrameKind::simulate_and_output), format);
+    const SceneDescription scene = load(request).description;
+    return Simulation(scene, simulation_options(request, draw, !draw), device_of(request)).describe_plan(format);
 }
 
 }  // namespace drape

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/error.h"
 #include "exit_code.h"
 #include "output/output_folder.h"
 #include "scene/scene_reader.h"
@@ -17,26 +18,6 @@ namespace drape {
 
 /// The command line asks for something that cannot be: exit code 2.
 class UsageError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// A scene that cannot be run, with all its errors: exit code 3 (or 1 when the file cannot be read).
-class SceneFailure : public std::runtime_error {
-  public:
-    explicit SceneFailure(SceneResult result);
-    const SceneResult& result() const { return result_; }
-
-  private:
-    SceneResult result_;
-};
-
-/// The simulation is no longer finite, with the frame, cloth and particle: exit code 5.
-class Diverged : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// The stretch error is above the scene's tolerance, with the frame and cloth: exit code 8.
-class ToleranceMissed : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
@@ -77,7 +58,7 @@ struct RunSummary {
 };
 
 /// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
-/// ToleranceMissed, vulkan::VulkanError; nothing is written before everything that can be checked up front has been.
+/// ToleranceMissed, DeviceError; nothing is written before everything that can be checked up front has been.
 ///
 /// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
 /// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
@@ -89,9 +70,6 @@ RunSummary run_scene(const RunRequest& request);
 
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
-
-/// Reads a scene or throws SceneFailure; applies size and samples.
-SceneDescription load_scene(const SceneRequest& request, std::vector<std::string>* warnings = nullptr);
 
 const char* program_version();
 

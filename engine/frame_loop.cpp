@@ -120,7 +120,8 @@ void FrameLoop::rebuild_resources() {
 void FrameLoop::build(FrameKind kind) {
     Frame& frame = frames_[static_cast<std::size_t>(kind)];
     const bool output = plain(kind) != FrameKind::simulate;
-    solver_.declare(frame.graph, {.drawing = output && options_.draw, .statistics = output && options_.statistics});
+    solver_.declare(frame.graph, {.drawing = output && (options_.draw || options_.normals),
+                                  .statistics = output && options_.statistics});
     if (plain(kind) != FrameKind::initial) solver_.add_simulation(frame.graph);
     if (searches_cuts(kind)) {
         solver_.add_cuts(frame.graph);
@@ -128,14 +129,16 @@ void FrameLoop::build(FrameKind kind) {
         frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
                                                                     : "no cutter is active in this kind of frame");
     }
-    if (output && options_.draw) {
-        solver_.add_normals(frame.graph);
+    if (output && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
+    if (output && options_.draw)
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
-    } else if (!options_.draw) {
-        frame.graph.skip("normals, raster and colour readback", "no picture is wanted");
-    }
+    else if (!options_.draw)
+        frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
+                         "no picture is wanted");
+    if (output && options_.normals)
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state.normal, "normal");
     if (output && options_.positions) {
-        for (ClothState state : solver_.cloths()) add_position_readback(frame.graph, state);
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state.position, "position");
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }
@@ -161,16 +164,24 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
     if (!in_flight_[slot]) return;
     const InFlight done = *in_flight_[slot];
     in_flight_[slot].reset();
-    FinishedFrame result{done.frame, {}, {}, {}, frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot)};
+    FinishedFrame result;
+    result.frame = done.frame;
+    for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
+        result.timings.push_back({std::move(timing.name), timing.milliseconds});
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
-    if (done.output && options_.positions)
+    const auto read = [&](std::string_view what) {
+        std::vector<std::span<const float>> arrays;
         for (const ClothModel& cloth : model_.cloths) {
-            const std::span<std::byte> bytes = pool_->buffer(position_readback_name(cloth), slot).mapped();
-            result.positions.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
+            const std::span<std::byte> bytes = pool_->buffer(readback_name(cloth, what), slot).mapped();
+            arrays.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
         }
+        return arrays;
+    };
+    if (done.output && options_.positions) result.positions = read("position");
+    if (done.output && options_.normals) result.normals = read("normal");
     if (done.output && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);
 }
@@ -178,8 +189,8 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
 bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                     const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
     bool complete = true;
-    std::uint32_t next_slot = 0;
-    for (std::uint32_t frame = 0; frame <= last; ++frame) {
+    for (; next_frame_ <= last; ++next_frame_) {
+        const std::uint32_t frame = next_frame_;
         const bool output = wanted(frame);
         const bool cutting = cutters_active_in(frame);
         if (frame == 0 && !output && !cutting) continue;  // the initial state is already there
@@ -187,22 +198,26 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
             complete = false;
             break;
         }
-        deliver(next_slot, finished);
+        deliver(next_slot_, finished);
         const FrameKind kind = frame == 0 ? FrameKind::initial
                                : output   ? FrameKind::simulate_and_output
                                           : FrameKind::simulate;
-        submit(next_slot, frame, cutting ? with_cut_search(kind) : kind, output);
-        const std::uint32_t slot = next_slot;
-        next_slot = (next_slot + 1) % vulkan::frame_slot_count;
+        submit(next_slot_, frame, cutting ? with_cut_search(kind) : kind, output);
+        const std::uint32_t slot = next_slot_;
+        next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
         if (!cutting) continue;
         // A cut acts from the next frame on, always: so that frame waits for this one's findings.
-        deliver(next_slot, finished);
+        deliver(next_slot_, finished);
         deliver(slot, finished);
         take_cuts(slot, frame);
     }
     for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
-        deliver((next_slot + slot) % vulkan::frame_slot_count, finished);
+        deliver((next_slot_ + slot) % vulkan::frame_slot_count, finished);
     return complete;
+}
+
+std::vector<std::uint32_t> FrameLoop::whole_triangles(std::size_t cloth) const {
+    return solver_.topologies()[cloth].whole_triangles();
 }
 
 }  // namespace drape

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cloth/schedule.h"
+#include "drape/simulation.h"
 #include "graph/executor.h"
 #include "passes/cloth_solver.h"
 #include "passes/raster.h"
@@ -26,6 +27,7 @@ struct CutEvent {
 struct FrameLoopOptions {
     bool draw = true;         ///< colour images are wanted
     bool positions = false;   ///< position arrays are wanted
+    bool normals = false;     ///< arrays of normals are wanted
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
@@ -47,14 +49,6 @@ constexpr FrameKind plain(FrameKind kind) {
     return static_cast<FrameKind>(static_cast<std::size_t>(kind) % plain_frame_kind_count);
 }
 
-struct FinishedFrame {
-    std::uint32_t frame;
-    std::span<const std::uint8_t> rgba;             ///< empty unless drawn: rows from the top, sRGB
-    std::vector<std::span<const float>> positions;  ///< per cloth: x y z w per particle; empty unless wanted
-    std::vector<ClothStatistics> statistics;        ///< per cloth; empty unless wanted
-    std::vector<graph::Timing> timings;             ///< device time by stage; empty without timestamps
-};
-
 class FrameLoop {
   public:
     /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
@@ -64,10 +58,15 @@ class FrameLoop {
     FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
     ~FrameLoop();
 
-    /// Frames 0 .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked before
-    /// each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
+    /// Frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked
+    /// before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
+
+    /// 0 in the beginning.
+    std::uint32_t next_frame() const { return next_frame_; }
+    /// Three particles per triangle that no cut has split so far.
+    std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
     const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
     const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
@@ -107,6 +106,7 @@ class FrameLoop {
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;
     std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
+    std::uint32_t next_frame_ = 0, next_slot_ = 0;
 };
 
 }  // namespace drape

@@ -50,11 +50,11 @@ std::optional<double> energy(const FrameValues& values) {
 
 }  // namespace
 
-FrameValues frame_values(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {
+FrameValues frame_values(const SceneDescription& scene, const std::vector<ClothStatistics>& cloths) {
     FrameValues values;
     double kinetic = 0, potential = 0, elastic = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        add_cloth(values, model.cloths[cloth].name, cloths[cloth]);
+        add_cloth(values, scene.cloths[cloth].name, cloths[cloth]);
         kinetic += cloths[cloth].kinetic_energy;
         potential += cloths[cloth].potential_energy;
         elastic += cloths[cloth].elastic_energy;
@@ -66,37 +66,6 @@ FrameValues frame_values(const SimulationModel& model, const std::vector<ClothSt
     values["energy_j"] = kinetic + potential + elastic;
     std::erase_if(values, [](const auto& entry) { return !std::isfinite(entry.second); });
     return values;
-}
-
-std::optional<std::string> divergence(const SimulationModel& model, std::uint32_t frame,
-                                      const std::vector<ClothStatistics>& cloths) {
-    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        const ClothStatistics& statistics = cloths[cloth];
-        if (statistics.non_finite_count == 0) continue;
-        const Grid& grid = model.cloths[cloth].grid;
-        return fmt::format(
-            "the simulation diverged: in frame {}, cloth '{}', the particle in column {}, row {} is not finite "
-            "({} of the cloth's {} particles are not); more substeps, weaker forces or stiffness may help",
-            frame, model.cloths[cloth].name, statistics.first_non_finite % grid.columns(),
-            statistics.first_non_finite / grid.columns(), statistics.non_finite_count, grid.particle_count());
-    }
-    return std::nullopt;
-}
-
-std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
-                                            const std::vector<ClothStatistics>& cloths) {
-    const SolverSettings& solver = model.scene.solver;
-    if (!(model.asked_tolerance > 0)) return std::nullopt;
-    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        const double error = cloths[cloth].stretch_error_rms;
-        if (error <= model.asked_tolerance) continue;
-        return fmt::format(
-            "the tolerance is missed: in frame {}, cloth '{}', the stretch error is {:.3g} RMS, the scene "
-            "allows {:.3g}, and method {} with {} substeps x {} iterations does not reach it",
-            frame, model.cloths[cloth].name, error, model.asked_tolerance, model.method().name, solver.substeps,
-            solver.iterations);
-    }
-    return std::nullopt;
 }
 
 std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {

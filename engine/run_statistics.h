@@ -6,22 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "cloth/cloth_statistics.h"
+#include "drape/statistics.h"
 #include "output/manifest.h"
+#include "scene/scene_description.h"
 
 namespace drape {
 
 /// By name, "<cloth>/stretch_rms" and so on; without a cloth: sums over the cloths, and the deepest penetration.
 /// A number that overflowed single precision is left out: JSON has none for it.
-FrameValues frame_values(const SimulationModel& model, const std::vector<ClothStatistics>& cloths);
-
-/// Why the frame is not a result: the first particle that is not finite; nothing when all are.
-std::optional<std::string> divergence(const SimulationModel& model, std::uint32_t frame,
-                                      const std::vector<ClothStatistics>& cloths);
-
-/// Why the frame is not within the scene's tolerance: the first cloth whose RMS stretch error is above it.
-std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
-                                            const std::vector<ClothStatistics>& cloths);
+FrameValues frame_values(const SceneDescription& scene, const std::vector<ClothStatistics>& cloths);
 
 class RunStatistics {
   public:

@@ -10,6 +10,7 @@
 #include "cloth/grid.h"
 #include "cloth/stiffness_constants.h"
 #include "cloth/tethers.h"
+#include "drape/compromise.h"
 #include "scene/scene_description.h"
 #include "shared/simulation_types.h"
 
@@ -18,12 +19,6 @@ namespace drape {
 /// Something that a scene does not need and therefore does not get.
 struct SkippedWork {
     std::string what, reason;
-};
-
-/// Something that the scene asks for and that the method follows only in part.
-struct Compromise {
-    std::string what, reason;       ///< the reason with numbers: what is followed, and what would help
-    std::uint32_t enough_substeps;  ///< per frame, that would follow all of it; 0: none would
 };
 
 /// A pin that moves or lets go; pins at rest for ever are just w = 0.

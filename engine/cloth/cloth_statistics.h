@@ -1,46 +1,12 @@
-// What is said about a cloth at the end of a frame: how far its springs are from their rest lengths, its energies,
-// how deep it is in the colliders, whether it is finite. The device (passes/statistics_pass.h) and the twin
-// (reference/statistics.h) reduce a state to a record; here its numbers get their units. Pure.
+// The device (passes/statistics_pass.h) and the twin (reference/statistics.h) reduce a cloth's state to a record; here
+// its numbers get their units. Pure.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-
 #include "cloth/simulation_model.h"
+#include "drape/statistics.h"
 #include "shared/statistics_types.h"
 
 namespace drape {
-
-/// Strain = (length - rest length) / rest length, over every existing spring of a family, each counted once.
-struct StrainStatistics {
-    std::uint32_t spring_count = 0;  ///< 0: the other members mean nothing
-    double rms = 0;
-    double largest = 0;   ///< most stretched
-    double smallest = 0;  ///< most compressed (negative)
-};
-
-/// SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a number may
-/// overflow to infinity before the positions do.
-struct ClothStatistics {
-    StrainStatistics stretch, shear;  ///< of the state; soft cloth may stretch truly
-    /// Of the stretch springs: strain - tension/(k l) with the tension that the solver applied in the last substep, RMS
-    /// and largest magnitude. A perfect solve makes it zero; `tolerance` bounds the RMS.
-    double stretch_error_rms = 0, stretch_error_max = 0;
-    /// J, with the velocities of the middle of the last substep: displacement / h.
-    double kinetic_energy = 0;
-    double potential_energy = 0;  ///< J, gravity's; 0 at the origin
-    double elastic_energy = 0;    ///< J, of the stretch and shear springs; rigid ones store none
-    double mass = 0;              ///< kg
-    Vec3 center_of_mass{};        ///< m
-    /// m, of the deepest particle in the zone that contacts keep free, thickness included; nothing without colliders.
-    std::optional<double> penetration;
-    double largest_distance = 0;  ///< m from the origin
-    double largest_speed = 0;     ///< m/s
-    /// Iterations that the frame ran, over all its substeps; nothing when none can be skipped.
-    std::optional<std::uint32_t> iteration_count;
-    std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
-    std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
-};
 
 /// What a state of this cloth is reduced with; colliders are those of the frame's last substep.
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth);

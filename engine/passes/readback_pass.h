@@ -1,14 +1,14 @@
-// Positions to the host, for exports and checks; never on the simulation's way.
+// Images of the state to the host, for exports and checks; never on the simulation's way.
 #pragma once
 
 #include "passes/pass_kit.h"
 
 namespace drape {
 
-/// Name of the host_output buffer that `add_position_readback` fills: particles x 16 bytes, xyz metres and w.
-std::string position_readback_name(const ClothModel& cloth);
+/// Name of the host_output buffer that `add_readback` fills: particles x 16 bytes.
+std::string readback_name(const ClothModel& cloth, std::string_view what);
 
-/// Copies the position image into a host_output buffer.
-void add_position_readback(graph::Graph& graph, ClothState& state);
+/// Copies an image of four floats per particle, the cloth's `what`, into a host_output buffer.
+void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, std::string_view what);
 
 }  // namespace drape

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/solver_method.h"
+#include "solver_method.h"
 
 namespace drape {
 

@@ -33,6 +33,20 @@ std::string too_large(std::size_t size) {
                        size > scene_file_byte_limit + 1 ? "" : "at least ", size);
 }
 
+std::string failure_text(const SceneResult& result) {
+    std::string text;
+    for (const SceneError& error : result.errors) {
+        if (!text.empty()) text += '\n';
+        text += error.text();
+    }
+    return text;
+}
+
+SceneDescription scene_or_throw(SceneResult result) {
+    if (!result.scene) throw SceneFailure(std::move(result));
+    return std::move(*result.scene);
+}
+
 }  // namespace
 
 std::string SceneError::text() const {
@@ -85,5 +99,13 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
     result.text = std::move(text);
     return result;
 }
+
+SceneFailure::SceneFailure(SceneResult result) : Error(failure_text(result)), result_(std::move(result)) {}
+
+SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides) {
+    return scene_or_throw(read_scene(path, overrides));
+}
+
+SceneDescription parse_scene(std::string_view text) { return scene_or_throw(read_scene_text(text, "scene")); }
 
 }  // namespace drape

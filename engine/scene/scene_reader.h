@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "drape/error.h"
+#include "scene_description.h"
 
 namespace drape {
 
@@ -33,6 +34,16 @@ struct SceneResult {
     bool unreadable = false;  ///< the file could not be read at all: an I/O error, not a scene error
 };
 
+/// A scene that cannot be run, with all its errors.
+class SceneFailure : public Error {
+  public:
+    explicit SceneFailure(SceneResult result);
+    const SceneResult& result() const { return result_; }
+
+  private:
+    SceneResult result_;
+};
+
 /// Most bytes a scene file may have.
 inline constexpr std::size_t scene_file_byte_limit = std::size_t{16} << 20;
 /// Most particles of all cloths of a scene together.
@@ -47,6 +58,10 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
 /// The same for text already in memory; `file_name` is only used to say where errors are.
 SceneResult read_scene_text(std::string_view text, const std::string& file_name,
                             std::span<const std::string> overrides = {});
+
+/// The scene of `read_scene` or `read_scene_text`. Throws SceneFailure.
+SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides = {});
+SceneDescription parse_scene(std::string_view text);
 
 /// The published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
 std::string scene_schema();

@@ -15,9 +15,9 @@ std::string failure_text(VkResult result, std::string_view call, std::string_vie
 }  // namespace
 
 VulkanError::VulkanError(VkResult result, std::string_view call, std::string_view object)
-    : std::runtime_error(failure_text(result, call, object)), result_(result) {}
+    : DeviceError(failure_text(result, call, object)), result_(result) {}
 
-VulkanError::VulkanError(const std::string& message) : std::runtime_error(message) {}
+VulkanError::VulkanError(const std::string& message) : DeviceError(message) {}
 
 void check(VkResult result, std::string_view call, std::string_view object) {
     if (result != VK_SUCCESS) throw VulkanError(result, call, object);

@@ -1,17 +1,18 @@
 // A Vulkan call that failed, a device that does not fit, a budget that is exceeded: always on, call named.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan_core.h>
 
+#include "drape/error.h"
+
 namespace drape::vulkan {
 
 /// Exit code 4 of the command line. `what()` reads "vkCreateImage(banner/position): VK_ERROR_...".
-class VulkanError : public std::runtime_error {
+class VulkanError : public DeviceError {
   public:
     VulkanError(VkResult result, std::string_view call, std::string_view object = {});
     /// A failure that is no VkResult: no such device, missing feature, over budget, shader mismatch.

@@ -176,7 +176,9 @@ Instance::~Instance() {
     vkDestroyInstance(handle_, nullptr);
 }
 
-std::string DeviceInfo::uuid_text() const {
+}  // namespace drape::vulkan
+
+std::string drape::DeviceInfo::uuid_text() const {
     std::string text;
     for (std::size_t i = 0; i < uuid.size(); ++i) {
         if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
@@ -184,5 +186,3 @@ std::string DeviceInfo::uuid_text() const {
     }
     return text;
 }
-
-}  // namespace drape::vulkan

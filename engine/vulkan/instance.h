@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/device.h"
 #include "vulkan/error.h"
 
 namespace drape::vulkan {
@@ -36,14 +37,7 @@ struct InstanceOptions {
     bool print_messages = true;  ///< echo each message on stderr
 };
 
-struct DeviceInfo {
-    std::uint32_t index = 0;
-    std::string name, type, driver, driver_version, api_version;
-    std::array<std::uint8_t, 16> uuid{};
-    std::string uuid_text() const;
-    bool usable = true;
-    std::string unusable_reason;  ///< which requirement it lacks
-};
+using drape::DeviceInfo;
 
 class Instance {
   public:

@@ -79,7 +79,7 @@ class Forecast {
 
 class AccuracyRun {
   public:
-    AccuracyRun(const AccuracyRequest& request, const vulkan::Device& device, std::vector<PlannedSweep> plan)
+    AccuracyRun(const AccuracyRequest& request, const Device& device, std::vector<PlannedSweep> plan)
         : request_(request),
           device_(device),
           plan_(std::move(plan)),
@@ -173,7 +173,7 @@ class AccuracyRun {
     }
 
     const AccuracyRequest& request_;
-    const vulkan::Device& device_;
+    Device device_;
     std::vector<PlannedSweep> plan_;
     ResultStore store_;
     References references_;
@@ -198,8 +198,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     const std::vector<Problem> problems = all_problems(request.is_short);
     std::vector<PlannedSweep> plan = planned(problems, request.filter);
     make_folder(request.folder);
-    const vulkan::Instance instance({.validation = request.validate});
-    const vulkan::Device device(instance, request.device);
+    const Device device(request.device, request.validate ? Validation::print : Validation::off);
     AccuracySummary summary;
     AccuracyRun run(request, device, std::move(plan));
     try {
@@ -208,7 +207,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
         summary.stopped = true;
         return summary;
     }
-    const vulkan::DeviceInfo& info = device.info();
+    const DeviceInfo& info = device.info();
     Report report{program_version(),
                   utc_timestamp(),
                   info.name,
@@ -224,7 +223,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     write_files(request, report, problems);
     summary.text = report_text(report, problems);
     summary.missed_count = missed_count(report);
-    summary.validation_count = instance.validation_log().count();
+    summary.validation_count = device.validation_count();
     return summary;
 }
 

@@ -32,7 +32,7 @@ struct AccuracySummary {
 
 /// Runs the cases in order of importance, the coarse settings of a sweep first; a sweep ends when its error
 /// has reached the floor of what can be told. Files are written at the end, each whole. Throws UsageError,
-/// OutputError, vulkan::VulkanError.
+/// OutputError, DeviceError.
 AccuracySummary run_accuracy(const AccuracyRequest& request);
 
 }  // namespace drape::bench

@@ -7,9 +7,11 @@
 #include <cmath>
 
 #include "cloth/frame_inputs.h"
+#include "cloth/schedule.h"
 #include "drape.h"
-#include "frame_loop.h"
+#include "drape/simulation.h"
 #include "output/manifest.h"
+#include "passes/cloth_solver.h"
 #include "spirv_modules.h"
 
 namespace drape::bench {
@@ -52,9 +54,9 @@ double passes_of(const SimulationModel& model) {
     return passes;
 }
 
-double simulate_ms(const std::vector<graph::Timing>& timings) {
+double simulate_ms(const std::vector<StageTime>& timings) {
     double sum = 0;
-    for (const graph::Timing& timing : timings)
+    for (const StageTime& timing : timings)
         if (timing.name == "simulate") sum += timing.milliseconds;
     return sum;
 }
@@ -73,17 +75,16 @@ struct RecordedRun {
     double wall_ms = 0;  ///< per frame
 };
 
-RecordedRun record(const vulkan::Device& device, const Problem& problem, const SimulationModel& model,
+RecordedRun record(const Device& device, const Problem& problem, const SceneDescription& scene,
                    const std::function<bool()>& stop) {
-    FrameLoopOptions options;
-    options.draw = false;
-    options.positions = options.statistics = true;
-    FrameLoop loop(device, model, options);
+    SimulationOptions options;
+    options.keep_promises = false;
+    Simulation simulation(scene, options, device);
     RecordedRun run;
-    const std::uint32_t last = model.scene.time.frame_count - 1;
+    const std::uint32_t last = scene.time.frame_count - 1;
     const auto wanted = [&](std::uint32_t frame) { return frame == last || frame % problem.record_every == 0; };
     const auto start = Clock::now();
-    const bool complete = loop.run(
+    const bool complete = simulation.run(
         last, wanted,
         [&](const FinishedFrame& frame) {
             run.diverged = run.diverged || frame.statistics[0].non_finite_count > 0;
@@ -101,19 +102,19 @@ RecordedRun record(const vulkan::Device& device, const Problem& problem, const S
 }
 
 /// Repetitions without statistics and readbacks, of as many frames as a repetition's time allows.
-void measure_time(const vulkan::Device& device, const SimulationModel& model, const std::function<bool()>& stop,
+void measure_time(const Device& device, const SceneDescription& scene, const std::function<bool()>& stop,
                   double estimate_ms, CaseResult& result) {
     const double affordable = 1000 * repetition_seconds / std::max(estimate_ms, 1e-3);
     const auto frames = static_cast<std::uint32_t>(
-        std::clamp(affordable, 5.0, static_cast<double>(std::max(model.scene.time.frame_count - 1, 5u))));
-    FrameLoopOptions options;
-    options.draw = false;
+        std::clamp(affordable, 5.0, static_cast<double>(std::max(scene.time.frame_count - 1, 5u))));
+    SimulationOptions options;
+    options.positions = options.statistics = false;
     std::vector<double> all, medians, walls;
     for (int repetition = 0; repetition < repetition_count; ++repetition) {
-        FrameLoop loop(device, model, options);
+        Simulation simulation(scene, options, device);
         std::vector<double> device_ms;
         Clock::time_point start{};
-        const bool complete = loop.run(
+        const bool complete = simulation.run(
             frames + warm_up_frames, [](std::uint32_t frame) { return frame > 0; },
             [&](const FinishedFrame& frame) {
                 if (frame.frame == warm_up_frames) start = Clock::now();
@@ -163,8 +164,7 @@ std::vector<std::string> hashes_of(const SimulationModel& model) {
 }
 
 /// `auto` chooses for the device that is measured.
-SimulationModel model_of(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
-                         const Setting& setting) {
+SimulationModel model_of(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting) {
     return SimulationModel(scene_of(problem, size, setting), {.device = device_kind(device)});
 }
 
@@ -174,8 +174,7 @@ std::string case_name(const Problem& problem, std::uint32_t size, const Setting&
     return fmt::format("{}/{}/{}/{}", problem.name, size, named(setting.method).name, setting_name(setting));
 }
 
-std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
-                     const Setting& setting) {
+std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting) {
     const SimulationModel model = model_of(device, problem, size, setting);
     std::vector<std::string> parts{program_version(),     fmt::format("{}", measuring_version),
                                    device.uuid_text(),    device.driver,
@@ -201,7 +200,7 @@ double case_work(const Problem& problem, std::uint32_t size, const Setting& sett
     return passes * frames * (double(grid[0]) * grid[1] + dispatch_share);
 }
 
-CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
+CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
                     References& references, const std::function<bool()>& stop) {
     const auto start = Clock::now();
     const SimulationModel model = model_of(device.info(), problem, size, setting);
@@ -221,7 +220,8 @@ CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::u
             result.stiffness_share = std::min(result.stiffness_share,
                                               cloth.plan.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
 
-    RecordedRun run = record(device, problem, model, stop);
+    const SceneDescription scene = scene_of(problem, size, setting);
+    RecordedRun run = record(device, problem, scene, stop);
     result.device_ms = median(run.device_ms);
     if (!run.device_ms.empty()) {
         result.device_ms_low = std::ranges::min(run.device_ms);
@@ -230,7 +230,7 @@ CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::u
     result.wall_ms = run.wall_ms;
     result.diverged = run.diverged;
     if (!run.diverged) {
-        if (problem.timed) measure_time(device, model, stop, run.wall_ms, result);
+        if (problem.timed) measure_time(device, scene, stop, run.wall_ms, result);
         result.metrics = problem.evaluate({model.scene, std::move(run.samples)}, references);
         for (const auto& [name, value] : result.metrics) result.diverged = result.diverged || !std::isfinite(value);
         if (result.diverged) result.metrics.clear();

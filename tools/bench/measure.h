@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/problem.h"
-#include "vulkan/device.h"
+#include "drape/device.h"
 
 namespace drape::bench {
 
@@ -17,14 +17,13 @@ std::string case_name(const Problem& problem, std::uint32_t size, const Setting&
 
 /// Hash of all that decides a case's result: what the device is given (initial state, constants, steps,
 /// shader modules), device and driver, program version, the problem, and how it is measured.
-std::string case_key(const vulkan::DeviceInfo& device, const Problem& problem, std::uint32_t size,
-                     const Setting& setting);
+std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting);
 
 /// Passes per frame x particles x frames: what a case's run time goes by, with a share per dispatch.
 double case_work(const Problem& problem, std::uint32_t size, const Setting& setting);
 
-/// Throws VulkanError, Stopped, and what the references throw. `stop` is asked before every frame.
-CaseResult run_case(const vulkan::Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
+/// Throws DeviceError, Stopped, and what the references throw. `stop` is asked before every frame.
+CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
                     References& references, const std::function<bool()>& stop);
 
 }  // namespace drape::bench

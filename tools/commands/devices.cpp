@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 #include <json/json.h>
 
+#include "drape/device.h"
 #include "options.h"
 #include "output/json_text.h"
 #include "program.h"
 #include "streams.h"
-#include "vulkan/instance.h"
 
 namespace drape::cli {
 
 namespace {
 
-Json::Value json_device(const vulkan::DeviceInfo& info) {
+Json::Value json_device(const DeviceInfo& info) {
     Json::Value row(Json::objectValue);
     row["index"] = info.index;
     row["name"] = info.name;
@@ -26,17 +26,17 @@ Json::Value json_device(const vulkan::DeviceInfo& info) {
 }
 
 ExitCode list_devices(bool json) {
-    const vulkan::Instance instance({});
+    const std::vector<DeviceInfo> devices = Device::list();
     Json::Value list(Json::arrayValue);
     std::string text;
-    for (const vulkan::DeviceInfo& info : instance.devices()) {
+    for (const DeviceInfo& info : devices) {
         list.append(json_device(info));
         text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name, info.type,
                             info.driver, info.driver_version, info.api_version, info.uuid_text(),
                             info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n");
     }
     print_data(json ? json_text(list) : text);
-    if (!instance.devices().empty()) return ExitCode::ok;
+    if (!devices.empty()) return ExitCode::ok;
     print_error("no Vulkan device found");
     return ExitCode::device;
 }

@@ -1,0 +1,8 @@
+# find_package(drape): the target drape::drape, a static library and what it is made of.
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+find_dependency(fmt)
+find_dependency(PkgConfig)
+pkg_check_modules(jsoncpp REQUIRED IMPORTED_TARGET jsoncpp)
+pkg_check_modules(spirv_cross REQUIRED IMPORTED_TARGET spirv-cross-c-shared)
+include(${CMAKE_CURRENT_LIST_DIR}/drapeTargets.cmake)

@@ -1,0 +1,106 @@
+// The face of the library: a scene on a device, frame by frame. It writes no file, reads none but a scene's, prints
+// nothing (but validation messages, where they are asked for), and knows no command line.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drape/compromise.h"
+#include "drape/device.h"
+#include "drape/error.h"
+#include "drape/statistics.h"
+#include "scene/scene_reader.h"
+
+namespace drape {
+
+/// Milliseconds that the device spent on a stage of a frame.
+struct StageTime {
+    std::string name;
+    double milliseconds = 0;
+};
+
+/// Particles are numbered row * columns + column.
+struct FinishedFrame {
+    std::uint32_t frame = 0;                        ///< shows the time frame / fps; 0 is the initial state
+    std::span<const std::uint8_t> rgba;             ///< empty unless drawn: rows from the top, sRGB
+    std::vector<std::span<const float>> positions;  ///< per cloth, when wanted: x y z (m) and w per particle, w being
+                                                    ///< its inverse mass over an inner particle's; 0: held
+    std::vector<std::span<const float>> normals;    ///< per cloth, when wanted: unit x y z of the front, and 0
+    std::vector<ClothStatistics> statistics;        ///< per cloth, when wanted
+    std::vector<StageTime> timings;                 ///< empty where the device has no timestamps
+};
+
+/// A cut found at the end of a frame; it acts from the next frame on.
+struct Cut {
+    std::uint32_t frame = 0;
+    std::size_t cloth = 0;
+    std::uint32_t springs = 0, triangles = 0;  ///< cut and split now
+    std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is still whole
+};
+
+struct SimulationOptions {
+    bool draw = false;  ///< pictures of the scene's size and samples
+    bool positions = true;
+    bool normals = false;
+    bool statistics = true;
+    bool keep_promises =
+        true;          ///< with statistics: throw Diverged and ToleranceMissed instead of handing out the frame
+    bool skip = true;  ///< false: do the work that is skipped because it changes no bit
+    std::function<void(const Cut&)> on_cut;
+};
+
+/// What a scene became.
+struct SimulationFacts {
+    struct Skipped {
+        std::string what, reason;
+    };
+    std::string method;         ///< in use
+    std::string asked_method;   ///< the scene's
+    std::string choice_reason;  ///< why that method, where it was chosen
+    double tolerance = 0;       ///< of the RMS stretch error, that no frame may miss; 0: none
+    std::vector<Skipped> skipped;
+    std::vector<Compromise> compromises;
+    /// In a frame that is handed out, and in one that is only simulated.
+    std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
+};
+
+class Simulation {
+  public:
+    /// Throws DeviceError when the scene does not fit the device, before anything is allocated, and SceneFailure for
+    /// what no scene may have. Beyond that a scene built in code should keep to the ranges of the scene format.
+    explicit Simulation(const SceneDescription& scene, const SimulationOptions& options = {},
+                        const Device& device = Device());
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+
+    /// Computes the next frame, the first time frame 0, for `frame`; false, doing nothing, after the scene's last.
+    /// Throws Diverged, ToleranceMissed, DeviceError, after any of which this simulation is over.
+    bool step();
+    /// That of the last step, valid until the next.
+    const FinishedFrame& frame() const;
+
+    /// The same for all frames from the next one to `last`, which may be after the scene's: the device computes frames
+    /// while `finished` is told of those before, in order; of the frames that are not `wanted` nothing is read back.
+    /// What `finished` gets is valid during the call. `stop` is asked before each frame; true ends after what has
+    /// begun. Returns whether it came to `last`.
+    bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+             const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
+
+    /// As it runs: a method and substeps that it left to choose are chosen.
+    const SceneDescription& scene() const;
+    /// Three particles per triangle: those that no cut has split so far.
+    std::vector<std::uint32_t> triangles(std::size_t cloth) const;
+    SimulationFacts facts() const;
+    /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".
+    std::string describe_plan(const std::string& format) const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace drape

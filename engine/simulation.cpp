@@ -1,0 +1,188 @@
+#include "drape/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cloth/cloth_statistics.h"
+#include "frame_checks.h"
+#include "frame_loop.h"
+#include "graph/dump.h"
+
+namespace drape {
+
+struct Device::Parts {
+    Parts(const std::string& selector, Validation validation)
+        : instance({.validation = validation != Validation::off, .print_messages = validation == Validation::print}),
+          device(instance, selector) {}
+    vulkan::Instance instance;
+    vulkan::Device device;
+};
+
+Device::Device(const std::string& selector, Validation validation)
+    : parts_(std::make_shared<Parts>(selector, validation)) {}
+std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
+const DeviceInfo& Device::info() const { return parts_->device.info(); }
+std::uint64_t Device::validation_count() const { return parts_->instance.validation_log().count(); }
+std::uint64_t Device::memory_used() const { return parts_->device.budget().used(); }
+std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
+
+namespace {
+
+FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOptions& wanted) {
+    FrameLoopOptions options;
+    options.draw = wanted.draw;
+    options.positions = wanted.positions;
+    options.normals = wanted.normals;
+    options.statistics = wanted.statistics;
+    options.width = scene.image.size[0];
+    options.height = scene.image.size[1];
+    options.samples = scene.image.samples;
+    if (wanted.on_cut)
+        options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
+            on_cut(
+                {event.frame, event.cloth, event.counts.springs, event.counts.triangles, topology.whole_triangles()});
+        };
+    return options;
+}
+
+bool is_box_of(const IndexBox& box, const Cloth& cloth) {
+    return box.first[0] <= box.last[0] && box.first[1] <= box.last[1] && box.last[0] < cloth.grid[0] &&
+           box.last[1] < cloth.grid[1];
+}
+
+/// The scene, if it has what everything else takes for granted; one that was read has it.
+const SceneDescription& checked(const SceneDescription& scene) {
+    SceneResult result;
+    const auto expect = [&result](bool fits, const std::string& pointer, const char* what) {
+        if (!fits) result.errors.push_back({"scene", 0, 0, pointer, fmt::format("expected {}", what)});
+    };
+    std::uint64_t particle_count = 0;
+    std::set<std::string_view> names;
+    expect(!scene.cloths.empty(), "/cloths", "a cloth");
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const std::string at = fmt::format("/cloths/{}", i);
+        particle_count += std::uint64_t{cloth.grid[0]} * cloth.grid[1];
+        expect(std::min(cloth.grid[0], cloth.grid[1]) >= 2 && particle_count <= scene_particle_limit, at + "/grid",
+               "at least 2 x 2 particles and no more than a scene may have");
+        expect(names.insert(cloth.name).second && !cloth.name.empty(), at + "/name", "a name no other cloth has");
+        for (const double side : cloth.size) expect(side > 0 && std::isfinite(side), at + "/size", "lengths above 0");
+        expect(cloth.areal_density > 0 && std::isfinite(cloth.areal_density), at + "/areal_density", "a mass above 0");
+        for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
+            expect(is_box_of(cloth.pins[pin].particles, cloth), fmt::format("{}/pins/{}", at, pin),
+                   "particles of the grid");
+        for (std::size_t hole = 0; hole < cloth.holes.size(); ++hole)
+            expect(is_box_of(cloth.holes[hole], cloth), fmt::format("{}/holes/{}", at, hole), "particles of the grid");
+    }
+    expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
+    expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
+    expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
+           "pixels, of 1 or 4 samples");
+    expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
+    if (!result.errors.empty()) throw SceneFailure(std::move(result));
+    return scene;
+}
+
+/// A frame that outlives the buffers it was read from.
+class FrameCopy {
+  public:
+    void keep(const FinishedFrame& frame) {
+        frame_ = frame;
+        rgba_.assign(frame.rgba.begin(), frame.rgba.end());
+        frame_.rgba = rgba_;
+        keep(frame.positions, positions_, frame_.positions);
+        keep(frame.normals, normals_, frame_.normals);
+    }
+    const FinishedFrame& frame() const { return frame_; }
+
+  private:
+    using Arrays = std::vector<std::vector<float>>;
+    static void keep(const std::vector<std::span<const float>>& from, Arrays& arrays,
+                     std::vector<std::span<const float>>& views) {
+        arrays.resize(from.size());
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            arrays[i].assign(from[i].begin(), from[i].end());
+            views[i] = arrays[i];
+        }
+    }
+
+    FinishedFrame frame_;
+    std::vector<std::uint8_t> rgba_;
+    Arrays positions_, normals_;
+};
+
+}  // namespace
+
+struct Simulation::Parts {
+    Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
+        : device(given),
+          keep_promises(options.keep_promises),
+          model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
+          loop(given.parts_->device, model, loop_options(scene, options)) {}
+
+    Device device;
+    bool keep_promises;
+    SimulationModel model;
+    FrameLoop loop;
+    FrameCopy kept;
+};
+
+Simulation::Simulation(const SceneDescription& scene, const SimulationOptions& options, const Device& device)
+    : parts_(std::make_unique<Parts>(checked(scene), options, device)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+bool Simulation::step() {
+    const std::uint32_t next = parts_->loop.next_frame();
+    if (next >= parts_->model.scene.time.frame_count) return false;
+    return run(
+        next, [](std::uint32_t) { return true; }, [this](const FinishedFrame& frame) { parts_->kept.keep(frame); });
+}
+
+const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
+
+bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+                     const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+    const auto checked = [&](const FinishedFrame& frame) {
+        if (const auto why = divergence(parts_->model, frame.frame, frame.statistics)) throw Diverged(*why);
+        if (const auto why = missed_tolerance(parts_->model, frame.frame, frame.statistics))
+            throw ToleranceMissed(*why);
+        finished(frame);
+    };
+    return parts_->keep_promises ? parts_->loop.run(last, wanted, checked, stop)
+                                 : parts_->loop.run(last, wanted, finished, stop);
+}
+
+const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
+
+std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
+    return parts_->loop.whole_triangles(cloth);
+}
+
+SimulationFacts Simulation::facts() const {
+    const SimulationModel& model = parts_->model;
+    const graph::Plan& output = parts_->loop.plan(FrameKind::simulate_and_output);
+    const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
+    SimulationFacts facts{.method = std::string(model.method().name),
+                          .asked_method = std::string(named(model.asked_method).name),
+                          .choice_reason = model.choice.reason,
+                          .tolerance = model.asked_tolerance,
+                          .skipped = {},
+                          .compromises = model.compromises(),
+                          .pass_count = output.passes.size(),
+                          .barrier_count = graph::barrier_count(output),
+                          .simulated_pass_count = simulate.passes.size(),
+                          .simulated_barrier_count = graph::barrier_count(simulate)};
+    for (const graph::Skipped& skipped : output.skipped) facts.skipped.push_back({skipped.what, skipped.reason});
+    return facts;
+}
+
+std::string Simulation::describe_plan(const std::string& format) const {
+    return graph::dump(parts_->loop.graph(FrameKind::simulate_and_output),
+                       parts_->loop.plan(FrameKind::simulate_and_output), format);
+}
+
+}  // namespace drape

@@ -1,0 +1,224 @@
+// The library's face: stepping, streaming and what a program reads from a simulation.
+#include "drape/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace drape {
+namespace {
+
+using testing::HasSubstr;
+
+const Device& device() {
+    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
+    static const Device opened(selector ? selector : "", Validation::count);
+    return opened;
+}
+
+/// Every test runs validated, and any message fails it.
+class SimulationTest : public testing::Test {
+  protected:
+    void TearDown() override { EXPECT_EQ(device().validation_count(), before_); }
+
+  private:
+    std::uint64_t before_ = device().validation_count();
+};
+
+/// Hangs by its top row; a blade falls through it from frame 3 on.
+SceneDescription cut_sheet() {
+    SceneDescription scene;
+    scene.time.frame_count = 12;
+    scene.image.size = {64, 48};
+    scene.image.samples = 1;
+    Cloth cloth;
+    cloth.name = "sheet";
+    cloth.grid = {12, 10};
+    cloth.placement.origin = {-0.5, 1.5, 0};
+    cloth.pins.push_back({.particles = {{0, 0}, {11, 0}}, .release = {}, .path = {}, .pivot = {}});
+    scene.cloths = {cloth};
+    scene.cutters.push_back({{{{0.03, 2, -1}, {0.03, 2, 1}, {0.03, 0.6, 0}}}, 0.05, 0.2, {}});
+    scene.solver = {.method = SolverMethod::relax, .substeps = 4};
+    return scene;
+}
+
+SimulationOptions everything() {
+    SimulationOptions options;
+    options.draw = options.normals = true;
+    return options;
+}
+
+/// A frame's own copy.
+struct Copy {
+    explicit Copy(const FinishedFrame& from)
+        : frame(from.frame), rgba(from.rgba.begin(), from.rgba.end()), energy(from.statistics[0].kinetic_energy) {
+        positions.assign(from.positions[0].begin(), from.positions[0].end());
+        normals.assign(from.normals[0].begin(), from.normals[0].end());
+    }
+    std::uint32_t frame;
+    std::vector<std::uint8_t> rgba;
+    std::vector<float> positions, normals;
+    double energy;
+    bool operator==(const Copy&) const = default;
+};
+
+TEST_F(SimulationTest, SteppingGivesWhatStreamingGives) {
+    std::vector<Copy> streamed, stepped;
+    Simulation stream(cut_sheet(), everything(), device());
+    EXPECT_TRUE(stream.run(
+        11, [](std::uint32_t) { return true; }, [&](const FinishedFrame& frame) { streamed.emplace_back(frame); }));
+    Simulation simulation(cut_sheet(), everything(), device());
+    while (simulation.step()) stepped.emplace_back(simulation.frame());
+    ASSERT_EQ(stepped.size(), 12u);
+    EXPECT_TRUE(stepped == streamed);
+    EXPECT_EQ(stepped.back().rgba.size(), 64u * 48 * 4);
+    EXPECT_FALSE(simulation.step());
+    EXPECT_EQ(simulation.frame().frame, 11u);
+}
+
+TEST_F(SimulationTest, SkippedFramesAndStopsLeaveTheRestAsItIs) {
+    std::vector<Copy> all, parts;
+    Simulation whole(cut_sheet(), everything(), device());
+    while (whole.step()) all.emplace_back(whole.frame());
+    Simulation simulation(cut_sheet(), everything(), device());
+    const auto keep = [&](const FinishedFrame& frame) { parts.emplace_back(frame); };
+    int asked = 0;
+    EXPECT_FALSE(simulation.run(
+        8, [](std::uint32_t frame) { return frame % 2 == 0; }, keep, [&] { return ++asked > 5; }));
+    ASSERT_TRUE(simulation.step());
+    parts.emplace_back(simulation.frame());
+    EXPECT_TRUE(simulation.run(
+        11, [](std::uint32_t frame) { return frame == 11; }, keep));
+    std::vector<std::uint32_t> frames;
+    for (const Copy& part : parts) {
+        frames.push_back(part.frame);
+        EXPECT_TRUE(part == all[part.frame]) << part.frame;
+    }
+    EXPECT_THAT(frames, testing::ElementsAre(0, 2, 4, 5, 11));
+}
+
+TEST_F(SimulationTest, NormalsAreThoseOfTheTrianglesAround) {
+    SceneDescription scene = cut_sheet();
+    scene.cutters.clear();
+    scene.wind.velocity = {2, 0, 5};
+    Simulation simulation(scene, everything(), device());
+    while (simulation.step()) {
+    }
+    const FinishedFrame& frame = simulation.frame();
+    std::vector<std::array<double, 3>> sums(12 * 10);
+    const std::vector<std::uint32_t> faces = simulation.triangles(0);
+    EXPECT_EQ(faces.size(), 11u * 9 * 2 * 3);
+    for (std::size_t i = 0; i < faces.size(); i += 3) {
+        const float* corner[3];
+        for (int k = 0; k < 3; ++k) corner[k] = &frame.positions[0][4 * faces[i + k]];
+        double u[3], v[3];
+        for (int axis = 0; axis < 3; ++axis) u[axis] = corner[1][axis] - corner[0][axis];
+        for (int axis = 0; axis < 3; ++axis) v[axis] = corner[2][axis] - corner[0][axis];
+        for (int k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                sums[faces[i + k]][axis] +=
+                    u[(axis + 1) % 3] * v[(axis + 2) % 3] - u[(axis + 2) % 3] * v[(axis + 1) % 3];
+    }
+    for (std::size_t particle = 0; particle < sums.size(); ++particle) {
+        const float* normal = &frame.normals[0][4 * particle];
+        const double length = std::hypot(sums[particle][0], sums[particle][1], sums[particle][2]);
+        EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1, 1e-6);
+        double along = 0;
+        for (int axis = 0; axis < 3; ++axis) along += normal[axis] * sums[particle][axis] / length;
+        EXPECT_GT(along, 0.999) << particle;
+    }
+}
+
+TEST_F(SimulationTest, TellsOfCutsAndHasTheTrianglesThatAreLeft) {
+    std::vector<Cut> cuts;
+    SimulationOptions options;
+    options.on_cut = [&](const Cut& cut) { cuts.push_back(cut); };
+    Simulation simulation(cut_sheet(), options, device());
+    const std::size_t whole = simulation.triangles(0).size();
+    while (simulation.step()) {
+    }
+    ASSERT_FALSE(cuts.empty());
+    std::size_t split = 0;
+    for (const Cut& cut : cuts) split += cut.triangles;
+    EXPECT_GT(split, 0u);
+    EXPECT_EQ(simulation.triangles(0), cuts.back().faces);
+    EXPECT_EQ(whole - 3 * split, cuts.back().faces.size());
+}
+
+TEST_F(SimulationTest, WhatIsNotWantedIsNotThere) {
+    SimulationOptions options;
+    options.positions = options.statistics = false;
+    Simulation simulation(cut_sheet(), options, device());
+    ASSERT_TRUE(simulation.step());
+    EXPECT_TRUE(simulation.frame().rgba.empty());
+    EXPECT_TRUE(simulation.frame().positions.empty());
+    EXPECT_TRUE(simulation.frame().normals.empty());
+    EXPECT_TRUE(simulation.frame().statistics.empty());
+    const SimulationFacts all = Simulation(cut_sheet(), everything(), device()).facts(), few = simulation.facts();
+    EXPECT_LT(few.pass_count, all.pass_count);
+    EXPECT_GT(few.skipped.size(), all.skipped.size());
+}
+
+TEST_F(SimulationTest, SaysWhatItChose) {
+    SceneDescription scene = cut_sheet();
+    scene.solver = {};
+    const Simulation simulation(scene, {}, device());
+    EXPECT_EQ(simulation.facts().asked_method, "auto");
+    EXPECT_NE(simulation.facts().method, "auto");
+    EXPECT_FALSE(simulation.facts().choice_reason.empty());
+    EXPECT_NE(simulation.scene().solver.method, SolverMethod::automatic);
+    EXPECT_THAT(simulation.describe_plan("text"), HasSubstr("sheet"));
+}
+
+TEST_F(SimulationTest, AFrameThatIsNoResultIsThrownOrHandedOutAsAsked) {
+    SceneDescription scene = cut_sheet();
+    scene.gravity = {0, -3e38, 0};
+    Simulation simulation(scene, {}, device());
+    EXPECT_THROW(while (simulation.step()){}, Diverged);
+    SimulationOptions options;
+    options.keep_promises = false;
+    Simulation lenient(scene, options, device());
+    while (lenient.step()) {
+    }
+    EXPECT_GT(lenient.frame().statistics[0].non_finite_count, 0u);
+}
+
+TEST(SimulationErrors, AreTyped) {
+    EXPECT_THROW(Device("no such device"), DeviceError);
+    EXPECT_THROW(load_scene("/no/such/scene.json"), SceneFailure);
+    try {
+        parse_scene("{\"cloths\": [{\"grid\": [1, 2]}], \"wnd\": {}}");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("/cloths/0/grid"), HasSubstr("wnd")));
+    }
+}
+
+TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
+    const auto refused = [](const char* pointer, void (*change)(SceneDescription&)) {
+        SceneDescription scene = cut_sheet();
+        change(scene);
+        try {
+            const Simulation simulation(scene, {}, device());
+            ADD_FAILURE() << pointer;
+        } catch (const SceneFailure& failure) {
+            EXPECT_EQ(failure.result().errors.at(0).pointer, pointer);
+        }
+    };
+    refused("/cloths", [](SceneDescription& scene) { scene.cloths.clear(); });
+    refused("/cloths/0/grid", [](SceneDescription& scene) { scene.cloths[0].grid = {1, 10}; });
+    refused("/cloths/0/grid", [](SceneDescription& scene) { scene.cloths[0].grid = {70000, 70000}; });
+    refused("/cloths/0/size", [](SceneDescription& scene) { scene.cloths[0].size = {1, NAN}; });
+    refused("/cloths/0/pins/0", [](SceneDescription& scene) { scene.cloths[0].pins[0].particles.last = {12, 0}; });
+    refused("/cloths/0/holes/0", [](SceneDescription& scene) { scene.cloths[0].holes = {{{3, 3}, {2, 9}}}; });
+    refused("/cloths/1/name", [](SceneDescription& scene) { scene.cloths.push_back(scene.cloths[0]); });
+    refused("/time", [](SceneDescription& scene) { scene.time.fps = 0; });
+    refused("/solver", [](SceneDescription& scene) { scene.solver.substeps = 0; });
+    refused("/image", [](SceneDescription& scene) { scene.image.samples = 3; });
+    refused("/lights", [](SceneDescription& scene) { scene.lights.resize(5); });
+}
+
+}  // namespace
+}  // namespace drape
