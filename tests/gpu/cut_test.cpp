@@ -206,7 +206,7 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
         19, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             with.push_back(texels(frame.positions[0]));
-            for (const graph::Timing& timing : frame.timings) timed.push_back(timing.name);
+            for (const StageTime& timing : frame.timings) timed.push_back(timing.name);
         });
     ASSERT_EQ(with.size(), without.size());
     std::string where;
