@@ -1,6 +1,6 @@
 #include "cloth/cloth_geometry.h"
 
-#include "cloth/vectors.h"
+#include "cloth/texels.h"
 
 namespace drape {
 

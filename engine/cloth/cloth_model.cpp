@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "cloth/vectors.h"
-
 namespace drape {
 
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
@@ -33,7 +31,8 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     wind = {grid.size(), 0, static_cast<float>(1.0 / h), static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
             static_cast<float>(0.5 * w.air_density * w.lift)};
     // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
-    double extent = length(cloth.placement.origin) + std::hypot(cloth.size[0], cloth.size[1]);
+    const Vec3& o = cloth.placement.origin;
+    const double extent = std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
     const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
     const Colliders& c = scene.colliders;
     collision = {{0, 0, 0, 0},

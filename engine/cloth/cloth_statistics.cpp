@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cloth/frame_inputs.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
@@ -11,10 +12,6 @@ namespace {
 StrainStatistics strain_statistics(std::uint32_t count, double square_sum, double largest, double minus_smallest) {
     if (count == 0) return {};
     return {count, std::sqrt(square_sum / count), largest, -minus_smallest};
-}
-
-float& component(glsl::vec4& v, std::size_t index) {
-    return index == 0 ? v.x : index == 1 ? v.y : index == 2 ? v.z : v.w;
 }
 
 }  // namespace

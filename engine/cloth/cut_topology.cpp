@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "cloth/directions.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
 namespace {
-
-float& channel(glsl::vec4& v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
-float channel(const glsl::vec4& v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
 
 /// Which corners of a cell hang together: a union-find of four.
 class Corners {
@@ -43,14 +41,14 @@ void CutTopology::make_masked() {
 }
 
 float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) const {
-    return channel(cuts_[particle], direction);
+    return component(cuts_[particle], direction);
 }
 
 float CutTopology::edge_cut(std::uint32_t from, std::uint32_t to) const {
     // Mesh edges are row, column and down-left springs, owned by the particle of lower index.
     const std::uint32_t owner = std::min(from, to), step = std::max(from, to) - owner;
     const std::size_t direction = step == 1 ? 0 : step == columns_ ? 1 : 3;
-    const float fraction = channel(cuts_[owner], direction);
+    const float fraction = component(cuts_[owner], direction);
     return fraction < 0 ? -1 : owner == from ? fraction : 1 - fraction;
 }
 
@@ -65,10 +63,10 @@ CutTopology::Triangle CutTopology::triangle(std::size_t cell, std::uint32_t whic
 
 bool CutTopology::cut_spring(std::size_t particle, std::size_t direction, float fraction) {
     make_masked();
-    float& share = channel(spring_shares_[particle], direction);
+    float& share = component(spring_shares_[particle], direction);
     if (share == 0) return false;
     share = 0;
-    channel(cuts_[particle], direction) = fraction;
+    component(cuts_[particle], direction) = fraction;
     return true;
 }
 
@@ -92,14 +90,14 @@ CutCounts CutTopology::take_crossings(const CutFindings& findings) {
     CutCounts counts;
     for (std::size_t particle = 0; particle < cuts_.size(); ++particle)
         for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
-            const float fraction = channel(findings.fractions[particle], direction);
+            const float fraction = component(findings.fractions[particle], direction);
             if (fraction >= 0 && cut_spring(particle, direction, std::clamp(fraction, 0.0f, 1.0f))) ++counts.springs;
         }
     if (counts.springs == 0) return counts;
     // The down-right diagonal is no edge of the mesh: it must not join what the mesh has let go.
     for (std::size_t cell = 0; cell < cloth_->grid.cells().size(); ++cell) {
         const std::size_t particle = cell / (columns_ - 1) * columns_ + cell % (columns_ - 1);
-        if (cloth_->grid.cells()[cell] != 0 && channel(spring_shares_[particle], 2) != 0 && !diagonal_holds(cell))
+        if (cloth_->grid.cells()[cell] != 0 && component(spring_shares_[particle], 2) != 0 && !diagonal_holds(cell))
             counts.springs += cut_spring(particle, 2, 0.5f);
     }
     return counts;

@@ -2,6 +2,7 @@
 
 #include "cloth/collider_pose.h"
 #include "cloth/cut_topology.h"
+#include "cloth/texels.h"
 #include "scene/motion.h"
 
 namespace drape {
@@ -23,10 +24,6 @@ Corners corners_at(const Cutter& cutter, double time) {
         for (std::size_t k = 0; k < 3; ++k) corners[corner][k] = centroid[k] + turned[k] + motion.translation[k];
     }
     return corners;
-}
-
-glsl::vec4 texel(const Vec3& v, float w) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), w};
 }
 
 glsl::CutterTriangle active(const Vec3& a, const Vec3& b, const Vec3& c) {

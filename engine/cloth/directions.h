@@ -28,6 +28,10 @@ inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
 }};
 
+/// A number per row.
+template <class T>
+using PerDirection = std::array<T, spring_directions.size()>;
+
 /// The first rows are the stretch springs.
 inline constexpr std::size_t stretch_direction_count = 2;
 

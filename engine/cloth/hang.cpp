@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/vectors.h"
-
 namespace drape {
 
 namespace {
@@ -50,6 +48,7 @@ int axis_from_held_edge(const Cloth& cloth) {
 }  // namespace
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
+    const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
     Hang hang{};
     hang.length = hanging_length(cloth);
     hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));

@@ -36,15 +36,15 @@ struct MethodPlan {
                          ///< else the prediction expects
 
     // Fields that the steps need beside position and displacement with their rests.
-    bool spare_state = false;           ///< particles gather what springs do: a step reads one state, writes another
-    bool second_order = false;          ///< displacement before, velocity excess, line control
-    std::size_t line_spring_count = 0;  ///< springs of the largest direction, room of the line scratch
-    std::array<bool, 4> carries_tension{};  ///< by direction: from iteration to iteration, compliant and iterated
+    bool spare_state = false;              ///< particles gather what springs do: a step reads one state, writes another
+    bool second_order = false;             ///< displacement before, velocity excess, line control
+    std::size_t line_spring_count = 0;     ///< springs of the largest direction, room of the line scratch
+    PerDirection<bool> carries_tension{};  ///< by direction: from iteration to iteration, compliant and iterated
     /// Tension is not kept by the steps: it is computed with these where it is wanted.
     std::optional<glsl::TensionPush> gathered_tension;
 
-    std::array<double, 4> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
-    double used_bend = 0;                  ///< N m applied
+    PerDirection<double> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
+    double used_bend = 0;                 ///< N m applied
     std::vector<SkippedWork> skipped;
     std::vector<Compromise> compromises;
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/vectors.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
@@ -13,16 +13,16 @@ namespace {
 
 constexpr double elastic_limit = 0.45, bend_limit = 0.3;
 
-ExplicitStiffness stiffness_of(const ClothGeometry& cloth, const MethodSettings& settings) {
-    return explicit_stiffness(cloth.stiffness_constant, cloth.spacing, cloth.inner_mass, settings.substep_length,
+RelativeStiffness stiffness_of(const ClothGeometry& cloth, const MethodSettings& settings) {
+    return relative_stiffness(cloth.stiffness_constant, cloth.spacing, cloth.inner_mass, settings.substep_length,
                               settings.strain_damping);
 }
 
 glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettings& settings,
-                                  const ExplicitStiffness& used) {
+                                  const RelativeStiffness& used) {
     const glsl::ForcePush force = force_constants(cloth, settings);
     const double mean = damping_mean(cloth.damping, settings.substep_length);
-    std::array<double, 4> scaled = used.spring;
+    PerDirection<double> scaled = used.spring;
     for (double& value : scaled) value *= mean;
     return {cloth.grid.size(),
             force.damping_loss,
@@ -48,7 +48,7 @@ void note_softening(const ClothGeometry& cloth, const MethodSettings& settings, 
 }  // namespace
 
 MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& settings) {
-    const ExplicitStiffness used = stiffness_of(cloth, settings);
+    const RelativeStiffness used = stiffness_of(cloth, settings);
     const StiffnessConstants& wanted = cloth.stiffness_constant;
     MethodPlan plan;
     plan.prediction = {{StepKind::explicit_step, step_constants(cloth, settings, used)}};
@@ -78,15 +78,15 @@ double explicit_substeps(const Hang& hang, double frame, double tolerance) {
 bool explicit_bends_fully(const Cloth& cloth, double substep_length) {
     const double spacing[2] = {cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1)};
     const double mass = cloth.areal_density * spacing[0] * spacing[1];
-    return explicit_stiffness(stiffness_constants(cloth.stiffness, spacing), spacing, mass, substep_length, 0)
+    return relative_stiffness(stiffness_constants(cloth.stiffness, spacing), spacing, mass, substep_length, 0)
                .bend_share == 1;
 }
 
-ExplicitStiffness explicit_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
+RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
                                      double substep_length, double strain_damping) {
     const double scale = substep_length * substep_length / inner_mass;
     const double diagonal_squared = spacing[0] * spacing[0] + spacing[1] * spacing[1];
-    ExplicitStiffness used;
+    RelativeStiffness used;
     // Largest eigenvalue of a chain of bending elements: 16 b. Of a cell's twist, t c c^T with c = (1, -1, -1, 1),
     // against the quarter of a mass that the cell gives each of its corners: 4 t/(1/4) = 16 t. They add: all three are
     // largest for the checkerboard.

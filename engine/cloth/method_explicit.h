@@ -5,9 +5,9 @@
 
 namespace drape {
 
-/// What the micro-step uses, dimensionless: k h^2/m of an inner particle.
-struct ExplicitStiffness {
-    std::array<double, 4> spring{};
+/// What the micro-step uses of a cloth's stiffness, k h^2/m of an inner particle: dimensionless.
+struct RelativeStiffness {
+    PerDirection<double> spring{};
     std::array<double, 2> bend{};
     double twist = 0;
     /// Used / wanted: 1 = nothing softened. Along columns, along rows, diagonals, bending.
@@ -21,7 +21,7 @@ struct ExplicitStiffness {
 /// S (1 + 2 kappa) + Q/2 <= 0.45. The cells' own eigenvalues bound those of any assembly of them (borders, holes,
 /// cuts); flat cloth would be stable up to S (1 + 2 kappa) + Q = 1, hugely stretched cloth, whose springs resist in
 /// every direction, up to half of that.
-ExplicitStiffness explicit_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
+RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
                                      double substep_length, double strain_damping);
 
 MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& settings);

@@ -7,7 +7,7 @@
 
 #include "cloth/bend_sweep.h"
 #include "cloth/solver_choice.h"
-#include "cloth/vectors.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
@@ -94,15 +94,17 @@ void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, 
 
 void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
     // Diagonals first: they disturb rows and columns, which carry the load and have the last word.
-    for (const std::size_t direction : {2u, 3u, 0u, 1u}) {
-        if (cloth.stiffness_constant.spring[direction] == 0) continue;
-        const glsl::LinePush push = line_constants(direction, cloth, settings);
-        plan.iterated.push_back({StepKind::line, push});
-        plan.carries_tension[direction] = !cloth.rigid && (settings.iterations > 1 || !settings.skip);
-        plan.line_spring_count =
-            std::max(plan.line_spring_count,
-                     static_cast<std::size_t>(push.line_count) * static_cast<std::size_t>(push.particle_count - 1));
-    }
+    for (const SpringFamily family : {SpringFamily::shear, SpringFamily::stretch})
+        for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
+            if (spring_directions[direction].family != family || cloth.stiffness_constant.spring[direction] == 0)
+                continue;
+            const glsl::LinePush push = line_constants(direction, cloth, settings);
+            plan.iterated.push_back({StepKind::line, push});
+            plan.carries_tension[direction] = !cloth.rigid && (settings.iterations > 1 || !settings.skip);
+            plan.line_spring_count =
+                std::max(plan.line_spring_count,
+                         static_cast<std::size_t>(push.line_count) * static_cast<std::size_t>(push.particle_count - 1));
+        }
     note_tension(cloth, plan);
 }
 
@@ -113,7 +115,7 @@ MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings)
     add_prediction(cloth, settings, plan);
     add_bend_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
     add_lines(cloth, settings, plan);
-    const std::array<double, 4>& wanted = cloth.stiffness_constant.spring;
+    const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)
         plan.used_stiffness[direction] = line_stiffness(wanted[direction], cloth, settings);

@@ -8,7 +8,7 @@
 #include "cloth/method_explicit.h"
 #include "cloth/method_line.h"
 #include "cloth/method_relax.h"
-#include "cloth/vectors.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
@@ -63,7 +63,6 @@ struct ByteList {
         const std::span<const std::byte> more = std::as_bytes(std::span(&value, 1));
         bytes.insert(bytes.end(), more.begin(), more.end());
     }
-    void add(std::monostate) {}
     void add(const std::vector<MethodStep>& steps) {
         add(steps.size());
         for (const auto& [kind, constants] : steps) {
@@ -80,17 +79,9 @@ std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     const auto& [prediction, once, iterated, start, spare_state, second_order, line_spring_count, carries_tension,
                  gathered_tension, used_stiffness, used_bend, skipped, compromises] = plan;
     ByteList list;
-    list.add(prediction);
-    list.add(once);
-    list.add(iterated);
-    list.add(start);
-    list.add(spare_state);
-    list.add(second_order);
-    list.add(line_spring_count);
-    list.add(carries_tension);
-    if (gathered_tension) list.add(*gathered_tension);
-    list.add(used_stiffness);
-    list.add(used_bend);
+    const auto add = [&list](const auto&... members) { (list.add(members), ...); };
+    add(prediction, once, iterated, start, spare_state, second_order, line_spring_count, carries_tension,
+        gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend);
     static_cast<void>(skipped), static_cast<void>(compromises);  // words
     return list.bytes;
 }

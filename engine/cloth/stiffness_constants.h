@@ -14,10 +14,10 @@ inline constexpr double rigid_stiffness = 1e12;
 
 /// Of one cloth, in order of the direction table.
 struct StiffnessConstants {
-    std::array<double, 4> spring{};       ///< N/m, away from borders
-    std::array<double, 4> rest_length{};  ///< m
-    std::array<double, 2> bend{};         ///< N/m: energy of an element bend/2 |x1 - 2 x2 + x3|^2; along columns, rows
-    double twist = 0;                     ///< N/m: energy of a cell twist/2 |x00 - x10 - x01 + x11|^2
+    PerDirection<double> spring{};       ///< N/m, away from borders
+    PerDirection<double> rest_length{};  ///< m
+    std::array<double, 2> bend{};        ///< N/m: energy of an element bend/2 |x1 - 2 x2 + x3|^2; along columns, rows
+    double twist = 0;                    ///< N/m: energy of a cell twist/2 |x00 - x10 - x01 + x11|^2
 };
 
 /// On cells of spacing[0] x spacing[1] metres.

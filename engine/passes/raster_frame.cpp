@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/texels.h"
 #include "passes/camera.h"
+#include "scene/vectors.h"
 
 namespace drape {
 namespace {
@@ -14,17 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
 }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vec3 unit(const Vec3& v) {
     const double size = length(v);
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 1, 0};
-}
-glsl::vec4 vec4(const Vec3& v, double w) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
 }
 
 /// Axis-aligned box that grows.
@@ -62,7 +56,7 @@ void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants
         const DirectionalLight& light = scene.lights[i];
         const glsl::vec4 color = linear_color(light.color);
         const auto intensity = static_cast<float>(light.intensity);
-        constants.to_light[i] = vec4(unit(sum({0, 0, 0}, light.direction, -1)), 0);
+        constants.to_light[i] = texel(unit(sum({0, 0, 0}, light.direction, -1)), 0);
         constants.light_radiance[i] = {color.x * intensity, color.y * intensity, color.z * intensity, 0};
     }
 }
@@ -76,7 +70,7 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, g
     constants.ambient.w = static_cast<float>(1 / texels_per_metre);
     // Casters outside the extent would be clipped by depth; four radii each way keep them.
     const auto row = [&](const Vec3& axis, double scale, double middle) {
-        return vec4(sum({0, 0, 0}, axis, scale), middle - scale * dot(axis, extent.center));
+        return texel(sum({0, 0, 0}, axis, scale), middle - scale * dot(axis, extent.center));
     };
     constants.shadow_from_world[0] = row(across, texels_per_metre, glsl::shadow_map_size / 2.0);
     constants.shadow_from_world[1] = row(up, texels_per_metre, glsl::shadow_map_size / 2.0);
@@ -120,12 +114,12 @@ glsl::FrameConstants frame_constants(const SceneDescription& scene, const Boundi
     const Matrix4 matrix = view_projection_matrix(scene.camera, width, height);
     for (std::size_t row = 0; row < 4; ++row)
         constants.clip_from_world[row] =
-            vec4({matrix[4 * row], matrix[4 * row + 1], matrix[4 * row + 2]}, matrix[4 * row + 3]);
-    constants.eye = vec4(scene.camera.position, 0);
-    constants.ambient = vec4(scene.ambient, 0);
+            texel({matrix[4 * row], matrix[4 * row + 1], matrix[4 * row + 2], matrix[4 * row + 3]});
+    constants.eye = texel(scene.camera.position, 0);
+    constants.ambient = texel(scene.ambient, 0);
     constants.background = linear_color(scene.image.background);
     constants.background.w = static_cast<float>(height);
-    constants.fade = vec4(scene.camera.target, fade_radius(scene, extent));
+    constants.fade = texel(scene.camera.target, fade_radius(scene, extent));
     write_lights(scene, constants);
     write_shadow(scene, extent, constants);
     return constants;

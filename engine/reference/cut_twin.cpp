@@ -1,5 +1,6 @@
 #include "reference/cut_twin.h"
 
+#include "cloth/texels.h"
 #include "reference/kernels.h"
 
 namespace drape {
@@ -7,8 +8,6 @@ namespace drape {
 using namespace glsl;
 
 namespace {
-
-vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }
 
 float first_crossing(float found, vec3 p, vec3 q, const CutterTriangle& cutter) {
     return found >= 0.0f ? found : crossing_fraction(p, q, xyz(cutter.a), xyz(cutter.b), xyz(cutter.c));

@@ -5,17 +5,13 @@
 
 #include "reference/spring_network.h"
 #include "scene/gust.h"
+#include "scene/vectors.h"
 
 namespace drape {
 
 namespace {
 
 Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 void add_scaled(Vec3& sum, double factor, const Vec3& v) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += factor * v[k];
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "cloth/texels.h"
 #include "reference/kernels.h"
 
 namespace drape {
@@ -51,8 +52,6 @@ class Reduction {
 
     bool inside(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < push_.grid.x && p.y < push_.grid.y; }
     std::size_t at(ivec2 p) const { return static_cast<std::size_t>(p.y * push_.grid.x + p.x); }
-    static vec3 xyz(const vec4& v) { return {v.x, v.y, v.z}; }
-    static float component(const vec4& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
 
     StatisticsRecord statistics_of(ivec2 particle) const {
         const std::size_t index = at(particle);

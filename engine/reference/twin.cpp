@@ -1,7 +1,7 @@
 #include "reference/twin.h"
 
+#include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/texels.h"
 
 namespace drape {
 

@@ -1,6 +1,6 @@
 // Relaxation of bending in the twin.
+#include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/texels.h"
 #include "reference/twin.h"
 
 namespace drape {

@@ -1,8 +1,8 @@
 // The twin of the check between iterations: the same records in the same order.
 #include <array>
 
+#include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/texels.h"
 #include "reference/twin.h"
 
 namespace drape {

@@ -1,6 +1,6 @@
 // The explicit micro-step of the twin.
+#include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/texels.h"
 #include "reference/twin.h"
 
 namespace drape {

@@ -1,8 +1,8 @@
 // The twin's line solver: control, prediction in second order, tridiagonal solves.
 #include <algorithm>
 
+#include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/texels.h"
 #include "reference/twin.h"
 
 namespace drape {

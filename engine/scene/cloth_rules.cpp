@@ -7,14 +7,13 @@
 
 #include "scene/scene_reader.h"
 #include "scene/scene_rules.h"
+#include "scene/vectors.h"
 
 namespace drape {
 namespace {
 
 using Particle = std::array<std::uint32_t, 2>;
 constexpr const char* name_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::array<Vec3, 4> corners(const Cloth& cloth) {
     std::array<Vec3, 4> points;

@@ -39,21 +39,22 @@ TEST(ClaimsTest, TheSoonestIsAMeasuredSettingAndNeverBetweenTwo) {
 }
 
 TEST(ClaimsTest, AutoIsComparedWithTheSoonestThatKeepsTheTolerance) {
-    const auto random = [](const char* method, std::uint32_t scene, std::uint32_t substeps, double ms, double error) {
+    const auto random = [](SolverMethod method, std::uint32_t scene, std::uint32_t substeps, double ms, double error) {
         CaseResult result;
         result.problem = "random";
         result.size = scene;
         result.method = method;
         result.substeps = substeps;
         result.iterations = 1;
-        result.name = std::string(method) + "/" + std::to_string(substeps);
+        result.name = std::string(named(method).name) + "/" + std::to_string(substeps);
         result.device_ms = ms;
         result.metrics["worst_stretch_error"] = error;
         return result;
     };
-    const std::vector<CaseResult> results = {random("auto", 3, 1, 3, 0.009),   random("line", 3, 4, 2, 0.01),
-                                             random("line", 3, 2, 1, 0.011),   random("relax", 3, 80, 9, 0.001),
-                                             random("line", 4, 2, 0.1, 0.001), random("auto", 5, 1, 4, 0.02)};
+    const std::vector<CaseResult> results = {
+        random(SolverMethod::automatic, 3, 1, 3, 0.009), random(SolverMethod::line, 3, 4, 2, 0.01),
+        random(SolverMethod::line, 3, 2, 1, 0.011),      random(SolverMethod::relax, 3, 80, 9, 0.001),
+        random(SolverMethod::line, 4, 2, 0.1, 0.001),    random(SolverMethod::automatic, 5, 1, 4, 0.02)};
     const std::vector<AutoRatio> ratios = auto_ratios(results);
     ASSERT_EQ(ratios.size(), 2u);
     EXPECT_EQ(ratios[0].best, "line/4");

@@ -47,9 +47,8 @@ TEST(ProblemsTest, OrdersAreClaimedOfProblemsThatExist) {
         bool is_there = false;
         for (const Sweep& sweep : problem.sweeps)
             for (const Setting& s : sweep.settings)
-                is_there |=
-                    family_name(std::string(drape::named(s.method).name), s.substeps, s.iterations) == claim.family &&
-                    (claim.size == 0 || claim.size == sweep.size);
+                is_there |= family_name(s.method, s.substeps, s.iterations) == claim.family &&
+                            (claim.size == 0 || claim.size == sweep.size);
         EXPECT_TRUE(is_there) << claim.problem << " " << claim.family << " " << claim.size;
     }
 }

@@ -11,10 +11,10 @@ inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, doub
     CaseResult result;
     result.problem = "swing";
     result.size = 64;
-    result.method = std::string(named(method).name);
+    result.method = method;
     result.substeps = substeps;
     result.iterations = iterations;
-    result.name = "swing/64/" + result.method + "/" + setting_name({method, substeps, iterations});
+    result.name = "swing/64/" + std::string(named(method).name) + "/" + setting_name({method, substeps, iterations});
     result.key = result.name;
     result.passes = substeps * iterations;
     result.device_ms = result.device_ms_low = result.device_ms_high = milliseconds;

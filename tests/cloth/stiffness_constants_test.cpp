@@ -31,8 +31,8 @@ TEST(StiffnessConstantsTest, FollowTheCells) {
 
 TEST(ExplicitStiffnessTest, SmallStepsUseAllOfIt) {
     const double mass = 2e-5, h = 1e-5;
-    const ExplicitStiffness used =
-        explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, 0.2);
+    const RelativeStiffness used =
+        relative_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, 0.2);
     EXPECT_FALSE(used.softened());
     EXPECT_DOUBLE_EQ(used.spring[0], 1000 * h * h / mass);
     EXPECT_DOUBLE_EQ(used.spring[3], 100 * h * h / mass);
@@ -41,15 +41,15 @@ TEST(ExplicitStiffnessTest, SmallStepsUseAllOfIt) {
 TEST(ExplicitStiffnessTest, LargeStepsAreSoftenedToTheStatedLimit) {
     const double mass = 2e-5, h = 1e-3;
     for (const double kappa : {0.0, 0.2, 1.0}) {
-        const ExplicitStiffness used =
-            explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, kappa);
+        const RelativeStiffness used =
+            relative_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, h, kappa);
         // docs/solvers.md: K_s = 0.45 / ((1 + r_s)(1 + 2 kappa)), K_d = r_s K_s
         EXPECT_NEAR(used.spring[0], 0.45 / (1.1 * (1 + 2 * kappa)), 1e-12);
         EXPECT_NEAR(used.spring[1], used.spring[0], 1e-12);
         EXPECT_NEAR(used.spring[2], 0.1 * used.spring[0], 1e-12);
         // The steps that it asks for soften nothing.
         const double enough = h / used.full_substeps_factor * (1 - 1e-9);
-        EXPECT_FALSE(explicit_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, enough, kappa)
+        EXPECT_FALSE(relative_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, enough, kappa)
                          .softened());
     }
 }
@@ -59,7 +59,7 @@ TEST(ExplicitStiffnessTest, EachAxisIsSoftenedAsFarAsItMustBe) {
     const double mass = 4e-5;
     const double h =
         std::sqrt(0.45 * mass / 1000);  // the long cells' springs (500 N/m) still fit, the short ones' do not
-    const ExplicitStiffness used = explicit_stiffness(wanted, oblong, mass, h, 0);
+    const RelativeStiffness used = relative_stiffness(wanted, oblong, mass, h, 0);
     EXPECT_EQ(used.columns_share, 1);
     EXPECT_LT(used.rows_share, 0.5);
     EXPECT_EQ(used.shear_share, used.rows_share);
@@ -121,7 +121,7 @@ TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {
     for (const double bend : {1e-6, 1e-3, 1.0})
         for (const double h : {1e-5, 1e-4, 1e-3}) {
             const StiffnessConstants wanted = stiffness_constants({false, 1000, 100, bend}, square);
-            const ExplicitStiffness used = explicit_stiffness(wanted, square, mass, h, 0.2);
+            const RelativeStiffness used = relative_stiffness(wanted, square, mass, h, 0.2);
             const double q = 4 * (used.bend[0] + used.bend[1] + used.twist), s = used.spring[0] + used.spring[2];
             EXPECT_LE(q, 0.3 * (1 + 1e-12));
             EXPECT_LE(1.4 * s + 0.5 * q, 0.45 * (1 + 1e-12));

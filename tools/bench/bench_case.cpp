@@ -10,7 +10,8 @@ std::string setting_name(const Setting& setting) {
                                    : fmt::format("{}x{}", setting.substeps, setting.iterations);
 }
 
-std::string family_name(const std::string& method, std::uint32_t substeps, std::uint32_t iterations) {
+std::string family_name(SolverMethod asked, std::uint32_t substeps, std::uint32_t iterations) {
+    const std::string method(named(asked).name);
     if (iterations == 1) return method;
     return substeps == 1 ? method + ", 1 substep x iterations" : fmt::format("{}, {} iterations", method, iterations);
 }

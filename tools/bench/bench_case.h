@@ -22,7 +22,7 @@ struct Setting {
 std::string setting_name(const Setting& setting);
 /// Settings that differ only in how finely they are swept share a line in plots and fits: "relax",
 /// "relax, 1 substep x iterations", "explicit".
-std::string family_name(const std::string& method, std::uint32_t substeps, std::uint32_t iterations);
+std::string family_name(SolverMethod method, std::uint32_t substeps, std::uint32_t iterations);
 
 /// Errors and other numbers by name, SI units.
 using Metrics = std::map<std::string, double>;
@@ -32,7 +32,7 @@ struct CaseResult {
     std::string key;      ///< hash of everything that decides the result
     std::string problem;  ///< "swing"
     std::uint32_t size = 0;
-    std::string method;
+    SolverMethod method = SolverMethod::automatic;
     std::uint32_t substeps = 0, iterations = 0;
     bool diverged = false;       ///< a position was no longer finite: no metrics
     double passes = 0;           ///< per frame: how often every particle is read and written

@@ -122,15 +122,14 @@ std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
 }
 
 std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
-    const std::string_view automatic = named(SolverMethod::automatic).name;
     std::vector<AutoRatio> ratios;
     for (const CaseResult& chosen : results) {
-        if (chosen.method != automatic || chosen.diverged) continue;
+        if (chosen.method != SolverMethod::automatic || chosen.diverged) continue;
         AutoRatio ratio{
             chosen.problem, chosen.size, chosen.metrics.at("worst_stretch_error"), case_milliseconds(chosen), {},
             INFINITY};
         for (const CaseResult& other : results) {
-            if (other.problem != chosen.problem || other.size != chosen.size || other.method == automatic) continue;
+            if (other.problem != chosen.problem || other.size != chosen.size || other.method == chosen.method) continue;
             if (other.diverged || other.metrics.at("worst_stretch_error") > AutoRatio::auto_tolerance) continue;
             if (case_milliseconds(other) >= ratio.best_milliseconds) continue;
             ratio.best = other.name;

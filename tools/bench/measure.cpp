@@ -209,7 +209,7 @@ CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t 
     result.key = case_key(device.info(), problem, size, setting);
     result.problem = problem.name;
     result.size = size;
-    result.method = std::string(named(setting.method).name);
+    result.method = setting.method;
     result.substeps = setting.substeps;
     result.iterations = setting.iterations;
     result.passes = passes_of(model);

@@ -230,9 +230,9 @@ std::string report_csv(const Report& report) {
     for (const std::string& name : metrics) text += "," + name;
     text += "\n";
     for (const CaseResult& r : report.results) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, r.method, r.substeps,
-                            r.iterations, r.passes, r.stiffness_share, r.device_ms, r.device_ms_low, r.device_ms_high,
-                            r.wall_ms, r.diverged ? 1 : 0);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, named(r.method).name,
+                            r.substeps, r.iterations, r.passes, r.stiffness_share, r.device_ms, r.device_ms_low,
+                            r.device_ms_high, r.wall_ms, r.diverged ? 1 : 0);
         for (const std::string& name : metrics) {
             const auto metric = r.metrics.find(name);
             text += metric == r.metrics.end() ? "," : fmt::format(",{}", metric->second);

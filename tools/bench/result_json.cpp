@@ -8,7 +8,7 @@ Json::Value json_of(const CaseResult& result) {
     value["key"] = result.key;
     value["problem"] = result.problem;
     value["size"] = result.size;
-    value["method"] = result.method;
+    value["method"] = std::string(named(result.method).name);
     value["substeps"] = result.substeps;
     value["iterations"] = result.iterations;
     value["diverged"] = result.diverged;
@@ -35,7 +35,9 @@ std::optional<CaseResult> result_of(const Json::Value& value) {
     result.key = value["key"].asString();
     result.problem = value["problem"].asString();
     result.size = value["size"].asUInt();
-    result.method = value["method"].asString();
+    const auto method = std::ranges::find(solver_method_names, value["method"].asString(), &SolverMethodName::name);
+    if (method == solver_method_names.end()) return std::nullopt;
+    result.method = method->method;
     result.substeps = value["substeps"].asUInt();
     result.iterations = value["iterations"].asUInt();
     result.diverged = value["diverged"].asBool();

@@ -1,0 +1,16 @@
+// The few operations on double vectors that several rooms need.
+#pragma once
+
+#include <cmath>
+
+#include "scene/scene_description.h"
+
+namespace drape {
+
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace drape
