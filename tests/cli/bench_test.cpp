@@ -25,7 +25,7 @@ TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
     EXPECT_EQ(first.code, 0) << first.err;
     EXPECT_THAT(first.out, AllOf(HasSubstr("free fall/2/relax/16"), HasSubstr("met"), Not(HasSubstr("NOT MET")),
                                  Not(HasSubstr("swing"))));
-    EXPECT_THAT(first.err, AllOf(HasSubstr("6/6 free fall/2/line/16"), HasSubstr("ETA 0:00"),
+    EXPECT_THAT(first.err, AllOf(HasSubstr("6/6 free fall/2/relax/16"), HasSubstr("ETA 0:00"),
                                  HasSubstr("6 cases measured, 0 kept")));
     EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("\"format\": \"drape bench accuracy 1\""));
     EXPECT_THAT(read_text(folder / "a.csv"), HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
