@@ -100,7 +100,7 @@ std::string run_key(const std::vector<std::string>& parts) {
 }
 
 std::string frame_text(std::string_view run_key, std::uint64_t frame, const FrameValues& values) {
-    const std::string text = fmt::format("{} frame {}", run_key, frame);
+    std::string text = fmt::format("{} frame {}", run_key, frame);
     if (values.empty()) return text;
     Json::Value json(Json::objectValue);
     for (const auto& [name, value] : values) json[name] = value;
