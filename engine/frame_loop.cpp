@@ -16,7 +16,8 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
         const Cloth& cloth = model.scene.cloths[state.index];
         const Grid& grid = state.model->grid;
         cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.appearance,
-                          state.position, state.normal, state.triangles, state.index_count, state.cut_vertices});
+                          state[Field::position], state[Field::normal], state[Field::triangles], state.index_count,
+                          state[Field::cut_vertices]});
     }
     return cloths;
 }
@@ -104,8 +105,8 @@ bool FrameLoop::outgrown(const CutImages& before, const CutTopology& topology) c
     const auto other_size = [](std::size_t was, std::size_t is) {
         return (was == 0) != (is == 0) || draw_list_capacity(was) != draw_list_capacity(is);
     };
-    return options_.draw && (other_size(before.indices.size(), topology.indices().size()) ||
-                             other_size(before.vertices.size(), topology.vertices().size()));
+    return options_.draw && (other_size(before.index_count, topology.indices().size()) ||
+                             other_size(before.vertex_count, topology.vertices().size()));
 }
 
 void FrameLoop::rebuild_resources() {
@@ -136,9 +137,9 @@ void FrameLoop::build(FrameKind kind) {
         frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
                          "no picture is wanted");
     if (output && options_.normals)
-        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state.normal, "normal");
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::normal], "normal");
     if (output && options_.positions) {
-        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state.position, "position");
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::position], "position");
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }

@@ -35,7 +35,7 @@ struct MethodPlan {
     glsl::vec4 start{};  ///< displacement of free particles at the start, m: x(0) - x(-h), the half-kick start, or what
                          ///< else the prediction expects
 
-    // Fields that the steps need beside position and displacement with their rests.
+    // Fields that the steps need beside position and displacement with their remainders.
     bool spare_state = false;              ///< particles gather what springs do: a step reads one state, writes another
     bool second_order = false;             ///< displacement before, velocity excess, line control
     std::size_t line_spring_count = 0;     ///< springs of the largest direction, room of the line scratch

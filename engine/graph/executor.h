@@ -96,7 +96,7 @@ class PassContext {
     /// Throws GraphError when the shaders' push constants are no T.
     template <class T>
     void push(const vulkan::Pipeline& pipeline, const T& push_constants) {
-        push(pipeline, &vulkan::layout_of<T>(), std::as_bytes(std::span<const T>(&push_constants, 1)));
+        push(pipeline, &glsl::layout_of<T>(), std::as_bytes(std::span<const T>(&push_constants, 1)));
     }
 
   private:
@@ -112,7 +112,7 @@ class PassContext {
     /// Kind, format and element.
     void check_resource(const vulkan::Pipeline& pipeline, std::string_view variable, const Resource& resource) const;
     void push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
-    void push(const vulkan::Pipeline& pipeline, const vulkan::StructLayout* layout, std::span<const std::byte> bytes);
+    void push(const vulkan::Pipeline& pipeline, const glsl::StructLayout* layout, std::span<const std::byte> bytes);
     [[noreturn]] void refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;

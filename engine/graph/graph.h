@@ -13,7 +13,7 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan_core.h>
 
-#include "vulkan/struct_layout.h"
+#include "shared/struct_layout.h"
 
 namespace drape::graph {
 
@@ -66,8 +66,8 @@ struct BufferDeclaration {
     std::string name;
     std::uint64_t byte_count = 0;  ///< a positive multiple of 4
     Lifetime lifetime = Lifetime::transient;
-    /// What it is an array of (vulkan::layout_of); none: no shader may bind it.
-    const vulkan::StructLayout* element = nullptr;
+    /// What it is an array of (glsl::layout_of); none: no shader may bind it.
+    const glsl::StructLayout* element = nullptr;
 };
 
 /// A resource at a version. Writing returns a new handle and retires the old one.
@@ -149,7 +149,7 @@ class Graph {
     /// Of `count` elements T, which shaders that bind it must know under the same name and layout.
     template <class T>
     Handle buffer(std::string name, std::uint64_t count, Lifetime lifetime) {
-        return buffer({std::move(name), count * sizeof(T), lifetime, &vulkan::layout_of<T>()});
+        return buffer({std::move(name), count * sizeof(T), lifetime, &glsl::layout_of<T>()});
     }
     /// Runs `setup` now, keeps `execute` for recording.
     void add_pass(PassName name, const std::function<void(PassSetup&)>& setup,

@@ -146,7 +146,7 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
                               static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 
-void PassContext::push(const vulkan::Pipeline& pipeline, const vulkan::StructLayout* layout,
+void PassContext::push(const vulkan::Pipeline& pipeline, const glsl::StructLayout* layout,
                        std::span<const std::byte> bytes) {
     const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), layout);
     if (!difference.empty()) refuse(pipeline, "push constants", difference);

@@ -13,9 +13,9 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
     graph.add_pass(
         state.step_name(name, step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            update(setup, state.displacement, "displacement");
-            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            update(setup, state[Field::displacement], "displacement");
+            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.element_count.x),

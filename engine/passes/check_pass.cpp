@@ -8,30 +8,21 @@ namespace drape {
 
 namespace {
 
-std::uint32_t strip_count(const Grid& grid) {
-    constexpr auto rows = static_cast<std::uint32_t>(glsl::residual_rows);
-    return (grid.rows() + rows - 1) / rows;
-}
-
-std::uint32_t partial_count(const Grid& grid) {
-    constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
-    return (grid.columns() + width - 1) / width * strip_count(grid);
-}
-
 void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("residual.comp", {{"masked", state.masked()}}));
     const glsl::ResidualPush push = state.model->residual;
-    const StepDispatch dispatch(state, step, pipeline, state.model->grid.columns(), strip_count(state.model->grid));
+    const StepDispatch dispatch(state, step, pipeline, state.model->grid.columns(),
+                                residual_strip_count(state.model->grid));
     graph.add_pass(
         state.step_name("residual", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            setup.read(state.displacement, graph::Access::compute_read, "displacement");
-            setup.read(state.tension[0], graph::Access::compute_read, "tension_row");
-            setup.read(state.tension[1], graph::Access::compute_read, "tension_column");
-            state.residuals = setup.write(state.residuals, graph::Access::compute_write, "partials");
-            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
+            setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
+            setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");
+            state[Field::residuals] = setup.write(state[Field::residuals], graph::Access::compute_write, "partials");
+            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
@@ -44,21 +35,19 @@ void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     add_residual(graph, pipelines, state, step);
     const vulkan::ComputePipeline& pipeline = pipelines.get("iteration_decision.comp");
     const SolverSettings& solver = model.scene.solver;
-    const glsl::IterationPush push{static_cast<int>(partial_count(state.model->grid)), model.iteration_limit(),
+    const glsl::IterationPush push{static_cast<int>(residual_count(state.model->grid)), model.iteration_limit(),
                                    step.substep == 0 && step.iteration == 0 ? 1 : 0, static_cast<int>(solver.substeps)};
     const StepDispatch dispatch(state, step, pipeline, 1, 1);
     graph.add_pass(
         state.step_name("iteration decision", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.residuals, graph::Access::compute_read, "partials");
-            setup.read(state.iteration_size_list, graph::Access::compute_read, "sizes");
+            setup.read(state[Field::residuals], graph::Access::compute_read, "partials");
+            setup.read(state[Field::iteration_sizes], graph::Access::compute_read, "sizes");
             dispatch.declare(setup);
-            update_in_place(setup, state.iterations, "state");
+            update_in_place(setup, state[Field::iterations], "state");
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });
 }
-
-std::uint64_t residual_count(const Grid& grid) { return partial_count(grid); }
 
 std::string iteration_readback_name(const ClothModel& cloth) { return cloth.name + "/iterations on the host"; }
 
@@ -69,10 +58,10 @@ void add_iteration_readback(graph::Graph& graph, const ClothState& state) {
     graph.add_pass(
         state.pass_name("iteration readback", "statistics"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.iterations, graph::Access::transfer_read);
+            setup.read(state[Field::iterations], graph::Access::transfer_read);
             *target = setup.write(empty, graph::Access::transfer_write);
         },
-        [iterations = state.iterations, target](graph::PassContext& context) {
+        [iterations = state[Field::iterations], target](graph::PassContext& context) {
             const VkBufferCopy used{glsl::iteration_size_count * sizeof(glsl::uvec4), 0, sizeof(glsl::uvec4)};
             vkCmdCopyBuffer(context.commands(), context.buffer(iterations).handle(), context.buffer(*target).handle(),
                             1, &used);

@@ -10,9 +10,6 @@ namespace drape {
 void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SimulationModel& model,
                const Step& step);
 
-/// Elements of the buffer of residuals.
-std::uint64_t residual_count(const Grid& grid);
-
 /// Copies the number of iterations that the frame has run to the host.
 void add_iteration_readback(graph::Graph& graph, const ClothState& state);
 std::string iteration_readback_name(const ClothModel& cloth);

@@ -36,6 +36,36 @@ void write_buffer(const graph::ResourcePool& pool, std::uint32_t slot, const std
     std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
 }
 
+Lifetime lifetime_of(FieldLife life) {
+    switch (life) {
+        case FieldLife::frame:
+            return Lifetime::transient;
+        case FieldLife::constant:
+            return Lifetime::constant;
+        case FieldLife::input:
+            return Lifetime::host_input;
+        case FieldLife::state:
+        case FieldLife::device:
+            break;
+    }
+    return Lifetime::persistent;
+}
+
+VkFormat format_of(const FieldRow& row) {
+    if (&row.element == &glsl::layout_of<glsl::vec4>()) return VK_FORMAT_R32G32B32A32_SFLOAT;
+    return &row.element == &glsl::layout_of<float>() ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT;
+}
+
+graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const FieldContext& about) {
+    const FieldExtent extent = row.extent(about);
+    const std::string name = resource_name(about.cloth, row);
+    if (!row.is_image())
+        return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element});
+    return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
+                        static_cast<std::uint32_t>(extent.height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
+                        row.view == FieldView::image_and_buffer});
+}
+
 }  // namespace
 
 DeviceKind device_kind(const vulkan::DeviceInfo& device) {
@@ -64,72 +94,21 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
 }
 
+FieldContext ClothSolver::context(std::size_t cloth, const FrameNeeds& needs) const {
+    return {model_, model_.cloths[cloth], topologies_[cloth], needs};
+}
+
 void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs) {
-    const ClothModel& model = model_.cloths[index];
-    const auto image = [&](const std::string& part, Lifetime lifetime, VkFormat format, std::uint32_t smaller = 0) {
-        return graph.image({model.name + "/" + part, format, model.grid.columns() - smaller,
-                            model.grid.rows() - smaller, VK_SAMPLE_COUNT_1_BIT, lifetime});
-    };
-    constexpr VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const FieldContext about = context(index, needs);
     ClothState state;
-    state.model = &model;
-    state.topology = &topologies_[index];
+    state.model = &about.cloth;
+    state.topology = &about.topology;
     state.index = index;
-    state.position = image("position", Lifetime::persistent, vec4);
-    state.displacement = image("displacement", Lifetime::persistent, vec4);
-    state.position_rest = image("position rest", Lifetime::persistent, vec4);
-    state.displacement_rest = image("displacement rest", Lifetime::persistent, vec4);
-    if (model.plan.spare_state) {
-        state.position_spare = image("position spare", Lifetime::transient, vec4);
-        state.displacement_spare = image("displacement spare", Lifetime::transient, vec4);
-    }
-    declare_line(graph, state);
-    if (model_.windy) state.wind_force = image("wind force", Lifetime::transient, vec4);
-    if (needs.drawing) state.normal = image("normal", Lifetime::transient, vec4);
-    if (state.masked()) {
-        state.stiffness = image("stiffness", Lifetime::constant, vec4);
-        state.mass = image("mass share", Lifetime::constant, VK_FORMAT_R32_SFLOAT);
-        state.cells = image("cells", Lifetime::constant, VK_FORMAT_R32_UINT, 1);
-    }
-    for (std::size_t direction = 0; direction < 4; ++direction)
-        if (model.plan.carries_tension[direction] ||
-            ((needs.statistics || model_.adaptive()) && direction < stretch_direction_count))
-            state.tension[direction] = image("tension " + std::string(spring_directions[direction].name),
-                                             Lifetime::persistent, VK_FORMAT_R32_SFLOAT);
-    if (model_.adaptive()) declare_iterations(graph, state);
-    if (needs.drawing) declare_drawing(graph, state);
-    if (!model.tethers.empty())
-        state.tethers =
-            graph.buffer<glsl::ParticleTethers>(model.name + "/tethers", model.tethers.size(), Lifetime::constant);
-    if (!model.pinned.empty()) {
-        state.pinned = graph.buffer<glsl::PinnedParticle>(model.name + "/pinned particles", model.pinned.size(),
-                                                          Lifetime::constant);
-        state.pin_motions = graph.buffer<glsl::PinMotion>(model.name + "/pin motions",
-                                                          model.dynamic_pins.size() * model_.scene.solver.substeps,
-                                                          Lifetime::host_input);
-    }
+    state.index_count = static_cast<std::uint32_t>(about.topology.indices().size());
+    state.iteration_sizes = iteration_sizes_[index];
+    for (const FieldRow& row : cloth_fields())
+        if (row.needed(about)) state[row.field] = declare_field(graph, row, about);
     cloths_.push_back(state);
-}
-
-void ClothSolver::declare_iterations(graph::Graph& graph, ClothState& state) {
-    const std::string& name = state.model->name;
-    constexpr std::uint64_t list = glsl::iteration_size_count;
-    state.residuals =
-        graph.buffer<glsl::ResidualRecord>(name + "/residuals", residual_count(state.model->grid), Lifetime::transient);
-    state.iterations = graph.buffer<glsl::uvec4>(name + "/iterations", list + 1, Lifetime::persistent);
-    state.iteration_size_list = graph.buffer<glsl::uvec4>(name + "/iteration sizes", list, Lifetime::constant);
-    state.iteration_sizes = iteration_sizes_[state.index];
-}
-
-void ClothSolver::declare_drawing(graph::Graph& graph, ClothState& state) const {
-    const std::string& name = state.model->name;
-    const std::size_t index_count = state.topology->indices().size(), vertex_count = state.topology->vertices().size();
-    state.index_count = static_cast<std::uint32_t>(index_count);
-    const std::size_t room = model_.scene.cutters.empty() ? index_count : draw_list_capacity(index_count);
-    state.triangles = graph.buffer({name + "/triangles", room * sizeof(std::uint32_t), Lifetime::constant});
-    if (vertex_count == 0) return;
-    const std::size_t vertex_room = draw_list_capacity(vertex_count);
-    state.cut_vertices = graph.buffer<glsl::CutVertex>(name + "/cut vertices", vertex_room, Lifetime::constant);
 }
 
 void ClothSolver::add_cuts(graph::Graph& graph) {
@@ -210,41 +189,22 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
 }
 
 void ClothSolver::upload(const graph::ResourcePool& pool) const {
-    const auto image = [&](const ClothModel& cloth, const char* part, auto bytes) {
-        const std::string name = cloth.name + "/" + part;
-        if (pool.has(name)) vulkan::upload(pool.device(), pool.image(name), bytes);
-    };
-    const auto buffer = [&](const ClothModel& cloth, const char* part, auto bytes) {
-        const std::string name = cloth.name + "/" + part;
-        if (pool.has(name)) vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
-    };
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) {
-        const ClothModel& cloth = model_.cloths[index];
-        const std::vector<glsl::vec4> zero(cloth.grid.particle_count());
-        image(cloth, "position", bytes_of(cloth.position));
-        image(cloth, "displacement", bytes_of(cloth.start_displacement()));
-        image(cloth, "position rest", bytes_of(zero));
-        image(cloth, "displacement rest", bytes_of(zero));
-        image(cloth, "displacement before", bytes_of(zero));
-        image(cloth, "velocity excess", bytes_of(zero));
-        const std::vector<float> slack(cloth.grid.particle_count());
-        for (const SpringDirection& direction : spring_directions)
-            image(cloth, ("tension " + std::string(direction.name)).c_str(), bytes_of(slack));
-        const CutTopology& topology = topologies_[index];
-        if (topology.masked()) {
-            image(cloth, "stiffness", bytes_of(topology.spring_shares()));
-            image(cloth, "mass share", bytes_of(mass_shares(cloth)));
-            image(cloth, "cells", bytes_of(topology.grid().cells()));
+        const FieldContext about = context(index);
+        for (const FieldRow& row : cloth_fields()) {
+            const std::string name = resource_name(about.cloth, row);
+            if (!row.start || !pool.has(name)) continue;
+            const std::vector<std::byte> bytes = row.start(about);
+            if (row.is_image())
+                vulkan::upload(pool.device(), pool.image(name), bytes);
+            else
+                vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
         }
-        buffer(cloth, "triangles", bytes_of(topology.indices()));
-        buffer(cloth, "cut vertices", bytes_of(topology.vertices()));
-        buffer(cloth, "tethers", bytes_of(topology.tethers()));
-        buffer(cloth, "pinned particles", bytes_of(cloth.pinned));
-        if (model_.adaptive()) {
-            std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
-            sizes.resize(glsl::iteration_size_count);
-            buffer(cloth, "iteration sizes", bytes_of(sizes));
-        }
+        const std::string name = resource_name(about.cloth, row_of(Field::iteration_sizes));
+        if (!pool.has(name)) continue;
+        std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
+        sizes.resize(glsl::iteration_size_count);
+        vulkan::upload(pool.device(), pool.buffer(name), bytes_of(sizes));
     }
 }
 
@@ -257,7 +217,8 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
                          inputs.colliders[kind]);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
         if (!inputs.pins[cloth].empty())
-            write_buffer(pool, slot, model_.cloths[cloth].name + "/pin motions", inputs.pins[cloth]);
+            write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),
+                         inputs.pins[cloth]);
 }
 
 }  // namespace drape

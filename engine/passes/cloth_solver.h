@@ -12,29 +12,14 @@
 
 namespace drape {
 
-/// The host's copies of what a cut changes.
+/// What the host had put into a cloth's fields before a cut, by field.
 struct CutImages {
-    std::vector<glsl::vec4> spring_shares;
-    std::vector<std::uint32_t> cells, indices;
-    std::vector<glsl::CutVertex> vertices;
-    std::vector<glsl::ParticleTethers> tethers;
+    std::array<std::vector<std::byte>, field_count> fields;
+    std::size_t index_count, vertex_count;  ///< drawn
 };
-
-/// The images that carry a cloth from frame to frame, without the cloth's name; a scene may lack some.
-std::vector<std::string> state_image_parts();
-
-/// Elements that a draw list of `count` elements has room for: it grows in powers of two, so that few cuts need
-/// new buffers.
-std::size_t draw_list_capacity(std::size_t count);
 
 /// What method `auto` has to know of a device.
 DeviceKind device_kind(const vulkan::DeviceInfo& device);
-
-/// What a frame is for, beside simulating.
-struct FrameNeeds {
-    bool drawing = false;     ///< triangles and normals
-    bool statistics = false;  ///< the tension of the stretch springs
-};
 
 class ClothSolver {
   public:
@@ -59,11 +44,11 @@ class ClothSolver {
 
     /// Uploads the initial state, masks, triangles and pins to whatever of them the pool holds.
     void upload(const graph::ResourcePool& pool) const;
-    /// The persistent images of all cloths, by name: to carry the state over to new resources.
+    /// The fields of all cloths that are state, by resource: to carry the state over to new resources.
     std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
     void upload_state(const graph::ResourcePool& pool,
                       const std::map<std::string, std::vector<std::byte>>& state) const;
-    /// Uploads what of a cut cloth's stiffness, cells and draw lists differs from `before`.
+    /// Uploads what of a cut cloth's fields differs from `before`.
     void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
     /// What `upload_cut` compares with: copies of the host's side.
     CutImages cut_images(std::size_t cloth) const;
@@ -79,8 +64,7 @@ class ClothSolver {
     std::size_t pipeline_count() const { return pipelines_.size(); }
 
   private:
-    void declare_drawing(graph::Graph& graph, ClothState& state) const;
-    void declare_iterations(graph::Graph& graph, ClothState& state);
+    FieldContext context(std::size_t cloth, const FrameNeeds& needs = {}) const;
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 

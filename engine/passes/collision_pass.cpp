@@ -17,8 +17,8 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     graph.add_pass(
         state.step_name("collision", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            update(setup, state.displacement, "displacement");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            update(setup, state[Field::displacement], "displacement");
             read_colliders(setup, inputs);
             dispatch.declare(setup);
         },

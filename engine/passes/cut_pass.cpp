@@ -39,14 +39,14 @@ void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, g
     graph.add_pass(
         state.pass_name("cut", "cut"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, Access::compute_read, "position");
+            setup.read(state[Field::position], Access::compute_read, "position");
             (void)setup.write(flags, Access::compute_write, "cut_flags");
             (void)setup.write(fractions, Access::compute_write, "cut_fractions");
             setup.read(cutters, Access::compute_read, "cutters");
             update_in_place(setup, count, "count");
             if (!state.masked()) return;
-            setup.read(state.stiffness, Access::compute_read, "stiffness_image");
-            setup.read(state.cells, Access::compute_read, "cells");
+            setup.read(state[Field::stiffness], Access::compute_read, "stiffness_image");
+            setup.read(state[Field::cells], Access::compute_read, "cells");
         },
         [&pipeline, push = glsl::CutPush{grid.size(), static_cast<int>(cutter_count) * glsl::cutter_triangle_count, 0}](
             graph::PassContext& context) {

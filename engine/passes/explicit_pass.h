@@ -6,7 +6,7 @@
 namespace drape {
 
 /// Reads position, displacement [, wind_force, stiffness]; writes the spare images, which become position and
-/// displacement, and both rests. After the first substep of a frame it begins with X += d.
+/// displacement, and both remainders. After the first substep of a frame it begins with X += d.
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

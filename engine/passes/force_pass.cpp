@@ -3,18 +3,18 @@
 namespace drape {
 
 void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const bool wind = state.wind_force.valid();
+    const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("force.comp", {{"wind", wind}}), {{"advance", advances}});
     graph.add_pass(
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
-            update(setup, state.position, "position");
-            update(setup, state.displacement, "displacement");
-            update(setup, state.position_rest, "position_remainder");
-            update(setup, state.displacement_rest, "displacement_remainder");
-            if (wind) setup.read(state.wind_force, graph::Access::compute_read, "wind_force");
+            update(setup, state[Field::position], "position");
+            update(setup, state[Field::displacement], "displacement");
+            update(setup, state[Field::position_remainder], "position_remainder");
+            update(setup, state[Field::displacement_remainder], "displacement_remainder");
+            if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
         },
         [&pipeline, push = step.push<glsl::ForcePush>()](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
@@ -28,14 +28,14 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     graph.add_pass(
         state.pass_name("advance", "simulate"),
         [&](graph::PassSetup& setup) {
-            graph::Handle& home = state.away ? state.position_spare : state.position;
-            setup.read(state.position, graph::Access::compute_read, "position_in");
+            graph::Handle& home = state.away ? state[Field::position_spare] : state[Field::position];
+            setup.read(state[Field::position], graph::Access::compute_read, "position_in");
             home = setup.write(home, graph::Access::compute_write, "position_out");
-            setup.read(state.displacement, graph::Access::compute_read, "displacement_in");
-            update(setup, state.position_rest, "position_remainder");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
+            update(setup, state[Field::position_remainder], "position_remainder");
             if (state.away)
-                state.displacement_spare =
-                    setup.write(state.displacement_spare, graph::Access::compute_write, "displacement_out");
+                state[Field::displacement_spare] =
+                    setup.write(state[Field::displacement_spare], graph::Access::compute_write, "displacement_out");
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

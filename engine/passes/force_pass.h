@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// Reads and writes position, displacement and their rests; reads wind_force when the scene has wind.
+/// Reads and writes position, displacement and their remainders; reads wind_force when the scene has wind.
 void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 /// Position += displacement, so that the position image holds the state of the frame.

@@ -6,53 +6,30 @@
 
 namespace drape {
 
-namespace {
-
-constexpr VkFormat integer = VK_FORMAT_R32_UINT;
-
-}  // namespace
-
-void declare_line(graph::Graph& graph, ClothState& state) {
-    const ClothModel& model = *state.model;
-    const auto image = [&](const std::string& part, VkFormat format, std::uint32_t width, std::uint32_t height) {
-        return graph.image(
-            {model.name + "/" + part, format, width, height, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
-    };
-    // Persistent only because an invocation reads what it wrote itself: nothing in it outlives a pass.
-    if (model.plan.line_spring_count > 0)
-        state.line_scratch = graph.buffer<glsl::vec2>(model.name + "/line scratch", model.plan.line_spring_count,
-                                                      graph::Lifetime::persistent);
-    if (!model.plan.second_order) return;
-    constexpr VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
-    state.displacement_before = image("displacement before", vec4, model.grid.columns(), model.grid.rows());
-    state.velocity_excess = image("velocity excess", vec4, model.grid.columns(), model.grid.rows());
-    state.line_control = image("line control", integer, glsl::control_texel_count, 1);
-}
-
 void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get("line_control.comp");
     graph.add_pass(
         state.step_name("line control", step),
-        [&](graph::PassSetup& setup) { update(setup, state.line_control, "control"); },
+        [&](graph::PassSetup& setup) { update(setup, state[Field::line_control], "control"); },
         [&pipeline](graph::PassContext& context) { context.dispatch(pipeline, 1, 1); });
 }
 
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const bool wind = state.wind_force.valid();
+    const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("predict.comp", {{"wind", wind}}), {{"advance", advances}});
     graph.add_pass(
         state.step_name("predict", step),
         [&](graph::PassSetup& setup) {
-            update(setup, state.position, "position");
-            update(setup, state.displacement, "displacement");
-            update(setup, state.position_rest, "position_remainder");
-            update(setup, state.displacement_rest, "displacement_remainder");
-            if (wind) setup.read(state.wind_force, graph::Access::compute_read, "wind_force");
-            update(setup, state.displacement_before, "displacement_before");
-            update(setup, state.velocity_excess, "velocity_excess");
-            setup.read(state.line_control, graph::Access::compute_read, "control");
+            update(setup, state[Field::position], "position");
+            update(setup, state[Field::displacement], "displacement");
+            update(setup, state[Field::position_remainder], "position_remainder");
+            update(setup, state[Field::displacement_remainder], "displacement_remainder");
+            if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
+            update(setup, state[Field::displacement_before], "displacement_before");
+            update(setup, state[Field::velocity_excess], "velocity_excess");
+            setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
         [&pipeline, push = step.push<glsl::PredictPush>()](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
@@ -66,7 +43,7 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
     const bool stores_tension =
-        state.tension[direction].valid() && (model.plan.carries_tension[direction] || (step.last && !model.rigid));
+        state[tension_of(direction)].valid() && (model.plan.carries_tension[direction] || (step.last && !model.rigid));
     const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
         "line.comp",
         {{"second_order", model.plan.second_order}, {"masked", state.masked()}, {"tension", stores_tension}}));
@@ -74,12 +51,12 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            update(setup, state.displacement, "displacement");
-            update_in_place(setup, state.line_scratch, "scratch");
-            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
-            if (stores_tension) update(setup, state.tension[direction], "tension");
-            if (model.plan.second_order) update_in_place(setup, state.line_control, "control");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            update(setup, state[Field::displacement], "displacement");
+            update_in_place(setup, state[Field::line_scratch], "scratch");
+            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (stores_tension) update(setup, state[tension_of(direction)], "tension");
+            if (model.plan.second_order) update_in_place(setup, state[Field::line_control], "control");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

@@ -5,14 +5,11 @@
 
 namespace drape {
 
-/// Declares the images and the buffer of the line solver.
-void declare_line(graph::Graph& graph, ClothState& state);
-
 /// Decides whether the substep is BDF2 or backward Euler: reads and writes the control.
 void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
-/// Reads and writes position, displacement, their rests and the history; reads the control, and wind_force when the
-/// scene has wind.
+/// Reads and writes position, displacement, their remainders and the history; reads the control, and wind_force when
+/// the scene has wind.
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 /// Reads position, reads and writes displacement; stiffness, tension and control where the cloth has them.

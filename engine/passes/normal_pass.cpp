@@ -8,9 +8,9 @@ void add_normals(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     graph.add_pass(
         state.pass_name("normals", "normals"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            state.normal = setup.write(state.normal, graph::Access::compute_write, "normal");
-            if (state.masked()) setup.read(state.cells, graph::Access::compute_read, "cells");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            state[Field::normal] = setup.write(state[Field::normal], graph::Access::compute_write, "normal");
+            if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

@@ -19,9 +19,13 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
     return *pipeline;
 }
 
+std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
+    return cloth.name + "/" + std::string(row.name);
+}
+
 void ClothState::turn() {
-    std::swap(position, position_spare);
-    std::swap(displacement, displacement_spare);
+    std::swap((*this)[Field::position], (*this)[Field::position_spare]);
+    std::swap((*this)[Field::displacement], (*this)[Field::displacement_spare]);
     away = !away;
 }
 

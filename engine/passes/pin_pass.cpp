@@ -15,9 +15,9 @@ void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
     graph.add_pass(
         state.step_name("pin release", step),
         [&](graph::PassSetup& setup) {
-            update(setup, state.position, "position");
-            setup.read(state.pinned, graph::Access::compute_read, "pins");
-            setup.read(state.pin_motions, graph::Access::compute_read, "motions");
+            update(setup, state[Field::position], "position");
+            setup.read(state[Field::pinned_particles], graph::Access::compute_read, "pins");
+            setup.read(state[Field::pin_motions], graph::Access::compute_read, "motions");
         },
         [&pipeline, push = pin_push(*state.model, step)](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.particle_count), 1);
@@ -29,10 +29,11 @@ void add_pin_motion(graph::Graph& graph, PipelineCache& pipelines, ClothState& s
     graph.add_pass(
         state.step_name("pin motion", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            state.displacement = setup.write(state.displacement, graph::Access::compute_write, "displacement");
-            setup.read(state.pinned, graph::Access::compute_read, "pins");
-            setup.read(state.pin_motions, graph::Access::compute_read, "motions");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            state[Field::displacement] =
+                setup.write(state[Field::displacement], graph::Access::compute_write, "displacement");
+            setup.read(state[Field::pinned_particles], graph::Access::compute_read, "pins");
+            setup.read(state[Field::pin_motions], graph::Access::compute_read, "motions");
         },
         [&pipeline, push = pin_push(*state.model, step)](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.particle_count), 1);

@@ -10,7 +10,7 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     glsl::SpringPush push = step.push<glsl::SpringPush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
-    const bool stores_tension = state.tension[direction].valid() &&
+    const bool stores_tension = state[tension_of(direction)].valid() &&
                                 (state.model->plan.carries_tension[direction] || (step.last && push.compliance > 0));
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("spring.comp", {{"masked", state.masked()}, {"tension", stores_tension}}));
@@ -20,10 +20,10 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     graph.add_pass(
         state.step_name(name, step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            update(setup, state.displacement, "displacement");
-            if (state.masked()) setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
-            if (stores_tension) update(setup, state.tension[direction], "tension");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            update(setup, state[Field::displacement], "displacement");
+            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (stores_tension) update(setup, state[tension_of(direction)], "tension");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

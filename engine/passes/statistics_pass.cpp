@@ -30,14 +30,14 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
     graph.add_pass(
         state.pass_name("statistics", "statistics"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            setup.read(state.displacement, graph::Access::compute_read, "displacement");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
             records = setup.write(records, graph::Access::compute_write, "partials");
-            setup.read(state.tension[0], graph::Access::compute_read, "tension_row");
-            setup.read(state.tension[1], graph::Access::compute_read, "tension_column");
+            setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
+            setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");
             if (state.masked()) {
-                setup.read(state.stiffness, graph::Access::compute_read, "stiffness_image");
-                setup.read(state.mass, graph::Access::compute_read, "mass_image");
+                setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+                setup.read(state[Field::mass_share], graph::Access::compute_read, "mass_image");
             }
             if (collides) read_colliders(setup, inputs);
         },

@@ -25,7 +25,7 @@ StepDispatch::StepDispatch(const ClothState& state, const Step& step, const vulk
     : pipeline_(&pipeline), width_(width), height_(height) {
     if (!step.conditional) return;
     const auto [x, y, z] = pipeline.local_size();
-    sizes_ = state.iterations;
+    sizes_ = state[Field::iterations];
     slot_ = slot_of(*state.iteration_sizes, {(width + x - 1) / x, (height + y - 1) / y, 1, 0});
 }
 

@@ -7,10 +7,12 @@ void add_tension(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     graph.add_pass(
         state.pass_name("tension", "statistics"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            setup.read(state.displacement, graph::Access::compute_read, "displacement");
-            state.tension[0] = setup.write(state.tension[0], graph::Access::compute_write, "tension_row");
-            state.tension[1] = setup.write(state.tension[1], graph::Access::compute_write, "tension_column");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
+            state[Field::tension_row] =
+                setup.write(state[Field::tension_row], graph::Access::compute_write, "tension_row");
+            state[Field::tension_column] =
+                setup.write(state[Field::tension_column], graph::Access::compute_write, "tension_column");
         },
         [&pipeline, push = *state.model->plan.gathered_tension](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

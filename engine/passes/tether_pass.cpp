@@ -7,9 +7,9 @@ void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     graph.add_pass(
         state.step_name("tethers", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            update(setup, state.displacement, "displacement");
-            setup.read(state.tethers, graph::Access::compute_read, "tethers");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            update(setup, state[Field::displacement], "displacement");
+            setup.read(state[Field::tethers], graph::Access::compute_read, "tethers");
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

@@ -12,11 +12,12 @@ void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     graph.add_pass(
         state.step_name("wind", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state.position, graph::Access::compute_read, "position");
-            setup.read(state.displacement, graph::Access::compute_read, "displacement");
-            state.wind_force = setup.write(state.wind_force, graph::Access::compute_write, "wind_force");
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
+            state[Field::wind_force] =
+                setup.write(state[Field::wind_force], graph::Access::compute_write, "wind_force");
             setup.read(inputs.wind, graph::Access::compute_read, "wind");
-            if (state.masked()) setup.read(state.cells, graph::Access::compute_read, "cells");
+            if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

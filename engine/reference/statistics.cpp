@@ -55,9 +55,9 @@ class Reduction {
 
     StatisticsRecord statistics_of(ivec2 particle) const {
         const std::size_t index = at(particle);
-        const vec4 position = state_.position[index];
+        const vec4 position = state_[Field::position][index];
         const float share = state_.topology.masked() ? masses_[index] : border_mass_share(particle, push_.grid);
-        StatisticsRecord record = particle_statistics(xyz(position), xyz(state_.displacement[index]), share,
+        StatisticsRecord record = particle_statistics(xyz(position), xyz(state_[Field::displacement][index]), share,
                                                       xyz(push_.reference), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
@@ -71,10 +71,10 @@ class Reduction {
         if (!inside(second)) return record;
         const float share = state_.topology.masked() ? component(state_.topology.spring_shares()[at(first)], direction)
                                                      : border_stiffness(first, offset, push_.grid);
-        const float tension = direction < 2 ? state_.tension[static_cast<std::size_t>(direction)][at(first)] : 0.0f;
-        return add_spring_strain(record, xyz(state_.position[at(first)]), xyz(state_.position[at(second)]),
-                                 component(push_.rest_length, direction), component(push_.half_stiffness, direction),
-                                 share, tension, direction >= 2);
+        const float tension = direction < 2 ? state_.tension(static_cast<std::size_t>(direction))[at(first)] : 0.0f;
+        return add_spring_strain(record, xyz(state_[Field::position][at(first)]),
+                                 xyz(state_[Field::position][at(second)]), component(push_.rest_length, direction),
+                                 component(push_.half_stiffness, direction), share, tension, direction >= 2);
     }
 
     float penetration(vec3 position) const {

@@ -1,5 +1,7 @@
 #include "reference/twin.h"
 
+#include <cstring>
+
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 
@@ -21,27 +23,36 @@ void for_triangles_around(const Grid& grid, ivec2 particle, const Visit& visit) 
 
 }  // namespace
 
-Twin::Twin(const SimulationModel& model) : model_(model) {
-    for (const ClothModel& cloth : model.cloths) {
-        TwinCloth state(cloth);
-        const std::size_t count = cloth.grid.particle_count();
-        state.position = cloth.position;
-        state.displacement = cloth.start_displacement();
-        state.position_rest.resize(count);
-        state.displacement_rest.resize(count);
-        state.normal.resize(count);
-        if (model.windy) state.wind_force.resize(count);
-        if (cloth.plan.spare_state) {
-            state.position_spare.resize(count);
-            state.displacement_spare.resize(count);
-        }
-        if (cloth.plan.second_order) {
-            state.displacement_before.resize(count);
-            state.velocity_excess.resize(count);
-        }
-        for (std::vector<float>& tension : state.tension) tension.resize(count);
-        cloths_.push_back(std::move(state));
+TwinCloth::TwinCloth(const SimulationModel& model, std::size_t cloth) : topology(model.cloths[cloth]) {
+    const FieldContext about{model, model.cloths[cloth], topology, {.drawing = true, .statistics = true}};
+    const auto fill = [&](auto& values, const FieldRow& row) {
+        values.resize(row.extent(about).count());
+        if (!row.start) return;
+        const std::vector<std::byte> bytes = row.start(about);
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+    };
+    for (const FieldRow& row : cloth_fields()) {
+        const bool computed = row.life == FieldLife::state || row.life == FieldLife::frame;
+        if (!row.is_image() || !computed || !row.needed(about)) continue;
+        const auto place = static_cast<std::size_t>(row.field);
+        if (&row.element == &layout_of<vec4>())
+            fill(vectors[place], row);
+        else if (&row.element == &layout_of<float>())
+            fill(scalars[place], row);
+        else
+            fill(integer_fields[place], row);
     }
+}
+
+std::span<const std::byte> TwinCloth::bytes(Field field) const {
+    const auto place = static_cast<std::size_t>(field);
+    if (!vectors[place].empty()) return std::as_bytes(std::span(vectors[place]));
+    if (!scalars[place].empty()) return std::as_bytes(std::span(scalars[place]));
+    return std::as_bytes(std::span(integer_fields[place]));
+}
+
+Twin::Twin(const SimulationModel& model) : model_(model) {
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
 }
 
 void Twin::run_frame(std::uint32_t frame) {
@@ -97,7 +108,7 @@ void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<
     const std::size_t first = substep * model.dynamic_pins.size();
     for (const PinnedParticle& pin : model.pinned) {
         if (motions[first + static_cast<std::size_t>(pin.index.z)].held.x != 0.0f) continue;
-        vec4& position = state.position[at(model.grid, {pin.index.x, pin.index.y})];
+        vec4& position = state[Field::position][at(model.grid, {pin.index.x, pin.index.y})];
         if (position.w == 0.0f) position.w = pin.rest.w;
     }
 }
@@ -107,8 +118,8 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
     const bool advance = substep > 0;
     const WindPush& push = model.wind;
     const auto now = [&](std::size_t index) {
-        const vec3 start = xyz(state.position[index]);
-        return advance ? start + xyz(state.displacement[index]) : start;
+        const vec3 start = xyz(state[Field::position][index]);
+        return advance ? start + xyz(state[Field::displacement][index]) : start;
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
@@ -119,33 +130,35 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
                     const ivec2 offset = triangle_corner(which, k);
                     corner[k] = at(model.grid, {cell.x + offset.x, cell.y + offset.y});
                 }
-                sum = add_wind_share(sum, now(corner[0]), now(corner[1]), now(corner[2]),
-                                     xyz(state.displacement[corner[0]]), xyz(state.displacement[corner[1]]),
-                                     xyz(state.displacement[corner[2]]), push.inverse_step, velocity,
-                                     push.drag_coefficient, push.lift_coefficient);
+                sum = add_wind_share(
+                    sum, now(corner[0]), now(corner[1]), now(corner[2]), xyz(state[Field::displacement][corner[0]]),
+                    xyz(state[Field::displacement][corner[1]]), xyz(state[Field::displacement][corner[2]]),
+                    push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient);
             });
-            state.wind_force[at(model.grid, {x, y})] = texel(sum);
+            state[Field::wind_force][at(model.grid, {x, y})] = texel(sum);
         }
 }
 
 void Twin::force(TwinCloth& state, const Step& step) {
     const auto& push = step.push<ForcePush>();
     const bool advance = step.substep > 0;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        const vec4 position = state.position[i];
-        const vec3 displacement = xyz(state.displacement[i]);
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const vec4 position = state[Field::position][i];
+        const vec3 displacement = xyz(state[Field::displacement][i]);
         if (advance) {
-            const CompensatedSum advanced = compensated_add(xyz(position), displacement, xyz(state.position_rest[i]));
-            state.position[i] = texel(advanced.value, position.w);
-            state.position_rest[i] = texel(advanced.rest);
+            const CompensatedSum advanced =
+                compensated_add(xyz(position), displacement, xyz(state[Field::position_remainder][i]));
+            state[Field::position][i] = texel(advanced.value, position.w);
+            state[Field::position_remainder][i] = texel(advanced.remainder);
         }
         if (position.w == 0.0f) continue;
-        const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
+        const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
         const vec3 increment = verlet_increment(displacement, xyz(push.gravity_step), applied, position.w,
                                                 push.force_step, push.damping_loss);
-        const CompensatedSum predicted = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
-        state.displacement[i] = texel(predicted.value);
-        state.displacement_rest[i] = texel(predicted.rest);
+        const CompensatedSum predicted =
+            compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
+        state[Field::displacement][i] = texel(predicted.value);
+        state[Field::displacement_remainder][i] = texel(predicted.remainder);
     }
 }
 
@@ -156,13 +169,13 @@ void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinM
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
         if (motion.held.x == 0.0f) continue;
         const std::size_t i = at(model.grid, {pin.index.x, pin.index.y});
-        state.displacement[i] = texel(pin_displacement(motion, xyz(pin.rest), xyz(state.position[i])));
+        state[Field::displacement][i] = texel(pin_displacement(motion, xyz(pin.rest), xyz(state[Field::position][i])));
     }
 }
 
 void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<SpringPush>();
-    std::vector<float>& tensions = state.tension[static_cast<std::size_t>(push.channel)];
+    std::vector<float>& tensions = state.tension(static_cast<std::size_t>(push.channel));
     const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
     for (int py = 0; py < push.pair_count.y; ++py)
         for (int px = 0; px < push.pair_count.x; ++px) {
@@ -172,15 +185,17 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             const float share = state.topology.masked() ? component(state.topology.spring_shares()[first], push.channel)
                                                         : border_stiffness(owner, push.offset, push.grid);
             const float tension = carried ? tensions[first] : 0.0f;
-            const float weight_first = state.position[first].w, weight_second = state.position[second].w;
-            const vec3 moved_first = xyz(state.displacement[first]), moved_second = xyz(state.displacement[second]);
-            const vec3 edge =
-                spring_edge(xyz(state.position[first]), xyz(state.position[second]), moved_first, moved_second);
+            const float weight_first = state[Field::position][first].w,
+                        weight_second = state[Field::position][second].w;
+            const vec3 moved_first = xyz(state[Field::displacement][first]),
+                       moved_second = xyz(state[Field::displacement][second]);
+            const vec3 edge = spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
+                                          moved_first, moved_second);
             const SpringResult result =
                 project_spring(edge, weight_first + weight_second, push.rest_length, share, push.compliance, tension);
-            state.displacement[first] = texel(moved_by(moved_first, result.correction, -weight_first));
-            state.displacement[second] = texel(moved_by(moved_second, result.correction, weight_second));
-            tensions[first] = result.tension;
+            state[Field::displacement][first] = texel(moved_by(moved_first, result.correction, -weight_first));
+            state[Field::displacement][second] = texel(moved_by(moved_second, result.correction, weight_second));
+            if (!tensions.empty()) tensions[first] = result.tension;
         }
 }
 
@@ -192,10 +207,10 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
     const int counts[4] = {push.count.x, push.count.y, push.count.z, push.count.w};
     using ContactFunction = Contact (*)(Collider, vec3, vec3, float, float);
     constexpr ContactFunction contacts[4] = {plane_contact, sphere_contact, box_contact, ellipsoid_contact};
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        if (state.position[i].w == 0.0f) continue;
-        const vec3 start = xyz(state.position[i]);
-        vec3 displacement = xyz(state.displacement[i]);
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        if (state[Field::position][i].w == 0.0f) continue;
+        const vec3 start = xyz(state[Field::position][i]);
+        vec3 displacement = xyz(state[Field::displacement][i]);
         for (std::uint32_t round = 0; round < model_.collision_rounds(); ++round) {
             float deepest = 0.0f;
             for (std::size_t kind = 0; kind < 4; ++kind)
@@ -208,35 +223,36 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
                 }
             if (!(deepest > push.contact.z)) break;
         }
-        state.displacement[i] = texel(displacement);
+        state[Field::displacement][i] = texel(displacement);
     }
 }
 
 void Twin::tether(TwinCloth& state) {
     const std::vector<ParticleTethers>& tethers = state.topology.tethers();
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        if (state.position[i].w == 0.0f) continue;
-        vec3 moved = xyz(state.displacement[i]);
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        if (state[Field::position][i].w == 0.0f) continue;
+        vec3 moved = xyz(state[Field::displacement][i]);
         const auto apply = [&](int anchor, float length) {
             if (anchor < 0) return;
             const auto a = static_cast<std::size_t>(anchor);
-            if (state.position[a].w != 0.0f) return;
-            const vec3 edge =
-                spring_edge(xyz(state.position[a]), xyz(state.position[i]), xyz(state.displacement[a]), moved);
+            if (state[Field::position][a].w != 0.0f) return;
+            const vec3 edge = spring_edge(xyz(state[Field::position][a]), xyz(state[Field::position][i]),
+                                          xyz(state[Field::displacement][a]), moved);
             moved = moved_by(moved, tether_correction(edge, length), 1.0f);
         };
         apply(tethers[i].anchor_a, tethers[i].length_a);
         apply(tethers[i].anchor_b, tethers[i].length_b);
-        state.displacement[i] = texel(moved);
+        state[Field::displacement][i] = texel(moved);
     }
 }
 
 void Twin::advance(TwinCloth& state) {
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const CompensatedSum advanced =
-            compensated_add(xyz(state.position[i]), xyz(state.displacement[i]), xyz(state.position_rest[i]));
-        state.position[i] = texel(advanced.value, state.position[i].w);
-        state.position_rest[i] = texel(advanced.rest);
+            compensated_add(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]),
+                            xyz(state[Field::position_remainder][i]));
+        state[Field::position][i] = texel(advanced.value, state[Field::position][i].w);
+        state[Field::position_remainder][i] = texel(advanced.remainder);
     }
 }
 
@@ -250,11 +266,11 @@ void Twin::normals(std::size_t index) {
                 vec3 corner[3];
                 for (int k = 0; k < 3; ++k) {
                     const ivec2 offset = triangle_corner(which, k);
-                    corner[k] = xyz(state.position[at(grid, {cell.x + offset.x, cell.y + offset.y})]);
+                    corner[k] = xyz(state[Field::position][at(grid, {cell.x + offset.x, cell.y + offset.y})]);
                 }
                 sum = add_area_vector(sum, corner[0], corner[1], corner[2]);
             });
-            state.normal[at(grid, {x, y})] = texel(unit_or_zero(sum));
+            state[Field::normal][at(grid, {x, y})] = texel(unit_or_zero(sum));
         }
 }
 

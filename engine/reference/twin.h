@@ -6,22 +6,37 @@
 #include <array>
 #include <vector>
 
+#include "cloth/cloth_state.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/schedule.h"
 
 namespace drape {
 
-/// The images of one cloth, one texel per particle, row by row (units: metres, newtons).
+/// The fields of one cloth that the passes compute, row by row, and what cuts made of it. A field that the cloth does
+/// not need, or that holds something else, is empty.
 struct TwinCloth {
-    explicit TwinCloth(const ClothGeometry& cloth) : topology(cloth) {}
+    TwinCloth(const SimulationModel& model, std::size_t cloth);
 
-    std::vector<glsl::vec4> position, displacement, position_rest, displacement_rest, wind_force, normal;
-    std::vector<glsl::vec4> position_spare, displacement_spare;    ///< explicit: where the next micro-step writes
-    std::vector<glsl::vec4> displacement_before, velocity_excess;  ///< line in second order
-    std::array<std::uint32_t, glsl::control_texel_count> line_control{};  ///< likewise
-    /// m, per spring direction, by first particle: what the tension applied in the last substep would stretch it by.
-    std::array<std::vector<float>, 4> tension;
+    std::vector<glsl::vec4>& operator[](Field field) { return vectors[static_cast<std::size_t>(field)]; }
+    const std::vector<glsl::vec4>& operator[](Field field) const { return vectors[static_cast<std::size_t>(field)]; }
+    /// m, by first particle: what the tension applied in the last substep would stretch a spring by.
+    std::vector<float>& tension(std::size_t direction) {
+        return scalars[static_cast<std::size_t>(tension_of(direction))];
+    }
+    const std::vector<float>& tension(std::size_t direction) const {
+        return scalars[static_cast<std::size_t>(tension_of(direction))];
+    }
+    std::vector<glsl::uint>& integers(Field field) { return integer_fields[static_cast<std::size_t>(field)]; }
+    const std::vector<glsl::uint>& integers(Field field) const {
+        return integer_fields[static_cast<std::size_t>(field)];
+    }
+    /// Whatever the field holds.
+    std::span<const std::byte> bytes(Field field) const;
+
+    std::array<std::vector<glsl::vec4>, field_count> vectors;
+    std::array<std::vector<float>, field_count> scalars;
+    std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
     bool iterates = true;               ///< what the last check found: conditional steps run
     std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive

@@ -23,17 +23,17 @@ void Twin::bend(TwinCloth& state, const Step& step) {
             vec3 start[3], moved[3];
             float weight[3];
             for (std::size_t k = 0; k < 3; ++k) {
-                start[k] = xyz(state.position[i[k]]);
-                moved[k] = xyz(state.displacement[i[k]]);
-                weight[k] = state.position[i[k]].w;
+                start[k] = xyz(state[Field::position][i[k]]);
+                moved[k] = xyz(state[Field::displacement][i[k]]);
+                weight[k] = state[Field::position][i[k]].w;
             }
             const vec3 difference = second_difference(spring_edge(start[1], start[0], moved[1], moved[0]),
                                                       spring_edge(start[1], start[2], moved[1], moved[2]));
             const vec3 correction = project_bend(difference, bend_weight(weight[0], weight[1], weight[2]),
                                                  bend_share(share(first), share(middle)), push.compliance);
-            state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
-            state.displacement[i[1]] = texel(moved_by(moved[1], correction, -2.0f * weight[1]));
-            state.displacement[i[2]] = texel(moved_by(moved[2], correction, weight[2]));
+            state[Field::displacement][i[0]] = texel(moved_by(moved[0], correction, weight[0]));
+            state[Field::displacement][i[1]] = texel(moved_by(moved[1], correction, -2.0f * weight[1]));
+            state[Field::displacement][i[2]] = texel(moved_by(moved[2], correction, weight[2]));
         }
 }
 
@@ -50,19 +50,19 @@ void Twin::twist(TwinCloth& state, const Step& step) {
             vec3 start[4], moved[4];
             float weight[4];
             for (std::size_t k = 0; k < 4; ++k) {
-                start[k] = xyz(state.position[i[k]]);
-                moved[k] = xyz(state.displacement[i[k]]);
-                weight[k] = state.position[i[k]].w;
+                start[k] = xyz(state[Field::position][i[k]]);
+                moved[k] = xyz(state[Field::displacement][i[k]]);
+                weight[k] = state[Field::position][i[k]].w;
             }
             const float share = topology.masked() ? twist_share(shares[i[0]], shares[i[1]], shares[i[2]]) : 1.0f;
             const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
                                                      spring_edge(start[2], start[3], moved[2], moved[3]));
             const vec3 correction = project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]),
                                                  share, push.compliance);
-            state.displacement[i[0]] = texel(moved_by(moved[0], correction, weight[0]));
-            state.displacement[i[1]] = texel(moved_by(moved[1], correction, -weight[1]));
-            state.displacement[i[2]] = texel(moved_by(moved[2], correction, -weight[2]));
-            state.displacement[i[3]] = texel(moved_by(moved[3], correction, weight[3]));
+            state[Field::displacement][i[0]] = texel(moved_by(moved[0], correction, weight[0]));
+            state[Field::displacement][i[1]] = texel(moved_by(moved[1], correction, -weight[1]));
+            state[Field::displacement][i[2]] = texel(moved_by(moved[2], correction, -weight[2]));
+            state[Field::displacement][i[3]] = texel(moved_by(moved[3], correction, weight[3]));
         }
 }
 

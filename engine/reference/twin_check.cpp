@@ -25,11 +25,11 @@ ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model
     const ivec2 second{first.x + offset.x, first.y + offset.y};
     if (second.x >= model.residual.grid.x || second.y >= model.residual.grid.y) return record;
     const std::size_t a = at(model.grid, first), b = at(model.grid, second);
-    const vec3 edge = spring_edge(xyz(state.position[a]), xyz(state.position[b]), xyz(state.displacement[a]),
-                                  xyz(state.displacement[b]));
+    const vec3 edge = spring_edge(xyz(state[Field::position][a]), xyz(state[Field::position][b]),
+                                  xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b]));
     return add_residual(record, edge, channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y,
                         state.topology.masked() ? component(state.topology.spring_shares()[a], channel) : 1.0f,
-                        state.tension[static_cast<std::size_t>(channel)][a]);
+                        state.tension(static_cast<std::size_t>(channel))[a]);
 }
 
 ResidualRecord strip(const ClothModel& model, const TwinCloth& state, ivec2 first) {

@@ -19,9 +19,9 @@ struct Before {
 
     std::size_t index(ivec2 p) const { return at(state.topology.grid(), p); }
     vec3 edge(ivec2 from, ivec2 to) const {
-        const vec3 first = xyz(state.position[index(from)]), second = xyz(state.position[index(to)]);
-        return advance ? spring_edge(first, second, xyz(state.displacement[index(from)]),
-                                     xyz(state.displacement[index(to)]))
+        const vec3 first = xyz(state[Field::position][index(from)]), second = xyz(state[Field::position][index(to)]);
+        return advance ? spring_edge(first, second, xyz(state[Field::displacement][index(from)]),
+                                     xyz(state[Field::displacement][index(to)]))
                        : second - first;
     }
     float share(ivec2 owner, ivec2 offset, int channel) const {
@@ -34,7 +34,8 @@ struct Before {
             if (around.z >= 2 && push.stiffness.z == 0.0f) continue;
             const ivec2 offset{around.x, around.y}, there{here.x + around.x, here.y + around.y};
             if (!inside(there, push.grid)) continue;
-            const vec3 closing = xyz(state.displacement[index(there)]) - xyz(state.displacement[index(here)]);
+            const vec3 closing =
+                xyz(state[Field::displacement][index(there)]) - xyz(state[Field::displacement][index(here)]);
             const float stiffness =
                 component(push.stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
             sum = add_pull(sum, edge(here, there), closing, component(push.rest_length, around.z), stiffness,
@@ -85,33 +86,34 @@ void Twin::explicit_step(TwinCloth& state, const Step& step) {
     const auto& push = step.push<ExplicitPush>();
     const bool advance = step.substep > 0;
     const Before before{state, push, advance};
-    std::vector<vec4>& position_out = state.position_spare;
-    std::vector<vec4>& displacement_out = state.displacement_spare;
+    std::vector<vec4>& position_out = state[Field::position_spare];
+    std::vector<vec4>& displacement_out = state[Field::displacement_spare];
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
             const std::size_t i = at(state.topology.grid(), {x, y});
-            const vec4 position = state.position[i];
-            const vec3 displacement = xyz(state.displacement[i]);
+            const vec4 position = state[Field::position][i];
+            const vec3 displacement = xyz(state[Field::displacement][i]);
             position_out[i] = position;
             displacement_out[i] = texel(displacement);
             if (advance) {
                 const CompensatedSum advanced =
-                    compensated_add(xyz(position), displacement, xyz(state.position_rest[i]));
+                    compensated_add(xyz(position), displacement, xyz(state[Field::position_remainder][i]));
                 position_out[i] = texel(advanced.value, position.w);
-                state.position_rest[i] = texel(advanced.rest);
+                state[Field::position_remainder][i] = texel(advanced.remainder);
             }
             if (position.w == 0.0f) continue;
-            const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
+            const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
             const vec3 increment =
                 explicit_increment(displacement, xyz(push.gravity_step), applied,
                                    before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
                                    push.force_step, push.damping_loss);
-            const CompensatedSum stepped = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
+            const CompensatedSum stepped =
+                compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
             displacement_out[i] = texel(stepped.value);
-            state.displacement_rest[i] = texel(stepped.rest);
+            state[Field::displacement_remainder][i] = texel(stepped.remainder);
         }
-    std::swap(state.position, state.position_spare);
-    std::swap(state.displacement, state.displacement_spare);
+    std::swap(state[Field::position], state[Field::position_spare]);
+    std::swap(state[Field::displacement], state[Field::displacement_spare]);
 }
 
 void Twin::tension(std::size_t index) {
@@ -120,17 +122,17 @@ void Twin::tension(std::size_t index) {
     TwinCloth& state = cloths_[index];
     const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {
         const std::size_t a = at(grid, first), b = at(grid, second);
-        return gathered_tension(xyz(state.position[b]) - xyz(state.position[a]),
-                                xyz(state.displacement[b]) - xyz(state.displacement[a]), rest_length, used_share,
-                                push.strain_damping);
+        return gathered_tension(xyz(state[Field::position][b]) - xyz(state[Field::position][a]),
+                                xyz(state[Field::displacement][b]) - xyz(state[Field::displacement][a]), rest_length,
+                                used_share, push.strain_damping);
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
             const std::size_t i = at(grid, {x, y});
             if (x + 1 < push.grid.x)
-                state.tension[0][i] = tension_to({x, y}, {x + 1, y}, push.rest_length.x, push.used_share.x);
+                state.tension(0)[i] = tension_to({x, y}, {x + 1, y}, push.rest_length.x, push.used_share.x);
             if (y + 1 < push.grid.y)
-                state.tension[1][i] = tension_to({x, y}, {x, y + 1}, push.rest_length.y, push.used_share.y);
+                state.tension(1)[i] = tension_to({x, y}, {x, y + 1}, push.rest_length.y, push.used_share.y);
         }
 }
 

@@ -10,7 +10,7 @@ namespace drape {
 using namespace glsl;
 
 void Twin::control(TwinCloth& state) {
-    auto& texels = state.line_control;
+    auto& texels = state.integers(Field::line_control);
     const LineControl next = next_control(
         {texels[control_order], texels[control_previous_order], texels[control_violation], texels[control_hold]});
     texels = {next.order, next.previous_order, next.violation, next.hold};
@@ -19,21 +19,24 @@ void Twin::control(TwinCloth& state) {
 void Twin::predict(TwinCloth& state, const Step& step) {
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
-    const bool is_bdf2 = state.line_control[control_order] == 2u;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        const vec4 position = state.position[i];
-        const vec3 displacement = xyz(state.displacement[i]);
+    const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const vec4 position = state[Field::position][i];
+        const vec3 displacement = xyz(state[Field::displacement][i]);
         if (advance) {
-            const CompensatedSum advanced = compensated_add(xyz(position), displacement, xyz(state.position_rest[i]));
-            state.position[i] = texel(advanced.value, position.w);
-            state.position_rest[i] = texel(advanced.rest);
+            const CompensatedSum advanced =
+                compensated_add(xyz(position), displacement, xyz(state[Field::position_remainder][i]));
+            state[Field::position][i] = texel(advanced.value, position.w);
+            state[Field::position_remainder][i] = texel(advanced.remainder);
         }
-        const vec3 before = xyz(state.displacement_before[i]), excess_before = xyz(state.velocity_excess[i]);
-        const vec3 excess = velocity_excess(displacement, before, state.line_control[control_previous_order]);
-        state.displacement_before[i] = texel(displacement);
-        state.velocity_excess[i] = texel(excess);
+        const vec3 before = xyz(state[Field::displacement_before][i]),
+                   excess_before = xyz(state[Field::velocity_excess][i]);
+        const vec3 excess =
+            velocity_excess(displacement, before, state.integers(Field::line_control)[control_previous_order]);
+        state[Field::displacement_before][i] = texel(displacement);
+        state[Field::velocity_excess][i] = texel(excess);
         if (position.w == 0.0f) continue;
-        const vec3 applied = state.wind_force.empty() ? vec3{0, 0, 0} : xyz(state.wind_force[i]);
+        const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
         vec3 increment;
         if (is_bdf2) {
             const vec3 forced = forced_step(xyz(push.gravity_step_bdf2), applied, position.w, push.force_step.y);
@@ -43,9 +46,10 @@ void Twin::predict(TwinCloth& state, const Step& step) {
             const vec3 forced = forced_step(xyz(push.gravity_step), applied, position.w, push.force_step.x);
             increment = euler_increment(displacement, excess, forced, push.loss.x);
         }
-        const CompensatedSum predicted = compensated_add(displacement, increment, xyz(state.displacement_rest[i]));
-        state.displacement[i] = texel(predicted.value);
-        state.displacement_rest[i] = texel(predicted.rest);
+        const CompensatedSum predicted =
+            compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
+        state[Field::displacement][i] = texel(predicted.value);
+        state[Field::displacement_remainder][i] = texel(predicted.remainder);
     }
 }
 
@@ -65,11 +69,11 @@ struct LineView {
     }
     std::size_t spring_count() const { return particles.size() - 1; }
     std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
-    float weight(std::size_t particle) const { return state.position[index(particle)].w; }
+    float weight(std::size_t particle) const { return state[Field::position][index(particle)].w; }
     LineSpring spring(std::size_t e) const {
         const std::size_t first = index(e), second = index(e + 1);
-        return line_spring(spring_edge(xyz(state.position[first]), xyz(state.position[second]),
-                                       xyz(state.displacement[first]), xyz(state.displacement[second])),
+        return line_spring(spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
+                                       xyz(state[Field::displacement][first]), xyz(state[Field::displacement][second])),
                            push.rest_length);
     }
     float share(std::size_t e) const {
@@ -104,10 +108,10 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
 
 void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<LinePush>();
-    const bool is_bdf2 = model.plan.second_order && state.line_control[control_order] == 2u;
+    const bool is_bdf2 = model.plan.second_order && state.integers(Field::line_control)[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
-    std::vector<float>& stored = state.tension[static_cast<std::size_t>(push.channel)];
+    std::vector<float>& stored = state.tension(static_cast<std::size_t>(push.channel));
     const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
     float largest = 0;
     for (int k = 0; k < push.line_count; ++k) {
@@ -126,14 +130,16 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                 line_correction(is_first ? none : springs[p - 1].normal, is_first ? 0.0f : change[p - 1],
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             const std::size_t i = line.index(p);
-            state.displacement[i] = texel(moved_by(xyz(state.displacement[i]), correction, state.position[i].w));
-            if (!is_last && !model.rigid)
+            state[Field::displacement][i] =
+                texel(moved_by(xyz(state[Field::displacement][i]), correction, state[Field::position][i].w));
+            if (!is_last && !model.rigid && !stored.empty())
                 stored[i] = changed_tension(tensions[p], change[p], line.share(p), compliance) * followed;
         }
     }
     if (!model.plan.second_order) return;
     const std::uint32_t bits = floatBitsToUint(line_violation(largest, push.rest_length));
-    state.line_control[control_violation] = std::max(state.line_control[control_violation], bits);
+    state.integers(Field::line_control)[control_violation] =
+        std::max(state.integers(Field::line_control)[control_violation], bits);
 }
 
 }  // namespace drape

@@ -78,7 +78,7 @@ std::string stride_difference(std::uint32_t shader, std::uint32_t layout) {
     return shader == layout ? "" : fmt::format("the array's stride is {} in the shader, {} in C++", shader, layout);
 }
 
-std::string member_difference(const ReflectedStruct& shader, const StructLayout& layout) {
+std::string member_difference(const ReflectedStruct& shader, const glsl::StructLayout& layout) {
     if (shader.name != layout.name) return fmt::format("struct {} in the shader, {} in C++", shader.name, layout.name);
     if (shader.members.size() != layout.offsets.size())
         return fmt::format("{} has {} members in the shader, {} in C++", shader.name, shader.members.size(),
@@ -239,7 +239,7 @@ ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view m
     return Reflector(words, module).module();
 }
 
-std::string element_difference(const ReflectedDescriptor& shader, const StructLayout& layout) {
+std::string element_difference(const ReflectedDescriptor& shader, const glsl::StructLayout& layout) {
     if (shader.element.has_value() == layout.offsets.empty())
         return fmt::format("{} in the shader, {} in C++",
                            shader.element ? "struct " + shader.element->name : "a scalar or vector", layout.name);
@@ -247,7 +247,7 @@ std::string element_difference(const ReflectedDescriptor& shader, const StructLa
     return shader.element && stride.empty() ? member_difference(*shader.element, layout) : stride;
 }
 
-std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const StructLayout* layout) {
+std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const glsl::StructLayout* layout) {
     if (!shader && !layout) return {};
     if (!shader) return fmt::format("{} in C++, but the shader has none", layout->name);
     if (!layout) return fmt::format("{} in the shader, none in C++", shader->name);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "vulkan/error.h"
-#include "vulkan/struct_layout.h"
+#include "shared/struct_layout.h"
 
 namespace drape::vulkan {
 
@@ -64,9 +64,9 @@ struct ReflectedModule {
 ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view module);
 
 /// In which way the C++ struct is not the shader's; empty when it is. `shader` none: a scalar or a vector.
-std::string element_difference(const ReflectedDescriptor& shader, const StructLayout& layout);
+std::string element_difference(const ReflectedDescriptor& shader, const glsl::StructLayout& layout);
 /// Likewise; C++ may round the size up to 16 bytes.
-std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const StructLayout* layout);
+std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const glsl::StructLayout* layout);
 
 /// The committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);

@@ -17,14 +17,14 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_remainder_in, texel).xyz);
     imageStore(position_out, texel, vec4(advanced.value, position.w));
-    imageStore(position_remainder_out, texel, vec4(advanced.rest, 0.0f));
+    imageStore(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
 }
 
 /// d += increment.
 void step_displacement(ivec2 texel, vec3 displacement, vec3 increment) {
     CompensatedSum stepped = compensated_add(displacement, increment, imageLoad(displacement_remainder_in, texel).xyz);
     imageStore(displacement_out, texel, vec4(stepped.value, 0.0f));
-    imageStore(displacement_remainder_out, texel, vec4(stepped.rest, 0.0f));
+    imageStore(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }
 
 /// N, on the particle of a texel.

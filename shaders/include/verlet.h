@@ -1,17 +1,17 @@
 // Verlet in displacement form with compensated sums (docs/physics.md 3).
 // State: X = position at the start of the substep, d = displacement of the substep, and what rounding lost
-// of each (`*_rest`), so that 1e5 substeps do not drift.
+// of each (`*_remainder`), so that 1e5 substeps do not drift.
 #ifndef DRAPE_VERLET_H
 #define DRAPE_VERLET_H
 
 struct CompensatedSum {
     vec3 value;
-    vec3 rest;  // exact sum - value
+    vec3 remainder;  // exact sum - value
 };
 
-/// a + b + rest with the rounding error kept: Knuth's TwoSum, exact for any magnitudes.
-SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 rest) {
-    precise vec3 addend = b + rest;
+/// a + b + remainder with the rounding error kept: Knuth's TwoSum, exact for any magnitudes.
+SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 remainder) {
+    precise vec3 addend = b + remainder;
     precise vec3 sum = a + addend;
     precise vec3 back = sum - a;
     precise vec3 lost = (a - (sum - back)) + (addend - back);

@@ -1,5 +1,5 @@
 // Structs that the simulation's shaders and the C++ side share. std430; every member's offset is compared with the
-// SPIR-V when a pass is recorded (engine/vulkan/struct_layout.h).
+// SPIR-V when a pass is recorded (struct_layout.h).
 #ifndef DRAPE_SIMULATION_TYPES_H
 #define DRAPE_SIMULATION_TYPES_H
 

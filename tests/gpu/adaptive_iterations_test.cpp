@@ -30,8 +30,8 @@ std::vector<std::uint32_t> compare_iterations(const SceneDescription& scene) {
         [&](const FinishedFrame& frame) {
             twin.run_frame(frame.frame);
             const TwinCloth& expected = twin.cloth(0);
-            EXPECT_EQ(std::memcmp(frame.positions[0].data(), expected.position.data(),
-                                  expected.position.size() * sizeof(glsl::vec4)),
+            EXPECT_EQ(std::memcmp(frame.positions[0].data(), expected[Field::position].data(),
+                                  expected[Field::position].size() * sizeof(glsl::vec4)),
                       0)
                 << "frame " << frame.frame;
             EXPECT_EQ(frame.statistics[0].iteration_count, expected.iteration_count) << "frame " << frame.frame;
@@ -93,7 +93,7 @@ TEST(AdaptiveIterations, MetAtOnceIsOneIterationAndNeverMetIsAllOfThem) {
         adaptive.run_frame(frame);
         all.run_frame(frame);
     }
-    expect_same("position", adaptive.image(0, "position"), all.image(0, "position"), 4);
+    expect_same(Field::position, adaptive, all, 4);
 }
 
 }  // namespace

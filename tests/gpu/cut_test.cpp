@@ -51,7 +51,7 @@ class TwinWithCuts {
         const std::vector<glsl::CutterTriangle> cutters = cutter_triangles(model_.scene.cutters, start, end);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
             CutTopology& topology = twin_.topology(cloth);
-            const CutFindings found = find_cuts(topology, twin_.cloth(cloth).position, cutters);
+            const CutFindings found = find_cuts(topology, twin_.cloth(cloth)[Field::position], cutters);
             const bool hit = std::ranges::any_of(
                 found.fractions, [](const glsl::vec4& f) { return f.x >= 0 || f.y >= 0 || f.z >= 0 || f.w >= 0; });
             if (!hit) continue;
@@ -61,7 +61,7 @@ class TwinWithCuts {
         }
         return sum;
     }
-    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth).position; }
+    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth)[Field::position]; }
     const CutTopology& topology(std::size_t cloth) { return twin_.topology(cloth); }
     const SimulationModel& model() const { return model_; }
 

@@ -18,10 +18,10 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
     graph.add_pass(
         state.pass_name("normal readback", "readback"),
         [&](graph::PassSetup& setup) {
-            setup.read(state.normal, graph::Access::transfer_read);
+            setup.read(state[Field::normal], graph::Access::transfer_read);
             *target = setup.write(empty, graph::Access::transfer_write);
         },
-        [normal = state.normal, target, &grid](graph::PassContext& context) {
+        [normal = state[Field::normal], target, &grid](graph::PassContext& context) {
             const VkBufferImageCopy region{
                 0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {grid.columns(), grid.rows(), 1}};
             vkCmdCopyImageToBuffer(context.commands(), context.image(normal).handle(), VK_IMAGE_LAYOUT_GENERAL,
@@ -50,33 +50,17 @@ void DeviceRun::run_frame(std::uint32_t frame) {
     slots_.wait(0);
 }
 
-std::vector<glsl::vec4> DeviceRun::image(std::size_t cloth, const std::string& part) const {
-    std::vector<glsl::vec4> texels(model_.cloths[cloth].grid.particle_count());
-    vulkan::download(device_, pool_->image(model_.cloths[cloth].name + "/" + part),
-                     std::as_writable_bytes(std::span(texels)));
-    return texels;
-}
-
-std::vector<float> DeviceRun::tension(std::size_t cloth, std::size_t direction) const {
-    std::vector<float> texels(model_.cloths[cloth].grid.particle_count());
-    vulkan::download(
-        device_, pool_->image(model_.cloths[cloth].name + "/tension " + std::string(spring_directions[direction].name)),
-        std::as_writable_bytes(std::span(texels)));
-    return texels;
-}
-
-std::array<std::uint32_t, glsl::control_texel_count> DeviceRun::line_control(std::size_t cloth) const {
-    std::array<std::uint32_t, glsl::control_texel_count> texels;
-    vulkan::download(device_, pool_->image(model_.cloths[cloth].name + "/line control"),
-                     std::as_writable_bytes(std::span(texels)));
-    return texels;
-}
-
-std::vector<glsl::vec4> DeviceRun::normals(std::size_t cloth) const {
-    std::vector<glsl::vec4> texels(model_.cloths[cloth].grid.particle_count());
-    std::memcpy(texels.data(), pool_->buffer(normal_buffer(model_.cloths[cloth]), 0).mapped().data(),
-                texels.size() * sizeof(glsl::vec4));
-    return texels;
+std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
+    const ClothModel& model = model_.cloths[cloth];
+    if (field == Field::normal) {
+        const std::span<const std::byte> host = pool_->buffer(normal_buffer(model), 0).mapped();
+        return {host.begin(), host.end()};
+    }
+    const vulkan::Image& image = pool_->image(resource_name(model, row_of(field)));
+    const vulkan::ImageDescription& about = image.description();
+    std::vector<std::byte> bytes(std::size_t{about.width} * about.height * row_of(field).element.size);
+    vulkan::download(device_, image, bytes);
+    return bytes;
 }
 
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where) {

@@ -14,6 +14,13 @@
 
 namespace drape::test {
 
+template <class T>
+std::vector<T> texels_of(std::span<const std::byte> bytes) {
+    std::vector<T> texels(bytes.size() / sizeof(T));
+    std::memcpy(texels.data(), bytes.data(), bytes.size());
+    return texels;
+}
+
 class DeviceRun {
   public:
     DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {});
@@ -21,11 +28,12 @@ class DeviceRun {
     /// Simulates from frame-1 to `frame` and waits.
     void run_frame(std::uint32_t frame);
 
-    /// Texels of "<cloth>/<part>" of a persistent image, or the normals.
-    std::vector<glsl::vec4> image(std::size_t cloth, const std::string& part) const;
-    std::vector<float> tension(std::size_t cloth, std::size_t direction) const;
-    std::array<std::uint32_t, glsl::control_texel_count> line_control(std::size_t cloth) const;
-    std::vector<glsl::vec4> normals(std::size_t cloth) const;
+    /// Of a field that the device keeps, or of the normals: row by row.
+    std::vector<std::byte> bytes(std::size_t cloth, Field field) const;
+    template <class T = glsl::vec4>
+    std::vector<T> texels(std::size_t cloth, Field field) const {
+        return texels_of<T>(bytes(cloth, field));
+    }
 
     const graph::Graph& graph() const { return graph_; }
     const graph::Plan& plan() const { return plan_; }

@@ -40,13 +40,14 @@ class StatisticsRun {
     /// Of cloth 0.
     glsl::StatisticsRecord record(const TwinCloth& state, std::uint32_t frame) {
         const std::string name = model_.cloths[0].name;
-        vulkan::upload(test::gpu().device, pool_->image(name + "/position"), std::as_bytes(std::span(state.position)));
+        vulkan::upload(test::gpu().device, pool_->image(name + "/position"),
+                       std::as_bytes(std::span(state[Field::position])));
         vulkan::upload(test::gpu().device, pool_->image(name + "/displacement"),
-                       std::as_bytes(std::span(state.displacement)));
+                       std::as_bytes(std::span(state[Field::displacement])));
         for (std::size_t direction = 0; direction < stretch_direction_count; ++direction)
             vulkan::upload(test::gpu().device,
                            pool_->image(name + "/tension " + std::string(spring_directions[direction].name)),
-                           std::as_bytes(std::span(state.tension[direction])));
+                           std::as_bytes(std::span(state.tension(direction))));
         solver_.write_inputs(*pool_, 0, frame);
         slots_.submit(0, recorded_->commands(0));
         slots_.wait(0);
@@ -73,13 +74,13 @@ TwinCloth crumpled_state(const SimulationModel& model, float stretch, float nois
     TwinCloth state = Twin(model).cloth(0);
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> jitter(-noise, noise), speed(-1e-3f, 1e-3f);
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        vec4& x = state.position[i];
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        vec4& x = state[Field::position][i];
         x = {stretch * x.x + jitter(random), stretch * x.y + jitter(random), stretch * x.z + jitter(random), x.w};
-        state.displacement[i] = {speed(random), speed(random), speed(random), 0};
+        state[Field::displacement][i] = {speed(random), speed(random), speed(random), 0};
     }
-    for (std::vector<float>& tension : state.tension)
-        for (float& extension : tension) extension = jitter(random);
+    for (std::size_t direction = 0; direction < 4; ++direction)
+        for (float& extension : state.tension(direction)) extension = jitter(random);
     return state;
 }
 
@@ -111,8 +112,8 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
                     model.grid.spring_shares(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
                 const float all[] = {shares.x, shares.y, shares.z, shares.w};
                 if (all[direction] == 0) continue;
-                const double length = difference(state.position[at(model.grid, {column, row})],
-                                                 state.position[at(model.grid, {column + i, row + j})])
+                const double length = difference(state[Field::position][at(model.grid, {column, row})],
+                                                 state[Field::position][at(model.grid, {column + i, row + j})])
                                           .length();
                 const double value = (length - rest) / rest;
                 ++strain.spring_count;
@@ -120,7 +121,7 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
                 strain.largest = std::max(strain.largest, value);
                 strain.smallest = std::min(strain.smallest, value);
                 if (family == SpringFamily::stretch) {
-                    const double error = value - state.tension[direction][at(model.grid, {column, row})] / rest;
+                    const double error = value - state.tension(direction)[at(model.grid, {column, row})] / rest;
                     squared_error += error * error;
                     worst_error = std::max(worst_error, std::abs(error));
                 }
@@ -141,10 +142,10 @@ ClothStatistics plain_statistics(const SceneDescription& scene, const Simulation
     plain.stretch_error_rms = std::sqrt(squared_error / plain.stretch.spring_count);
     plain.shear = plain_strain(scene, cloth, state, SpringFamily::shear, plain.elastic_energy, squared_error,
                                plain.stretch_error_max);
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const float weight = cloth.free_weight[i];
         const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
-        const vec4 x = state.position[i], d = state.displacement[i];
+        const vec4 x = state[Field::position][i], d = state[Field::displacement][i];
         const double speed = std::hypot(double(d.x), double(d.y), double(d.z)) / cloth.substep_length;
         const double at[] = {x.x, x.y, x.z};
         plain.kinetic_energy += 0.5 * mass * speed * speed;
@@ -293,9 +294,9 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
         const ClothStatistics before = cloth_statistics(model, model.cloths[0], expect_same_record(model, good));
         TwinCloth bad = good;
         const Grid& grid = model.cloths[0].grid;
-        bad.position[grid.particle(64, 32)].z = nan;
-        bad.position[grid.particle(40, 17)].x = -infinity;
-        bad.displacement[grid.particle(7, 12)].y = -nan;
+        bad[Field::position][grid.particle(64, 32)].z = nan;
+        bad[Field::position][grid.particle(40, 17)].x = -infinity;
+        bad[Field::displacement][grid.particle(7, 12)].y = -nan;
         const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, bad));
         EXPECT_EQ(before.non_finite_count, 0u);
         EXPECT_EQ(statistics.non_finite_count, 3u);
@@ -310,7 +311,7 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
 TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValues) {
     const SimulationModel model(soft_sheet(10, 10));
     TwinCloth state = crumpled_state(model, 1, 0, 1);
-    state.position[model.cloths[0].grid.particle(4, 4)].x = 1e30f;
+    state[Field::position][model.cloths[0].grid.particle(4, 4)].x = 1e30f;
     StatisticsRun run(model);
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], run.record(state, 1));
     EXPECT_EQ(statistics.non_finite_count, 0u);

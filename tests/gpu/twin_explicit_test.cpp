@@ -87,7 +87,7 @@ TEST(TwinExplicitTest, ExactSkipsChangeNoBit) {
         skipping.run_frame(frame);
         keeping.run_frame(frame);
     }
-    test::expect_same("position", skipping.image(0, "position"), keeping.image(0, "position"), frame_count);
+    test::expect_same(Field::position, skipping, keeping, frame_count);
 }
 
 TEST(CanaryTest, AMissingBarrierBetweenExplicitStepsIsReported) {

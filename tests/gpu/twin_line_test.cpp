@@ -51,7 +51,7 @@ TEST(TwinLineTest, BothOrdersTakeTurnsWhereAPinJerksTheCloth) {
     std::array<bool, 3> seen{};
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
-        seen[twin.cloth(0).line_control[glsl::control_order]] = true;
+        seen[twin.cloth(0).integers(Field::line_control)[glsl::control_order]] = true;
     }
     EXPECT_TRUE(seen[1] && seen[2]) << "the control must have switched";
     compare(scene);
@@ -150,7 +150,7 @@ TEST(TwinLineTest, ExactSkipsChangeNoBit) {
         skipping.run_frame(frame);
         keeping.run_frame(frame);
     }
-    test::expect_same("position", skipping.image(0, "position"), keeping.image(0, "position"), frame_count);
+    test::expect_same(Field::position, skipping, keeping, frame_count);
 }
 
 TEST(CanaryTest, AMissingBarrierBetweenLinePassesIsReported) {

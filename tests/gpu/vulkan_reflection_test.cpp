@@ -19,7 +19,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using vulkan::DescriptorKind;
-using vulkan::layout_of;
+using glsl::layout_of;
 using vulkan::ReflectedDescriptor;
 using vulkan::ReflectedModule;
 using vulkan::VulkanError;

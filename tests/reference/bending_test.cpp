@@ -35,7 +35,7 @@ double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape
     Twin twin(model);
     TwinCloth& state = twin.cloth(0);
     for (std::size_t i = 0; i < shape.size(); ++i) {
-        glsl::vec4& x = state.position[i];
+        glsl::vec4& x = state[Field::position][i];
         x = {static_cast<float>(shape[i][0]), static_cast<float>(shape[i][1]), static_cast<float>(shape[i][2]), x.w};
     }
     twin.run_frame(1);
@@ -104,7 +104,8 @@ TEST_P(BendingForces, KeepMomentumAndAngularMomentum) {
     TwinCloth& state = twin.cloth(0);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> noise(-0.05f, 0.05f);
-    for (glsl::vec4& x : state.position) x = {x.x + noise(random), x.y + noise(random), x.z + noise(random), x.w};
+    for (glsl::vec4& x : state[Field::position])
+        x = {x.x + noise(random), x.y + noise(random), x.z + noise(random), x.w};
     Vec3 momentum{}, angular{};
     double size = 0, angular_size = 0;
     // Step by step: within one, no particle moves twice, and its arm is where it was before.
@@ -112,7 +113,7 @@ TEST_P(BendingForces, KeepMomentumAndAngularMomentum) {
         if (step.kind == StepKind::advance) break;
         const TwinCloth before = state;
         twin.run_step(step, frame_inputs(model, 1));
-        for (std::size_t i = 0; i < state.position.size(); ++i) {
+        for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
             const Vec3 x = test::position_of(before, i), moved = test::displacement_of(before, i),
                        now = test::displacement_of(state, i);
             const double mass = test::mass_of(model.cloths[0], i);

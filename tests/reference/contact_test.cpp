@@ -43,7 +43,7 @@ Depths drop(const Colliders& colliders, const std::function<void(SceneDescriptio
         twin.run_frame(frame);
         const double time = frame / 60.0;
         const auto depth = [&](const Vec3& x) { return -test::surface_distance(scene.colliders, time, x); };
-        const std::vector<glsl::vec4>& x = twin.cloth(0).position;
+        const std::vector<glsl::vec4>& x = twin.cloth(0)[Field::position];
         for (const glsl::vec4& p : x) {
             const double d = depth(point(p)) + cloth.thickness;
             deepest.particles = std::max(deepest.particles, d);

@@ -21,10 +21,10 @@ double force_error(const SceneDescription& scene) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> noise(-0.02f, 0.02f);
     std::vector<Vec3> position;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        glsl::vec4& x = state.position[i];
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        glsl::vec4& x = state[Field::position][i];
         x = {x.x + noise(random), x.y + noise(random), x.z + noise(random), x.w};
-        state.displacement[i] = {};
+        state[Field::displacement][i] = {};
         position.push_back(test::position_of(state, i));
     }
     const SpringNetwork network(scene, 0);
@@ -33,7 +33,7 @@ double force_error(const SceneDescription& scene) {
     const double h = model.cloths[0].substep_length;
     double largest = 0, worst = 0;
     for (std::size_t i = 0; i < position.size(); ++i) {
-        if (!(state.position[i].w > 0)) continue;
+        if (!(state[Field::position][i].w > 0)) continue;
         const Vec3 moved = test::displacement_of(state, i);
         for (std::size_t k = 0; k < 3; ++k) {
             const double force = moved[k] * test::mass_of(model.cloths[0], i) / (h * h);

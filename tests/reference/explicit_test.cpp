@@ -91,15 +91,15 @@ TEST(ExplicitTest, MomentumIsKept) {
     TwinCloth& state = twin.cloth(0);
     std::mt19937 random(3);
     std::uniform_real_distribution<float> kick(-2e-4f, 2e-4f);
-    for (std::size_t i = 0; i < state.position.size(); ++i)
-        if (state.position[i].w > 0) {
-            state.displacement[i].x += kick(random);
-            state.displacement[i].y += kick(random);
-            state.displacement[i].z += kick(random);
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i)
+        if (state[Field::position][i].w > 0) {
+            state[Field::displacement][i].x += kick(random);
+            state[Field::displacement][i].y += kick(random);
+            state[Field::displacement][i].z += kick(random);
         }
     const auto momentum = [&] {
         Vec3 sum{};
-        for (std::size_t i = 0; i < state.position.size(); ++i)
+        for (std::size_t i = 0; i < state[Field::position].size(); ++i)
             for (std::size_t k = 0; k < 3; ++k)
                 sum[k] += test::mass_of(model.cloths[0], i) * test::displacement_of(state, i)[k];
         return sum;
@@ -122,10 +122,10 @@ double energy_growth(const SceneDescription& scene, const Disturb& disturb) {
     const SimulationModel model(scene);
     Twin twin(model);
     TwinCloth& state = twin.cloth(0);
-    for (std::size_t i = 0; i < state.position.size(); ++i)
-        if (state.position[i].w > 0) {
-            state.position[i] = disturb(state.position[i]);
-            state.displacement[i] = {};
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i)
+        if (state[Field::position][i].w > 0) {
+            state[Field::position][i] = disturb(state[Field::position][i]);
+            state[Field::displacement][i] = {};
         }
     const double start = energy_above(model, state);
     double largest = 0;

@@ -35,7 +35,7 @@ TEST_P(FreeFlight, FollowsTheClosedForm) {
     const double limit = substeps > 16 ? 1e-4 : method == SolverMethod::line ? 2e-5 + ch * ch : 1e-5;
     double worst = 0;
     for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i) {
-        const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0).position[i];
+        const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0)[Field::position][i];
         const double moved[3] = {double(end.x) - double(start.x), double(end.y) - double(start.y),
                                  double(end.z) - double(start.z)};
         for (std::size_t k = 0; k < 3; ++k) {

@@ -32,7 +32,7 @@ double slide(double mu) {
     const SimulationModel model(scene);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
-    const glsl::vec4 start = model.cloths[0].position[12], end = twin.cloth(0).position[12];
+    const glsl::vec4 start = model.cloths[0].position[12], end = twin.cloth(0)[Field::position][12];
     return -(double(end.x) - double(start.x)) * std::cos(angle) - (double(end.y) - double(start.y)) * std::sin(angle);
 }
 
@@ -67,7 +67,7 @@ TEST(FrictionTest, ASurfaceThatMovesCarriesTheClothAlong) {
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
     for (std::size_t i = 0; i < 25; ++i)
-        EXPECT_NEAR(double(twin.cloth(0).position[i].x) - double(model.cloths[0].position[i].x), 0.5, 2e-3);
+        EXPECT_NEAR(double(twin.cloth(0)[Field::position][i].x) - double(model.cloths[0].position[i].x), 0.5, 2e-3);
 }
 
 }  // namespace

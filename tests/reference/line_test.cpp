@@ -16,7 +16,7 @@ namespace {
 
 std::vector<Vec3> positions(const TwinCloth& state) {
     std::vector<Vec3> all;
-    for (std::size_t i = 0; i < state.position.size(); ++i) all.push_back(test::position_of(state, i));
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) all.push_back(test::position_of(state, i));
     return all;
 }
 
@@ -223,7 +223,7 @@ TEST(LineStress, WorstStartsComeToTheirLengths) {
     const auto run = [&](const char* name, const auto& start, double limit) {
         SimulationModel model(two_corner_drape());
         Twin twin(model);
-        for (glsl::vec4& x : twin.cloth(0).position)
+        for (glsl::vec4& x : twin.cloth(0)[Field::position])
             if (x.w > 0) x = start(x);
         const double strain = late_strain(model, twin);
         std::printf("[ measured ] start %s: RMS strain %.4f\n", name, strain);

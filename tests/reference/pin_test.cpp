@@ -19,9 +19,9 @@ TEST(PinTest, AFixedParticleKeepsItsBits) {
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
     for (std::size_t i = 0; i < 8; ++i) {
-        EXPECT_EQ(twin.cloth(0).position[i].x, model.cloths[0].position[i].x);
-        EXPECT_EQ(twin.cloth(0).position[i].y, model.cloths[0].position[i].y);
-        EXPECT_EQ(twin.cloth(0).position[i].z, model.cloths[0].position[i].z);
+        EXPECT_EQ(twin.cloth(0)[Field::position][i].x, model.cloths[0].position[i].x);
+        EXPECT_EQ(twin.cloth(0)[Field::position][i].y, model.cloths[0].position[i].y);
+        EXPECT_EQ(twin.cloth(0)[Field::position][i].z, model.cloths[0].position[i].z);
     }
 }
 
@@ -39,7 +39,7 @@ TEST(PinTest, AKeyFramedPinFollowsItsPathAboutItsPivot) {
         const RigidTransform motion = motion_at(pin.path, frame / 60.0);
         for (std::size_t column = 0; column < 6; ++column) {
             const Vec3 arm{0.1 * static_cast<double>(column) - 0.1, 0, 0};
-            const glsl::vec4 at = twin.cloth(0).position[column];
+            const glsl::vec4 at = twin.cloth(0)[Field::position][column];
             const double got[3] = {double(at.x), double(at.y), double(at.z)};
             for (std::size_t k = 0; k < 3; ++k) {
                 const double pivot = k == 0 ? 0.1 : 0.0;
@@ -62,7 +62,7 @@ TEST(PinTest, AReleasedParticleKeepsItsVelocityAndThenFlies) {
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
     for (std::size_t i = 0; i < 16; ++i) {
-        const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0).position[i];
+        const glsl::vec4 start = model.cloths[0].position[i], end = twin.cloth(0)[Field::position][i];
         EXPECT_EQ(end.w, model.cloths[0].free_weight[i]);
         EXPECT_NEAR(double(end.x) - double(start.x), 0.3 + 0.6 * 0.5, 2e-3);
         EXPECT_NEAR(double(end.y) - double(start.y), -0.5 * 9.81 * 0.25, 1e-2);

@@ -74,14 +74,14 @@ TEST(SpringTest, MomentumIsKeptWithoutPinsAndGravity) {
     const SimulationModel model(scene);
     Twin twin(model);
     for (std::size_t i = 0; i < 63; ++i) {  // stretched at the start
-        twin.cloth(0).position[i].x *= 1.3f;
-        twin.cloth(0).position[i].y *= 0.8f;
+        twin.cloth(0)[Field::position][i].x *= 1.3f;
+        twin.cloth(0)[Field::position][i].y *= 0.8f;
     }
     const auto momentum = [&](bool absolute) {
         Vec3 sum{};
         for (std::size_t i = 0; i < 63; ++i) {
-            const glsl::vec4 d = twin.cloth(0).displacement[i];
-            const double mass = 1 / double(twin.cloth(0).position[i].w);
+            const glsl::vec4 d = twin.cloth(0)[Field::displacement][i];
+            const double mass = 1 / double(twin.cloth(0)[Field::position][i].w);
             const double c[3] = {double(d.x), double(d.y), double(d.z)};
             for (std::size_t k = 0; k < 3; ++k) sum[k] += mass * (absolute ? std::abs(c[k]) : c[k]);
         }

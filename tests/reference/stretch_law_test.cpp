@@ -27,8 +27,8 @@ Stretch hanging_stretch(std::uint32_t links, std::uint32_t substeps, std::uint32
     const Grid& grid = model.cloths[0].grid;
     for (std::uint32_t row = 0; row < links; ++row)
         for (std::uint32_t column = 0; column <= links; ++column) {
-            const glsl::vec4 a = twin.cloth(0).position[grid.particle(column, row)];
-            const glsl::vec4 b = twin.cloth(0).position[grid.particle(column, row + 1)];
+            const glsl::vec4 a = twin.cloth(0)[Field::position][grid.particle(column, row)];
+            const glsl::vec4 b = twin.cloth(0)[Field::position][grid.particle(column, row + 1)];
             const double strain =
                 std::hypot(double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z)) * links - 1;
             sum += strain;

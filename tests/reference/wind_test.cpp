@@ -18,10 +18,10 @@ Vec3 plate_force(const Vec3& wind, double drag, double lift) {
     scene.wind.lift = lift;
     const SimulationModel model(scene);
     Twin twin(model);
-    twin.cloth(0).displacement.assign(13 * 9, {});
+    twin.cloth(0)[Field::displacement].assign(13 * 9, {});
     twin.run_step({StepKind::wind, 0, 0}, frame_inputs(model, 1));
     Vec3 sum{};
-    for (const glsl::vec4& force : twin.cloth(0).wind_force) {
+    for (const glsl::vec4& force : twin.cloth(0)[Field::wind_force]) {
         sum[0] += double(force.x);
         sum[1] += double(force.y);
         sum[2] += double(force.z);
@@ -68,8 +68,8 @@ TEST(WindTest, AMovingPlateFeelsTheRelativeWindOnly) {
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
     for (std::size_t i = 0; i < 25; ++i) {
-        EXPECT_NEAR(double(twin.cloth(0).position[i].x) - double(model.cloths[0].position[i].x), 2.0, 1e-5);
-        EXPECT_NEAR(double(twin.cloth(0).position[i].z) - double(model.cloths[0].position[i].z), 3.0, 1e-5);
+        EXPECT_NEAR(double(twin.cloth(0)[Field::position][i].x) - double(model.cloths[0].position[i].x), 2.0, 1e-5);
+        EXPECT_NEAR(double(twin.cloth(0)[Field::position][i].z) - double(model.cloths[0].position[i].z), 3.0, 1e-5);
     }
 }
 

@@ -10,12 +10,12 @@
 namespace drape::test {
 
 inline Vec3 position_of(const TwinCloth& state, std::size_t i) {
-    const glsl::vec4 x = state.position[i], rest = state.position_rest[i];
+    const glsl::vec4 x = state[Field::position][i], rest = state[Field::position_remainder][i];
     return {double(x.x) + double(rest.x), double(x.y) + double(rest.y), double(x.z) + double(rest.z)};
 }
 
 inline Vec3 displacement_of(const TwinCloth& state, std::size_t i) {
-    const glsl::vec4 d = state.displacement[i];
+    const glsl::vec4 d = state[Field::displacement][i];
     return {double(d.x), double(d.y), double(d.z)};
 }
 
@@ -91,7 +91,7 @@ struct Energy {
 inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const TwinCloth& state) {
     const ClothModel& model = scene.cloths[cloth];
     Energy energy;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const Vec3 x = position_of(state, i), d = displacement_of(state, i);
         const double m = mass_of(model, i), h = model.substep_length;
         for (std::size_t k = 0; k < 3; ++k) {

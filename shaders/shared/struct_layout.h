@@ -1,4 +1,4 @@
-// The layout of a struct that GLSL and C++ share (shaders/shared), derived from the C++ type, so that nobody retypes
+// C++ only. The layout of a struct that GLSL and C++ share (this folder), derived from the C++ type, so that nobody retypes
 // its members: how many initializers the aggregate takes says how many members it has, a structured binding where they
 // are.
 #pragma once
@@ -12,7 +12,7 @@
 
 #include "shared/glsl_types.h"
 
-namespace drape::vulkan {
+namespace drape::glsl {
 
 /// An element of a storage buffer or a block of push constants, in bytes.
 struct StructLayout {
@@ -114,7 +114,7 @@ template <class T>
 const StructLayout& layout_of() {
     constexpr bool plain =
         std::is_arithmetic_v<T> ||
-        detail::is_one_of<T, glsl::vec2, glsl::vec3, glsl::vec4, glsl::ivec2, glsl::ivec4, glsl::uvec4>;
+        detail::is_one_of<T, vec2, vec3, vec4, ivec2, ivec4, uvec4>;
     static const StructLayout layout = [] {
         if constexpr (plain)
             return StructLayout{detail::type_name<T>(), sizeof(T), {}};
@@ -124,4 +124,4 @@ const StructLayout& layout_of() {
     return layout;
 }
 
-}  // namespace drape::vulkan
+}  // namespace drape::glsl

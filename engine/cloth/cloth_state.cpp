@@ -1,0 +1,128 @@
+#include "cloth/cloth_state.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "cloth/cloth_statistics.h"
+#include "shared/cut_types.h"
+#include "shared/line_types.h"
+#include "shared/residual_types.h"
+
+namespace drape {
+
+namespace {
+
+using glsl::layout_of;
+using Context = const FieldContext&;
+
+template <class T>
+std::vector<std::byte> bytes_of(const std::vector<T>& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    return {bytes.begin(), bytes.end()};
+}
+
+bool always(Context) { return true; }
+bool drawn(Context c) { return c.needs.drawing; }
+bool masked(Context c) { return c.topology.masked(); }
+bool adaptive(Context c) { return c.model.adaptive(); }
+bool gathers(Context c) { return c.cloth.plan.spare_state; }
+bool second_order(Context c) { return c.cloth.plan.second_order; }
+bool pinned(Context c) { return !c.cloth.pinned.empty(); }
+template <std::size_t direction>
+bool tense(Context c) {
+    const bool stretch_error = direction < stretch_direction_count && (c.needs.statistics || c.model.adaptive());
+    return c.cloth.plan.carries_tension[direction] || stretch_error;
+}
+
+FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
+
+std::size_t draw_list_room(Context c, std::size_t count) {
+    return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
+}
+
+const std::vector<FieldRow>& rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
+                      &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
+    constexpr std::uint64_t size_count = glsl::iteration_size_count;
+    static const std::vector<FieldRow> table = {
+        {Field::position, "position", image, vector, state, always, particles,
+         [](Context c) { return bytes_of(c.cloth.position); }},
+        {Field::displacement, "displacement", image, vector, state, always, particles,
+         [](Context c) { return bytes_of(c.cloth.start_displacement()); }},
+        {Field::position_remainder, "position remainder", image, vector, state, always, particles},
+        {Field::displacement_remainder, "displacement remainder", image, vector, state, always, particles},
+        {Field::position_spare, "position spare", image, vector, frame, gathers, particles},
+        {Field::displacement_spare, "displacement spare", image, vector, frame, gathers, particles},
+        // An invocation reads what it wrote itself, so it is not the frame's: nothing in it outlives a pass.
+        {Field::line_scratch, "line scratch", buffer, layout_of<glsl::vec2>(), device,
+         [](Context c) { return c.cloth.plan.line_spring_count > 0; },
+         [](Context c) { return FieldExtent{c.cloth.plan.line_spring_count}; }},
+        {Field::displacement_before, "displacement before", image, vector, state, second_order, particles},
+        {Field::velocity_excess, "velocity excess", image, vector, state, second_order, particles},
+        {Field::line_control, "line control", image, integer, state, second_order,
+         [](Context) { return FieldExtent{glsl::control_texel_count}; }},
+        {Field::wind_force, "wind force", image, vector, frame, [](Context c) { return c.model.windy; }, particles},
+        {Field::normal, "normal", image, vector, frame, drawn, particles},
+        {Field::stiffness, "stiffness", image, vector, constant, masked, particles,
+         [](Context c) { return bytes_of(c.topology.spring_shares()); }},
+        {Field::mass_share, "mass share", image, scalar, constant, masked, particles,
+         [](Context c) { return bytes_of(mass_shares(c.cloth)); }},
+        {Field::cells, "cells", image, integer, constant, masked, cells,
+         [](Context c) { return bytes_of(c.topology.grid().cells()); }},
+        {Field::tension_row, "tension row", image, scalar, state, tense<0>, particles},
+        {Field::tension_column, "tension column", image, scalar, state, tense<1>, particles},
+        {Field::tension_shear_down_right, "tension shear down-right", image, scalar, state, tense<2>, particles},
+        {Field::tension_shear_down_left, "tension shear down-left", image, scalar, state, tense<3>, particles},
+        {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive,
+         [](Context c) { return FieldExtent{residual_count(c.cloth.grid)}; }},
+        {Field::iterations, "iterations", buffer, sizes, device, adaptive,
+         [](Context) { return FieldExtent{size_count + 1}; }},
+        // The solver knows them once it has added the passes.
+        {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive,
+         [](Context) { return FieldExtent{size_count}; }},
+        {Field::triangles, "triangles", buffer, integer, constant, drawn,
+         [](Context c) { return FieldExtent{draw_list_room(c, c.topology.indices().size())}; },
+         [](Context c) { return bytes_of(c.topology.indices()); }},
+        {Field::cut_vertices, "cut vertices", buffer, layout_of<glsl::CutVertex>(), constant,
+         [](Context c) { return c.needs.drawing && !c.topology.vertices().empty(); },
+         [](Context c) { return FieldExtent{draw_list_capacity(c.topology.vertices().size())}; },
+         [](Context c) { return bytes_of(c.topology.vertices()); }},
+        {Field::tethers, "tethers", buffer, layout_of<glsl::ParticleTethers>(), constant,
+         [](Context c) { return !c.cloth.tethers.empty(); },
+         [](Context c) { return FieldExtent{c.cloth.tethers.size()}; },
+         [](Context c) { return bytes_of(c.topology.tethers()); }},
+        {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
+         [](Context c) { return FieldExtent{c.cloth.pinned.size()}; },
+         [](Context c) { return bytes_of(c.cloth.pinned); }},
+        {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
+         [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.scene.solver.substeps}; }},
+    };
+    return table;
+}
+
+}  // namespace
+
+std::span<const FieldRow> cloth_fields() { return rows(); }
+
+Field tension_of(std::size_t direction) {
+    static_assert(spring_directions.size() == 4);
+    return static_cast<Field>(static_cast<std::size_t>(Field::tension_row) + direction);
+}
+
+std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::max<std::size_t>(count, 64)); }
+
+std::uint32_t residual_strip_count(const Grid& grid) {
+    constexpr auto rows_per_strip = static_cast<std::uint32_t>(glsl::residual_rows);
+    return (grid.rows() + rows_per_strip - 1) / rows_per_strip;
+}
+
+std::uint32_t residual_count(const Grid& grid) {
+    constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
+    return (grid.columns() + width - 1) / width * residual_strip_count(grid);
+}
+
+}  // namespace drape

@@ -1,0 +1,107 @@
+// The state of a cloth, one row per field: what it is called, what it holds, how large it is, how long it lives, when a
+// model or a frame needs it and what it starts with. Declaring, uploading, carrying over a cut, the C++ twin's arrays
+// and the comparison of the two are loops over these rows. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cloth/cut_topology.h"
+#include "cloth/simulation_model.h"
+#include "shared/struct_layout.h"
+
+namespace drape {
+
+enum class Field : std::uint8_t {
+    position,            ///< xyz: position at the start of the substep, m; at a frame's end the state itself.
+                         ///< w: relative inverse mass; written by the set-up and by `pin release` alone
+    displacement,        ///< xyz: motion within the substep, m (X + d is where the particle is now); w 0
+    position_remainder,  ///< what rounding lost of the two (compensated sums)
+    displacement_remainder,
+    position_spare,  ///< where a method that gathers writes the next state, which then is the state
+    displacement_spare,
+    line_scratch,         ///< eliminated rows, within a pass
+    displacement_before,  ///< second order: displacement of the substep before the last, m
+    velocity_excess,      ///< of that substep, h times its end's velocity - displacement, m
+    line_control,         ///< LineControl (shaders/include/bdf2.h), an integer per texel
+    wind_force,           ///< N
+    normal,               ///< unit normal of the front
+    stiffness,            ///< share per direction, by first particle
+    mass_share,           ///< 1 = an inner particle's
+    cells,                ///< triangles that exist, bits 1 and 2, one texel per cell
+    tension_row,          ///< per direction (tension_of), by first particle, m: extension that would balance the
+    tension_column,       ///< tension applied in the substep; compliant and iterated springs, and stretch where the
+    tension_shear_down_right,  ///< stretch error is wanted
+    tension_shear_down_left,
+    residuals,         ///< stretch error by workgroup
+    iterations,        ///< sizes of the next iteration's dispatches, and iterations run (residual_types.h)
+    iteration_sizes,   ///< the sizes to choose from
+    triangles,         ///< index buffer
+    cut_vertices,      ///< vertices on cut springs
+    tethers,           ///< of every particle
+    pinned_particles,  ///< particles of pins that move or let go
+    pin_motions,       ///< of every substep
+};
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::pin_motions) + 1;
+
+enum class FieldLife : std::uint8_t {
+    state,     ///< what the next frame starts from: carried over a cut, and the twin's to the bit
+    frame,     ///< written before it is read in every frame
+    device,    ///< kept on the device, of no meaning to anybody else
+    constant,  ///< the host's, from the start on or since a cut
+    input,     ///< the host's, of every frame
+};
+
+/// How shaders may see a field.
+enum class FieldView : std::uint8_t { image, buffer, image_and_buffer };
+
+/// What a frame is for, beside simulating.
+struct FrameNeeds {
+    bool drawing = false;     ///< triangles and normals
+    bool statistics = false;  ///< the tension of the stretch springs
+};
+
+/// What a row's functions look at.
+struct FieldContext {
+    const SimulationModel& model;
+    const ClothModel& cloth;
+    const CutTopology& topology;
+    FrameNeeds needs{};
+};
+
+struct FieldExtent {
+    std::uint64_t width, height = 1;  ///< texels; elements of a buffer
+    std::uint64_t count() const { return width * height; }
+};
+
+struct FieldRow {
+    Field field;
+    std::string_view name;  ///< the resource is "<cloth>/<name>"
+    FieldView view;
+    const glsl::StructLayout& element;  ///< of images vec4 (rgba32f), float (r32f) or uint (r32ui)
+    FieldLife life;
+    bool (*needed)(const FieldContext&);
+    FieldExtent (*extent)(const FieldContext&);
+    /// Bytes at the start, or since the last cut, at most as many as the extent holds; null: zeros.
+    std::vector<std::byte> (*start)(const FieldContext&) = nullptr;
+    bool is_image() const { return view != FieldView::buffer; }
+};
+
+/// By Field.
+std::span<const FieldRow> cloth_fields();
+inline const FieldRow& row_of(Field field) { return cloth_fields()[static_cast<std::size_t>(field)]; }
+/// The tension of the springs of one direction (engine/cloth/directions.h).
+Field tension_of(std::size_t direction);
+
+/// Elements that a draw list of `count` elements has room for: it grows in powers of two, so that few cuts need
+/// new buffers.
+std::size_t draw_list_capacity(std::size_t count);
+/// Workgroups of the residual pass, each of which leaves a record.
+std::uint32_t residual_count(const Grid& grid);
+/// Rows of its invocations.
+std::uint32_t residual_strip_count(const Grid& grid);
+
+}  // namespace drape
