@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED
+#include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/shading.h"

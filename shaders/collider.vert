@@ -1,6 +1,7 @@
 // Colliders as their true shapes, one instance each, and the backdrop as one large triangle at the far end.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/collider_mesh.h"

@@ -1,6 +1,7 @@
 // Colliders as the first light sees them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/shadow_clip.h"

@@ -7,7 +7,9 @@
 #include "shared/simulation_types.h"
 #include "include/spring.h"
 #include "include/statistics.h"
+#ifdef COLLIDING
 #include "include/colliders.h"
+#endif
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { StatisticsPush push; };
@@ -20,18 +22,6 @@ layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
 #endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
-#ifdef COLLIDING
-layout(constant_id = 0) const bool has_planes = false;
-layout(constant_id = 1) const bool has_spheres = false;
-layout(constant_id = 2) const bool has_boxes = false;
-layout(constant_id = 3) const bool has_ellipsoids = false;
-// A kind that the scene lacks is bound to another kind's buffer and never read (its count is 0).
-layout(set = 0, binding = 5, std430) readonly buffer Planes { Collider planes[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Spheres { Collider spheres[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Boxes { Collider boxes[]; };
-layout(set = 0, binding = 8, std430) readonly buffer Ellipsoids { Collider ellipsoids[]; };
-#endif
-
 #define RECORD StatisticsRecord
 #include "include/workgroup_reduction.h"
 
@@ -59,36 +49,6 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
                              push.half_stiffness[direction], share, tension, direction >= 2);
 }
 
-#ifdef COLLIDING
-/// The deepest of the contacts that the collision pass would find, m.
-float penetration(vec3 at) {
-    vec3 rest = vec3(0.0f, 0.0f, 0.0f);
-    float thickness = push.reference.w;
-    float deepest = 0.0f;
-    if (has_planes)
-        for (int i = 0; i < push.collider_count.x; ++i) {
-            float depth = plane_contact(planes[push.collider_first.x + i], at, rest, thickness, 0.0f).depth;
-            deepest = depth > deepest ? depth : deepest;
-        }
-    if (has_spheres)
-        for (int i = 0; i < push.collider_count.y; ++i) {
-            float depth = sphere_contact(spheres[push.collider_first.y + i], at, rest, thickness, 0.0f).depth;
-            deepest = depth > deepest ? depth : deepest;
-        }
-    if (has_boxes)
-        for (int i = 0; i < push.collider_count.z; ++i) {
-            float depth = box_contact(boxes[push.collider_first.z + i], at, rest, thickness, 0.0f).depth;
-            deepest = depth > deepest ? depth : deepest;
-        }
-    if (has_ellipsoids)
-        for (int i = 0; i < push.collider_count.w; ++i) {
-            float depth = ellipsoid_contact(ellipsoids[push.collider_first.w + i], at, rest, thickness, 0.0f).depth;
-            deepest = depth > deepest ? depth : deepest;
-        }
-    return deepest;
-}
-#endif
-
 StatisticsRecord statistics_of(ivec2 texel) {
     vec4 at = imageLoad(position, texel);
     StatisticsRecord record = particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel),
@@ -99,8 +59,10 @@ StatisticsRecord statistics_of(ivec2 texel) {
     record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1), 0.0f);
     record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1), 0.0f);
 #ifdef COLLIDING
-    // Contacts do not move held particles, so those are no measure of them.
-    if (at.w != 0.0f) record.extents.z = penetration(at.xyz);
+    // The deepest contact that the collision pass would find. It does not move held particles, so those are no measure.
+    vec3 rest = vec3(0.0f, 0.0f, 0.0f);
+    if (at.w != 0.0f)
+        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, push.reference.w, 0.0f, false).depth;
 #endif
     return record;
 }

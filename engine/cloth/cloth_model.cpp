@@ -33,13 +33,10 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
     const Vec3& o = cloth.placement.origin;
     const double extent = std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
-    const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
-    const Colliders& c = scene.colliders;
-    collision = {{0, 0, 0, 0},
-                 {count(c.planes), count(c.spheres), count(c.boxes), count(c.ellipsoids)},
-                 {static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
+    collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
                   static_cast<float>(2.4e-7 * extent), 0},
-                 {grid.size().x, grid.size().y, 0, 0}};
+                 grid.size(),
+                 0};
 }
 
 }  // namespace drape

@@ -29,8 +29,7 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
     const glsl::vec4 first = cloth.position.front(), last = cloth.position.back();
     push.reference = {0.5f * (first.x + last.x), 0.5f * (first.y + last.y), 0.5f * (first.z + last.z),
                       cloth.collision.contact.x};
-    push.collider_first = first_colliders(model.scene, model.scene.solver.substeps - 1);
-    push.collider_count = cloth.collision.count;
+    push.collider_first = first_collider(model.scene, model.scene.solver.substeps - 1);
     push.grid = cloth.grid.size();
     return push;
 }
@@ -64,7 +63,7 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
         statistics.center_of_mass[k] = start[k] + (share > 0 ? moments[k] / share : 0.0);
         statistics.potential_energy -= statistics.mass * model.scene.gravity[k] * statistics.center_of_mass[k];
     }
-    if (model.collider_count > 0) statistics.penetration = record.extents.z;
+    if (!model.scene.colliders.empty()) statistics.penetration = record.extents.z;
     statistics.largest_distance = std::sqrt(static_cast<double>(record.extents.x));
     statistics.largest_speed = std::sqrt(static_cast<double>(record.extents.y)) / h;
     statistics.non_finite_count = record.counts.x;

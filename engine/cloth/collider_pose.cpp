@@ -1,8 +1,11 @@
 #include "cloth/collider_pose.h"
 
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/motion.h"
+#include "shared/collider_types.h"
 
 namespace drape {
 namespace {
@@ -15,32 +18,44 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
     return result;
 }
 
-ColliderPose pose_about(const Vec3& center, const ColliderCommon& collider, double time) {
+ShapeGeometry geometry(const Plane& plane) {
+    const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset, plane.normal[2] * plane.offset};
+    return {foot, plane.normal, std::numeric_limits<double>::infinity()};
+}
+ShapeGeometry geometry(const Sphere& sphere) { return {sphere.center, {sphere.radius, 0, 0}, sphere.radius}; }
+ShapeGeometry geometry(const Box& box) {
+    const Vec3& h = box.half_extents;
+    return {box.center, h, std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2])};
+}
+ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
+    return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
+}
+
+template <int kind>
+using Shape = std::variant_alternative_t<kind, ColliderShape>;
+static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
+              std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid>);
+
+}  // namespace
+
+ShapeGeometry shape_geometry(const ColliderShape& shape) {
+    return std::visit([](const auto& known) { return geometry(known); }, shape);
+}
+
+ColliderPose collider_pose(const Collider& collider, double time) {
     const RigidTransform motion = motion_at(collider.path, time);
-    ColliderPose pose{product(motion.rotation, rotation_matrix(collider.rotate)), center};
+    const ShapeGeometry shape = shape_geometry(collider.shape);
+    ColliderPose pose{product(motion.rotation, rotation_matrix(collider.rotate)), shape.center};
+    if (shape.axes) pose.rotation = product(pose.rotation, *shape.axes);
     for (std::size_t axis = 0; axis < 3; ++axis) pose.center[axis] += motion.translation[axis];
     return pose;
 }
-
-}  // namespace
 
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v) {
     Vec3 result{0, 0, 0};
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t k = 0; k < 3; ++k) result[row] += rotation[3 * row + k] * v[k];
     return result;
-}
-
-ColliderPose collider_pose(const SphereCollider& sphere, double time) {
-    return pose_about(sphere.center, sphere, time);
-}
-ColliderPose collider_pose(const BoxCollider& box, double time) { return pose_about(box.center, box, time); }
-ColliderPose collider_pose(const EllipsoidCollider& ellipsoid, double time) {
-    return pose_about(ellipsoid.center, ellipsoid, time);
-}
-ColliderPose collider_pose(const PlaneCollider& plane, double time) {
-    const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset, plane.normal[2] * plane.offset};
-    return pose_about(foot, plane, time);
 }
 
 }  // namespace drape

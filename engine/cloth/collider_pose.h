@@ -1,8 +1,8 @@
-// Where a collider is at a time: its rest pose with its key-framed motion on top. One definition for the
-// simulation and the pictures.
+// Where a collider is at a time, and what simulation and pictures know of its shape: one definition for both.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "scene/scene_description.h"
 
@@ -15,13 +15,19 @@ struct ColliderPose {
     bool operator==(const ColliderPose&) const = default;
 };
 
-/// The path's rotation turns the rest pose about the collider's own centre; its translation is added.
-ColliderPose collider_pose(const SphereCollider& sphere, double time);
-ColliderPose collider_pose(const BoxCollider& box, double time);
-ColliderPose collider_pose(const EllipsoidCollider& ellipsoid, double time);
-/// A plane's centre is its foot point normal * offset, carried along by the path; its world normal is
-/// `rotate(pose.rotation, plane.normal)`.
-ColliderPose collider_pose(const PlaneCollider& plane, double time);
+/// A shape in its own frame.
+struct ShapeGeometry {
+    Vec3 center;   ///< m, at rest: what it turns about
+    Vec3 size;     ///< what the device knows of it (shared/collider_types.h); a plane's: its normal
+    double reach;  ///< m, of the surface from the centre; infinity: it has no end
+    /// How its own axes lie before it is rotated, row major; nothing: along the world's.
+    std::optional<std::array<double, 9>> axes = {};
+};
+ShapeGeometry shape_geometry(const ColliderShape& shape);
+
+/// Its rest pose with its key-framed motion on top: the path's rotation turns it about its own centre, its translation
+/// is added. A plane's world normal is `rotate(pose.rotation, normal)`.
+ColliderPose collider_pose(const Collider& collider, double time);
 
 /// rotation * v.
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v);

@@ -1,5 +1,6 @@
 #include "cloth/frame_inputs.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/collider_pose.h"
@@ -15,18 +16,20 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
             static_cast<float>(w)};
 }
 
-template <class Shape>
-glsl::Collider collider_record(const Shape& shape, double before, double now, const glsl::vec4& size) {
-    const ColliderPose pose = collider_pose(shape, now);
-    glsl::Collider record{row(pose.rotation, 0, pose.center[0]),
-                          row(pose.rotation, 1, pose.center[1]),
-                          row(pose.rotation, 2, pose.center[2]),
-                          {},
-                          {},
-                          {},
-                          size};
-    if (shape.path.moves()) {
-        const ColliderPose last = collider_pose(shape, before);
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now) {
+    const ColliderPose pose = collider_pose(collider, now);
+    Vec3 size = shape_geometry(collider.shape).size;
+    if (collider.kind() == glsl::kind_plane) size = rotate(pose.rotation, size);
+    glsl::ColliderRecord record{row(pose.rotation, 0, pose.center[0]),
+                                row(pose.rotation, 1, pose.center[1]),
+                                row(pose.rotation, 2, pose.center[2]),
+                                {},
+                                {},
+                                {},
+                                {static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2]),
+                                 static_cast<float>(std::sqrt(collider.friction))}};
+    if (collider.path.moves()) {
+        const ColliderPose last = collider_pose(collider, before);
         ColliderPose change;
         for (std::size_t k = 0; k < 9; ++k) change.rotation[k] = pose.rotation[k] - last.rotation[k];
         for (std::size_t k = 0; k < 3; ++k) change.center[k] = pose.center[k] - last.center[k];
@@ -37,33 +40,8 @@ glsl::Collider collider_record(const Shape& shape, double before, double now, co
     return record;
 }
 
-glsl::vec4 shape_texel(const Vec3& size, double friction) {
-    return {static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2]),
-            static_cast<float>(std::sqrt(friction))};
-}
-
-void add_colliders(FrameInputs& inputs, const Colliders& colliders, const std::array<bool, 4>& wanted, double before,
-                   double now) {
-    if (wanted[0])
-        for (const PlaneCollider& plane : colliders.planes) {
-            const std::array<double, 9> r = collider_pose(plane, now).rotation;
-            Vec3 n;
-            for (std::size_t k = 0; k < 3; ++k)
-                n[k] = r[3 * k] * plane.normal[0] + r[3 * k + 1] * plane.normal[1] + r[3 * k + 2] * plane.normal[2];
-            inputs.colliders[0].push_back(collider_record(plane, before, now, shape_texel(n, plane.friction)));
-        }
-    if (wanted[1])
-        for (const SphereCollider& sphere : colliders.spheres)
-            inputs.colliders[1].push_back(
-                collider_record(sphere, before, now, shape_texel({sphere.radius, 0, 0}, sphere.friction)));
-    if (wanted[2])
-        for (const BoxCollider& box : colliders.boxes)
-            inputs.colliders[2].push_back(
-                collider_record(box, before, now, shape_texel(box.half_extents, box.friction)));
-    if (wanted[3])
-        for (const EllipsoidCollider& ellipsoid : colliders.ellipsoids)
-            inputs.colliders[3].push_back(
-                collider_record(ellipsoid, before, now, shape_texel(ellipsoid.radii, ellipsoid.friction)));
+bool any_moves(const std::vector<Collider>& colliders) {
+    return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });
 }
 
 /// Motion of a pin: x = R (rest - pivot) + pivot + translation.
@@ -78,33 +56,27 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
     return {row(r, 0, shift[0]), row(r, 1, shift[1]), row(r, 2, shift[2]), {held, 0, 0, 0}};
 }
 
-template <class List>
-bool any_moves(const List& list) {
-    for (const auto& collider : list)
-        if (collider.path.moves()) return true;
-    return false;
-}
-
-std::array<std::size_t, collider_kind_count> collider_counts(const Colliders& c) {
-    return {c.planes.size(), c.spheres.size(), c.boxes.size(), c.ellipsoids.size()};
-}
-
 }  // namespace
 
-std::array<bool, collider_kind_count> moving_kinds(const Colliders& c) {
-    return {any_moves(c.planes), any_moves(c.spheres), any_moves(c.boxes), any_moves(c.ellipsoids)};
+std::size_t collider_record_count(const SceneDescription& scene) {
+    return scene.colliders.size() * (any_moves(scene.colliders) ? scene.solver.substeps : 1);
 }
 
-std::size_t collider_record_count(const SceneDescription& scene, ColliderKind kind) {
-    const auto index = static_cast<std::size_t>(kind);
-    return collider_counts(scene.colliders)[index] * (moving_kinds(scene.colliders)[index] ? scene.solver.substeps : 1);
+int first_collider(const SceneDescription& scene, std::uint32_t substep) {
+    return any_moves(scene.colliders) ? static_cast<int>(scene.colliders.size() * substep) : 0;
+}
+
+std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders) {
+    std::array<std::uint32_t, glsl::collider_kind_count> ends{};
+    for (const Collider& collider : colliders)
+        for (std::size_t kind = static_cast<std::size_t>(collider.kind()); kind < ends.size(); ++kind) ++ends[kind];
+    return ends;
 }
 
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
     const double frame_start = (static_cast<double>(frame) - 1) / scene.time.fps;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    const std::array<bool, collider_kind_count> moving = moving_kinds(scene.colliders);
     FrameInputs inputs;
     inputs.pins.resize(model.cloths.size());
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
@@ -113,21 +85,14 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
             const Vec3 wind = wind_velocity(scene.wind, 0.5 * (start + end));
             inputs.wind.push_back(row({wind[0], wind[1], wind[2]}, 0, 0));
         }
-        std::array<bool, collider_kind_count> wanted;
-        for (std::size_t kind = 0; kind < collider_kind_count; ++kind) wanted[kind] = moving[kind] || substep == 0;
-        add_colliders(inputs, scene.colliders, wanted, start, end);
+        if (substep == 0 || any_moves(scene.colliders))
+            for (const Collider& collider : scene.colliders)
+                inputs.colliders.push_back(collider_record(collider, start, end));
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
                 inputs.pins[cloth].push_back(pin_motion(pin, start, end));
     }
     return inputs;
-}
-
-glsl::ivec4 first_colliders(const SceneDescription& scene, std::uint32_t substep) {
-    const std::array<bool, collider_kind_count> moving = moving_kinds(scene.colliders);
-    const auto counts = collider_counts(scene.colliders);
-    const auto first = [&](std::size_t kind) { return moving[kind] ? static_cast<int>(counts[kind] * substep) : 0; };
-    return {first(0), first(1), first(2), first(3)};
 }
 
 }  // namespace drape

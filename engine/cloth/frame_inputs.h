@@ -6,29 +6,25 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
+#include "shared/collider_types.h"
 
 namespace drape {
 
-enum class ColliderKind { plane, sphere, box, ellipsoid };
-inline constexpr std::size_t collider_kind_count = 4;
-
-/// Whether any collider of the kind is key-framed: then its poses are listed per substep, else once.
-std::array<bool, collider_kind_count> moving_kinds(const Colliders& colliders);
-
-/// Collider records of the kind that one frame holds: count, times substeps when the kind moves.
-std::size_t collider_record_count(const SceneDescription& scene, ColliderKind kind);
+/// Collider records that one frame holds: all of them once, or per substep when any is key-framed.
+std::size_t collider_record_count(const SceneDescription& scene);
+/// The first of them in a substep.
+int first_collider(const SceneDescription& scene, std::uint32_t substep);
+/// Colliders of each kind and those before it: where the kind ends in the sorted list.
+std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
 struct FrameInputs {
-    std::vector<glsl::vec4> wind;  ///< per substep, m/s; empty without wind
-    std::array<std::vector<glsl::Collider>, collider_kind_count> colliders;
+    std::vector<glsl::vec4> wind;                    ///< per substep, m/s; empty without wind
+    std::vector<glsl::ColliderRecord> colliders;     ///< in the scene's order
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 
 /// Inputs for simulating from frame-1 to `frame` (1 .. frame_count-1). Frame 0 is not simulated; its last substep
 /// ends at time 0, so its colliders are where they start.
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame);
-
-/// First record of each kind in a substep.
-glsl::ivec4 first_colliders(const SceneDescription& scene, std::uint32_t substep);
 
 }  // namespace drape

@@ -37,7 +37,7 @@ class Substep {
                 steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
                                   last && substep_ + 1 == solver.substeps, conditional});
             const bool per_iteration = solver.collide == CollideWhen::iteration;
-            if (model_.collider_count > 0 && (per_iteration || last))
+            if (!model_.scene.colliders.empty() && (per_iteration || last))
                 add(StepKind::collide, iteration).conditional = conditional && per_iteration;
             if (model_.adaptive() && !last) add(StepKind::check, iteration).conditional = conditional;
         }
@@ -46,7 +46,7 @@ class Substep {
     void add_tethers() {
         if (cloth_.tethers.empty()) return;
         add(StepKind::tether);
-        if (model_.collider_count > 0) add(StepKind::collide, model_.scene.solver.iterations);
+        if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations);
     }
 
     const SimulationModel& model_;

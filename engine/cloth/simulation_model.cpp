@@ -1,5 +1,11 @@
 #include "cloth/simulation_model.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shared/collider_types.h"
+
 namespace drape {
 
 SimulationModel::SimulationModel(const SceneDescription& description, const ModelOptions& options)
@@ -10,8 +16,7 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
       windy(description.wind.blows()) {
     scene.solver = choice.settings;
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
-    const Colliders& c = scene.colliders;
-    collider_count = static_cast<int>(c.planes.size() + c.spheres.size() + c.boxes.size() + c.ellipsoids.size());
+    std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
 }
 
 bool SimulationModel::adaptive() const {
@@ -26,18 +31,14 @@ float SimulationModel::iteration_limit() const {
 std::vector<SkippedWork> SimulationModel::skipped() const {
     std::vector<SkippedWork> all;
     if (!windy) all.push_back({"wind", "no wind in the scene"});
-    const Colliders& c = scene.colliders;
-    if (collider_count == 0) {
+    if (scene.colliders.empty()) {
         all.push_back({"collision", "no colliders in the scene"});
     } else {
-        const auto absent = [&](const char* kind, bool empty) {
-            if (empty) all.push_back({std::string("collision with ") + kind, "the scene has none: specialised away"});
-        };
-        absent("planes", c.planes.empty());
-        absent("spheres", c.spheres.empty());
-        absent("boxes", c.boxes.empty());
-        absent("ellipsoids", c.ellipsoids.empty());
-        if (collider_count == 1)
+        for (int kind = 0; kind < glsl::collider_kind_count; ++kind)
+            if (std::ranges::find(scene.colliders, kind, &Collider::kind) == scene.colliders.end())
+                all.push_back(
+                    {fmt::format("collision with {}", collider_lists[kind]), "the scene has none: specialised away"});
+        if (scene.colliders.size() == 1)
             all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
     }
     for (const ClothModel& cloth : cloths) {

@@ -11,15 +11,14 @@ namespace drape {
 struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
 
-    SceneDescription scene;     ///< its solver settings are those in use: `auto` is resolved
+    SceneDescription scene;     ///< with the settings in use (`auto` is resolved), its colliders sorted by kind
     SolverMethod asked_method;  ///< as the scene file has it
     double asked_tolerance;     ///< that a frame may not miss; 0: none
     SolverChoice choice;
     std::vector<ClothModel> cloths;
     bool windy;
-    int collider_count;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
-    std::uint32_t collision_rounds() const { return collider_count > 1 ? 32 : 1; }
+    std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }
 
     /// The method in use, as a scene knows it.
     const SolverMethodName& method() const { return named(scene.solver.method); }

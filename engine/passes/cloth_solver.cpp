@@ -87,10 +87,8 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
     for (const Compromise& each : model_.compromises()) graph.compromise(each.what, each.reason);
     const SceneDescription& scene = model_.scene;
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", scene.solver.substeps, Lifetime::host_input);
-    for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
-        if (const std::size_t count = collider_record_count(scene, static_cast<ColliderKind>(kind)))
-            inputs_.colliders[kind] = graph.buffer<glsl::Collider>("colliders/" + std::string(collider_kind_name(kind)),
-                                                                   count, Lifetime::host_input);
+    if (const std::size_t count = collider_record_count(scene))
+        inputs_.colliders = graph.buffer<glsl::ColliderRecord>("colliders", count, Lifetime::host_input);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
 }
 
@@ -171,7 +169,7 @@ void ClothSolver::add_statistics(graph::Graph& graph) {
         drape::add_statistics(graph, pipelines_, state, inputs_, model_);
         if (model_.adaptive()) add_iteration_readback(graph, state);
     }
-    if (model_.collider_count == 0) graph.skip("statistics: penetration", "no colliders in the scene");
+    if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 
 std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
@@ -211,10 +209,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const {
     const FrameInputs inputs = frame_inputs(model_, frame);
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
-    for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
-        if (!inputs.colliders[kind].empty())
-            write_buffer(pool, slot, std::string("colliders/") + std::string(collider_kind_name(kind)),
-                         inputs.colliders[kind]);
+    if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
         if (!inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),

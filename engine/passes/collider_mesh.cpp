@@ -1,5 +1,6 @@
 #include "passes/collider_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth/collider_pose.h"
@@ -7,10 +8,14 @@
 namespace drape {
 namespace {
 
-constexpr std::uint32_t quad_vertex_count = 6;
-constexpr std::uint32_t box_vertex_count = 6 * quad_vertex_count;
-constexpr std::uint32_t sphere_vertex_count = glsl::sphere_columns * glsl::sphere_rows * quad_vertex_count;
-constexpr std::uint32_t backdrop_vertex_count = 3;
+/// What may hide most first: planes last, then the backdrop.
+constexpr auto drawing_order = [] {
+    std::array<int, glsl::collider_kind_count> kinds{};
+    for (int kind = 0; kind < glsl::collider_kind_count; ++kind)
+        kinds[static_cast<std::size_t>(kind)] = (kind + 1) % glsl::collider_kind_count;
+    return kinds;
+}();
+static_assert(drawing_order.back() == glsl::kind_plane);
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -39,8 +44,9 @@ Vec3 tangent(const Vec3& normal) {
     return result;
 }
 
-glsl::ColliderInstance plane_instance(const PlaneCollider& plane, const PlaneExtent& extent, double time) {
-    ColliderPose pose = collider_pose(plane, time);
+glsl::ColliderInstance plane_instance(const Collider& collider, const PlaneExtent& extent, double time) {
+    const Plane& plane = std::get<Plane>(collider.shape);
+    ColliderPose pose = collider_pose(collider, time);
     const Vec3 normal = rotate(pose.rotation, plane.normal);
     const Vec3 x = rotate(pose.rotation, tangent(plane.normal));
     const Vec3 z = cross(x, normal);
@@ -49,7 +55,7 @@ glsl::ColliderInstance plane_instance(const PlaneCollider& plane, const PlaneExt
                          extent.center[2] - pose.center[2]};
     const glsl::vec4 shape{static_cast<float>(extent.half_side), static_cast<float>(extent.line_distance),
                            static_cast<float>(dot(x, to_center)), static_cast<float>(dot(z, to_center))};
-    return instance(pose, shape, plane.color);
+    return instance(pose, shape, collider.color);
 }
 
 }  // namespace
@@ -61,32 +67,32 @@ glsl::vec4 linear_color(const Vec3& srgb) {
     return vec4(linear, 1);
 }
 
-std::vector<ColliderDraw> collider_draws(const Colliders& colliders) {
+std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders) {
     std::vector<ColliderDraw> draws;
     std::uint32_t first = 0;
-    const auto add = [&](int kind, std::uint32_t vertex_count, std::size_t count, bool casts_shadow) {
-        const auto instance_count = static_cast<std::uint32_t>(count);
-        if (count > 0) draws.push_back({kind, vertex_count, first, instance_count, casts_shadow});
-        first += instance_count;
-    };
-    add(glsl::kind_ellipsoid, sphere_vertex_count, colliders.spheres.size() + colliders.ellipsoids.size(), true);
-    add(glsl::kind_box, box_vertex_count, colliders.boxes.size(), true);
-    add(glsl::kind_plane, quad_vertex_count, colliders.planes.size(), false);
-    add(glsl::kind_backdrop, backdrop_vertex_count, 1, false);
+    for (const int kind : drawing_order) {
+        const auto count = static_cast<std::uint32_t>(std::ranges::count(colliders, kind, &Collider::kind));
+        if (count == 0) continue;
+        const auto vertex_count = static_cast<std::uint32_t>(glsl::mesh_vertex_count(kind));
+        draws.push_back({kind, vertex_count, first, count, kind != glsl::kind_plane});
+        first += count;
+    }
+    draws.push_back({glsl::kind_backdrop, static_cast<std::uint32_t>(glsl::mesh_vertex_count(glsl::kind_backdrop)),
+                     first, 1, false});
     return draws;
 }
 
-std::vector<glsl::ColliderInstance> collider_instances(const Colliders& colliders, const PlaneExtent& extent,
-                                                       double time) {
+std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
+                                                       const PlaneExtent& extent, double time) {
     std::vector<glsl::ColliderInstance> instances;
-    for (const SphereCollider& sphere : colliders.spheres)
-        instances.push_back(instance(collider_pose(sphere, time),
-                                     vec4({sphere.radius, sphere.radius, sphere.radius}, 0), sphere.color));
-    for (const EllipsoidCollider& ellipsoid : colliders.ellipsoids)
-        instances.push_back(instance(collider_pose(ellipsoid, time), vec4(ellipsoid.radii, 0), ellipsoid.color));
-    for (const BoxCollider& box : colliders.boxes)
-        instances.push_back(instance(collider_pose(box, time), vec4(box.half_extents, 0), box.color));
-    for (const PlaneCollider& plane : colliders.planes) instances.push_back(plane_instance(plane, extent, time));
+    for (const int kind : drawing_order)
+        for (const Collider& collider : colliders) {
+            if (collider.kind() != kind) continue;
+            instances.push_back(kind == glsl::kind_plane
+                                    ? plane_instance(collider, extent, time)
+                                    : instance(collider_pose(collider, time),
+                                               vec4(shape_geometry(collider.shape).size, 0), collider.color));
+        }
     instances.push_back({});  // the backdrop has no pose
     return instances;
 }

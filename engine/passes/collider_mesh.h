@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene_description.h"
+#include "shared/collider_types.h"
 #include "shared/raster_types.h"
 
 namespace drape {
@@ -13,7 +14,7 @@ namespace drape {
 /// sRGB 0..1 -> linear.
 glsl::vec4 linear_color(const Vec3& srgb);
 
-/// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/raster_types.h).
+/// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/collider_types.h).
 struct ColliderDraw {
     int kind = glsl::kind_backdrop;
     std::uint32_t vertex_count = 0;
@@ -23,7 +24,7 @@ struct ColliderDraw {
 
 /// Kinds that the scene has, then the backdrop, which always is there: last, so that what is hidden behind
 /// everything else is not shaded.
-std::vector<ColliderDraw> collider_draws(const Colliders& colliders);
+std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders);
 
 /// How planes, which have no end, are drawn: as a square around the point below `center`.
 struct PlaneExtent {
@@ -33,7 +34,7 @@ struct PlaneExtent {
 };
 
 /// In the order that `collider_draws` counts, poses at `time` (s).
-std::vector<glsl::ColliderInstance> collider_instances(const Colliders& colliders, const PlaneExtent& extent,
-                                                       double time);
+std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
+                                                       const PlaneExtent& extent, double time);
 
 }  // namespace drape

@@ -6,20 +6,18 @@ namespace drape {
 
 void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step) {
-    std::vector<vulkan::SpecializationConstant> constants;
-    for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
-        constants.push_back({collider_constants[kind], inputs.colliders[kind].valid() ? 1u : 0u});
+    std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
     const vulkan::ComputePipeline& pipeline = pipelines.get("collision.comp", constants);
     glsl::CollisionPush push = state.model->collision;
-    push.first = first_colliders(model.scene, step.substep);
+    push.first = first_collider(model.scene, step.substep);
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());
     graph.add_pass(
         state.step_name("collision", step),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
-            read_colliders(setup, inputs);
+            setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

@@ -39,17 +39,16 @@ graph::PassName ClothState::step_name(const std::string& pass, const Step& step)
     return {fmt::format("{} (substep {}, iteration {})", label, step.substep, step.iteration), "simulate", label};
 }
 
-std::string_view collider_kind_name(std::size_t kind) {
-    constexpr std::string_view names[] = {"planes", "spheres", "boxes", "ellipsoids"};
-    return names[kind];
-}
-
-void read_colliders(graph::PassSetup& setup, const SceneInputs& inputs) {
-    const graph::Handle any = *std::ranges::find_if(inputs.colliders, &graph::Handle::valid);
-    for (std::size_t kind = 0; kind < collider_kind_count; ++kind) {
-        const graph::Handle buffer = inputs.colliders[kind];
-        setup.read(buffer.valid() ? buffer : any, graph::Access::compute_read, std::string(collider_kind_name(kind)));
-    }
+std::vector<vulkan::SpecializationConstant> collider_constants(const SceneDescription& scene) {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const std::string_view list : collider_lists) all.push_back(std::string(list) + "_end");
+        return all;
+    }();
+    const auto ends = kind_ends(scene.colliders);
+    std::vector<vulkan::SpecializationConstant> constants;
+    for (std::size_t kind = 0; kind < ends.size(); ++kind) constants.push_back({names[kind], ends[kind]});
+    return constants;
 }
 
 void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name) {

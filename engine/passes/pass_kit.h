@@ -55,17 +55,11 @@ std::string resource_name(const ClothModel& cloth, const FieldRow& row);
 /// Host inputs of the whole scene.
 struct SceneInputs {
     graph::Handle wind;
-    std::array<graph::Handle, collider_kind_count> colliders;  ///< invalid where the scene has none of the kind
+    graph::Handle colliders;  ///< ColliderRecords, sorted by kind
 };
 
-/// By kind: the constants of the shaders that meet colliders, which say whether the scene has any of the kind.
-inline constexpr std::array<std::string_view, collider_kind_count> collider_constants = {"has_planes", "has_spheres",
-                                                                                         "has_boxes", "has_ellipsoids"};
-/// "spheres" and so on: the shaders' array, and after "colliders/" the buffer's name.
-std::string_view collider_kind_name(std::size_t kind);
-/// Declares that a compute pass reads the colliders. A kind that the scene lacks borrows another kind's buffer: its
-/// count is 0, so nothing is read.
-void read_colliders(graph::PassSetup& setup, const SceneInputs& inputs);
+/// What the shaders that meet colliders (include/colliders.h) are specialised with: where each kind ends in the list.
+std::vector<vulkan::SpecializationConstant> collider_constants(const SceneDescription& scene);
 
 /// Declares read then write of one resource and stores the new handle: by two variables of the shader, NAME_in and
 /// NAME_out, so that synchronization validation sees them apart, or by one.

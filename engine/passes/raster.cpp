@@ -28,11 +28,11 @@ constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
 
 std::string shadow_skip_reason(const SceneDescription& scene, const RasterOptions& options) {
-    const Colliders& colliders = scene.colliders;
     if (!options.shadow) return "switched off";
     if (scene.lights.empty()) return "the scene has no light";
     if (!(scene.lights[0].intensity > 0)) return "the first light has no intensity";
-    if (scene.cloths.empty() && colliders.spheres.empty() && colliders.boxes.empty() && colliders.ellipsoids.empty())
+    const auto casts = [](const ColliderDraw& draw) { return draw.casts_shadow; };
+    if (scene.cloths.empty() && std::ranges::none_of(collider_draws(scene.colliders), casts))
         return "the scene has nothing that casts one";
     return {};
 }

@@ -78,7 +78,7 @@ class RasterPass {
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
-    Colliders colliders_;
+    std::vector<Collider> colliders_;
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow

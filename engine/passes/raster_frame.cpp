@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/collider_pose.h"
 #include "cloth/texels.h"
 #include "passes/camera.h"
 #include "scene/vectors.h"
@@ -37,15 +38,16 @@ struct Bounds {
     }
 };
 
-void add_cloth(const Cloth& cloth, const Colliders& colliders, Bounds& bounds) {
+void add_cloth(const Cloth& cloth, const std::vector<Collider>& colliders, Bounds& bounds) {
     const double swing = 0.25 * 0.5 * std::hypot(cloth.size[0], cloth.size[1]);
     for (int corner = 0; corner < 4; ++corner) {
         const Vec3 along_u = sum(cloth.placement.origin, cloth.placement.u, corner % 2 == 0 ? 0 : cloth.size[0]);
         const Vec3 point = sum(along_u, cloth.placement.v, corner / 2 == 0 ? 0 : cloth.size[1]);
         bounds.add(point, swing);
         for (const Pin& pin : cloth.pins) bounds.add(point, 0, pin.path);
-        for (const PlaneCollider& plane : colliders.planes)
-            bounds.add(sum(point, plane.normal, plane.offset - dot(point, plane.normal)), swing);
+        for (const Collider& collider : colliders)
+            if (const Plane* plane = std::get_if<Plane>(&collider.shape))
+                bounds.add(sum(point, plane->normal, plane->offset - dot(point, plane->normal)), swing);
     }
 }
 
@@ -82,10 +84,10 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, g
 BoundingSphere scene_extent(const SceneDescription& scene) {
     Bounds bounds;
     for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene.colliders, bounds);
-    for (const SphereCollider& sphere : scene.colliders.spheres) bounds.add(sphere.center, sphere.radius, sphere.path);
-    for (const BoxCollider& box : scene.colliders.boxes) bounds.add(box.center, length(box.half_extents), box.path);
-    for (const EllipsoidCollider& ellipsoid : scene.colliders.ellipsoids)
-        bounds.add(ellipsoid.center, *std::max_element(ellipsoid.radii.begin(), ellipsoid.radii.end()), ellipsoid.path);
+    for (const Collider& collider : scene.colliders) {
+        const ShapeGeometry shape = shape_geometry(collider.shape);
+        if (shape.reach < infinity) bounds.add(shape.center, shape.reach, collider.path);
+    }
     if (bounds.empty()) {
         const double distance = length(sum(scene.camera.target, scene.camera.position, -1));
         return {scene.camera.target, distance > 0 ? distance : 1.0};

@@ -18,11 +18,9 @@ std::uint32_t partial_count(const Grid& grid) {
 
 graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
-    const bool collides = model.collider_count > 0;
+    const bool collides = inputs.colliders.valid();
     std::vector<vulkan::SpecializationConstant> constants;
-    if (collides)
-        for (std::size_t kind = 0; kind < collider_kind_count; ++kind)
-            constants.push_back({collider_constants[kind], inputs.colliders[kind].valid() ? 1u : 0u});
+    if (collides) constants = collider_constants(model.scene);
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", collides}}), constants);
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(
@@ -39,7 +37,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
                 setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
                 setup.read(state[Field::mass_share], graph::Access::compute_read, "mass_image");
             }
-            if (collides) read_colliders(setup, inputs);
+            if (collides) setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
         },
         [&pipeline, push = statistics_push(model, *state.model),
          height = strip_count(state.model->grid)](graph::PassContext& context) {

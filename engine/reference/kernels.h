@@ -1,6 +1,7 @@
 // The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
 #pragma once
 
+#include "shared/collider_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
 #include "shared/simulation_types.h"

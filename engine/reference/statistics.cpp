@@ -23,7 +23,11 @@ StatisticsRecord joined_over_workgroup(Workgroup& lanes) {
 class Reduction {
   public:
     Reduction(const SimulationModel& model, const ClothModel& cloth, const TwinCloth& state, const FrameInputs& inputs)
-        : state_(state), inputs_(inputs), push_(statistics_push(model, cloth)), masses_(mass_shares(cloth)) {}
+        : state_(state),
+          inputs_(inputs),
+          colliders_(model.scene.colliders),
+          push_(statistics_push(model, cloth)),
+          masses_(mass_shares(cloth)) {}
 
     StatisticsRecord run() const {
         std::vector<StatisticsRecord> partials;
@@ -79,24 +83,19 @@ class Reduction {
 
     float penetration(vec3 position) const {
         const vec3 rest{0, 0, 0};
-        const int firsts[4] = {push_.collider_first.x, push_.collider_first.y, push_.collider_first.z,
-                               push_.collider_first.w};
-        const int counts[4] = {push_.collider_count.x, push_.collider_count.y, push_.collider_count.z,
-                               push_.collider_count.w};
-        using ContactFunction = Contact (*)(Collider, vec3, vec3, float, float);
-        constexpr ContactFunction contacts[4] = {plane_contact, sphere_contact, box_contact, ellipsoid_contact};
         float deepest = 0.0f;
-        for (std::size_t kind = 0; kind < 4; ++kind)
-            for (int k = 0; k < counts[kind]; ++k) {
-                const Collider& collider = inputs_.colliders[kind][static_cast<std::size_t>(firsts[kind] + k)];
-                const float depth = contacts[kind](collider, position, rest, push_.reference.w, 0.0f).depth;
-                deepest = depth > deepest ? depth : deepest;
-            }
+        for (std::size_t k = 0; k < colliders_.size(); ++k) {
+            const ColliderRecord& record = inputs_.colliders[static_cast<std::size_t>(push_.collider_first) + k];
+            const float depth =
+                collider_contact(colliders_[k].kind(), record, position, rest, push_.reference.w, 0.0f).depth;
+            deepest = depth > deepest ? depth : deepest;
+        }
         return deepest;
     }
 
     const TwinCloth& state_;
     const FrameInputs& inputs_;
+    const std::vector<drape::Collider>& colliders_;
     StatisticsPush push_;
     std::vector<float> masses_;
 };

@@ -201,26 +201,19 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
 
 void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
     const CollisionPush& push = model.collision;
-    const ivec4 first = first_colliders(model_.scene, substep);
-    const std::size_t firsts[4] = {static_cast<std::size_t>(first.x), static_cast<std::size_t>(first.y),
-                                   static_cast<std::size_t>(first.z), static_cast<std::size_t>(first.w)};
-    const int counts[4] = {push.count.x, push.count.y, push.count.z, push.count.w};
-    using ContactFunction = Contact (*)(Collider, vec3, vec3, float, float);
-    constexpr ContactFunction contacts[4] = {plane_contact, sphere_contact, box_contact, ellipsoid_contact};
+    const auto first = static_cast<std::size_t>(first_collider(model_.scene, substep));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
         vec3 displacement = xyz(state[Field::displacement][i]);
         for (std::uint32_t round = 0; round < model_.collision_rounds(); ++round) {
             float deepest = 0.0f;
-            for (std::size_t kind = 0; kind < 4; ++kind)
-                for (int k = 0; k < counts[kind]; ++k) {
-                    const Collider& collider = inputs.colliders[kind][firsts[kind] + static_cast<std::size_t>(k)];
-                    const Contact contact =
-                        contacts[kind](collider, start, displacement, push.contact.x, push.contact.y);
-                    displacement = contact.displacement;
-                    deepest = contact.depth > deepest ? contact.depth : deepest;
-                }
+            for (std::size_t k = 0; k < model_.scene.colliders.size(); ++k) {
+                const Contact contact = collider_contact(model_.scene.colliders[k].kind(), inputs.colliders[first + k],
+                                                         start, displacement, push.contact.x, push.contact.y);
+                displacement = contact.displacement;
+                deepest = contact.depth > deepest ? contact.depth : deepest;
+            }
             if (!(deepest > push.contact.z)) break;
         }
         state[Field::displacement][i] = texel(displacement);

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "solver_method.h"
@@ -131,44 +133,43 @@ struct Cloth {
     bool operator==(const Cloth&) const = default;
 };
 
-/// What every collider has beside its shape. `rotate` and `path` rotate about the collider's own centre
-/// (a plane's: the foot point normal * offset); a path is applied on top of the rest pose.
-struct ColliderCommon {
-    double friction = 0.3;
-    Vec3 rotate{0, 0, 0};  ///< degrees, rest pose
-    MotionPath path;
-    Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
-    bool operator==(const ColliderCommon&) const = default;
-};
-
-struct PlaneCollider : ColliderCommon {
+struct Plane {
     Vec3 normal{0, 1, 0};  ///< unit length after reading; outside: normal . x >= offset
     double offset = 0.0;
-    bool operator==(const PlaneCollider&) const = default;
+    bool operator==(const Plane&) const = default;
 };
-struct SphereCollider : ColliderCommon {
+struct Sphere {
     Vec3 center{0, 0, 0};
     double radius = 1.0;
-    bool operator==(const SphereCollider&) const = default;
+    bool operator==(const Sphere&) const = default;
 };
-struct BoxCollider : ColliderCommon {
+struct Box {
     Vec3 center{0, 0, 0};
     Vec3 half_extents{0.5, 0.5, 0.5};
-    bool operator==(const BoxCollider&) const = default;
+    bool operator==(const Box&) const = default;
 };
-struct EllipsoidCollider : ColliderCommon {
+struct Ellipsoid {
     Vec3 center{0, 0, 0};
     Vec3 radii{0.5, 0.5, 0.5};
-    bool operator==(const EllipsoidCollider&) const = default;
+    bool operator==(const Ellipsoid&) const = default;
 };
 
-struct Colliders {
-    std::vector<PlaneCollider> planes;
-    std::vector<SphereCollider> spheres;
-    std::vector<BoxCollider> boxes;
-    std::vector<EllipsoidCollider> ellipsoids;
-    bool empty() const { return planes.empty() && spheres.empty() && boxes.empty() && ellipsoids.empty(); }
-    bool operator==(const Colliders&) const = default;
+/// In the order of the collider kinds (shaders/shared/collider_types.h).
+using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid>;
+/// The lists of the scene file.
+inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids"};
+static_assert(std::size(collider_lists) == std::variant_size_v<ColliderShape>);
+
+/// `rotate` and `path` rotate about the collider's own centre (a plane's: the foot point normal * offset); a path is
+/// applied on top of the rest pose.
+struct Collider {
+    ColliderShape shape;
+    double friction = 0.3;
+    Vec3 rotate{0, 0, 0};  ///< degrees, rest pose
+    MotionPath path{};
+    Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
+    int kind() const { return static_cast<int>(shape.index()); }
+    bool operator==(const Collider&) const = default;
 };
 
 /// A triangle that cuts every cloth it meets while active. Between two frames it sweeps the surface of the prism
@@ -231,7 +232,7 @@ struct SceneDescription {
     Vec3 gravity{0, -9.81, 0};
     Wind wind;
     std::vector<Cloth> cloths;
-    Colliders colliders;
+    std::vector<Collider> colliders;
     std::vector<Cutter> cutters;
     SolverSettings solver;
     Camera camera;

@@ -156,58 +156,77 @@ const Object<Cloth> cloth{
     },
     check_cloth};
 
-/// The keys of a shape, then those that every collider has.
+/// A collider of one shape: the shape's keys, then those that every collider has.
 template <class Shape>
-std::vector<Key<Shape>> with_common(std::vector<Key<Shape>> keys) {
-    const Key<Shape> common[] = {
-        {"friction", &ColliderCommon::friction, number(not_negative),
+std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
+    std::vector<Key<Collider>> keys;
+    for (const Key<Shape>& key : own)
+        keys.push_back(key.template within<Collider>(
+            [](Collider& collider) -> Shape& { return std::get<Shape>(collider.shape); }));
+    const Key<Collider> common[] = {
+        {"friction", &Collider::friction, number(not_negative),
          "Coulomb coefficient of this side; a pair of surfaces uses the geometric mean."},
-        {"rotate", &ColliderCommon::rotate, vec3,
+        {"rotate", &Collider::rotate, vec3,
          "Degrees, rest pose: Euler angles about x, then y, then z, about the collider's own centre (a plane's: normal "
          "* offset)."},
-        {"path", &ColliderCommon::path, path,
+        {"path", &Collider::path, path,
          "Rigid motion on top of the rest pose, rotating about the collider's own centre. Absent: at rest."},
-        {"color", &ColliderCommon::color, color, "sRGB, for pictures only."},
+        {"color", &Collider::color, color, "sRGB, for pictures only."},
     };
     keys.insert(keys.end(), std::begin(common), std::end(common));
     return keys;
 }
 
-const Object<PlaneCollider> plane{
+const Object<Collider> plane{
     "plane", "The cloth stays where normal . x >= offset, with the normal made unit length first.",
-    with_common<PlaneCollider>({
-        {"normal", &PlaneCollider::normal, direction, "Points to the outside."},
-        {"offset", &PlaneCollider::offset, number(any_number), "Metres from the origin along the unit normal."},
+    keys_of<Plane>({
+        {"normal", &Plane::normal, direction, "Points to the outside."},
+        {"offset", &Plane::offset, number(any_number), "Metres from the origin along the unit normal."},
     })};
-const Object<SphereCollider> sphere{"sphere", "A solid ball.",
-                                    with_common<SphereCollider>({
-                                        {"center", &SphereCollider::center, vec3, "Metres."},
-                                        {"radius", &SphereCollider::radius, number(positive), "Metres."},
-                                    })};
-const Object<BoxCollider> box{
-    "box", "A solid box.",
-    with_common<BoxCollider>({
-        {"center", &BoxCollider::center, vec3, "Metres."},
-        {"half_extents", &BoxCollider::half_extents, extents, "Half the edge lengths, metres."},
-    })};
-const Object<EllipsoidCollider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
-                                          with_common<EllipsoidCollider>({
-                                              {"center", &EllipsoidCollider::center, vec3, "Metres."},
-                                              {"radii", &EllipsoidCollider::radii, extents, "Half axes, metres."},
-                                          })};
+const Object<Collider> sphere{"sphere", "A solid ball.",
+                              keys_of<Sphere>({
+                                  {"center", &Sphere::center, vec3, "Metres."},
+                                  {"radius", &Sphere::radius, number(positive), "Metres."},
+                              })};
+const Object<Collider> box{"box", "A solid box.",
+                           keys_of<Box>({
+                               {"center", &Box::center, vec3, "Metres."},
+                               {"half_extents", &Box::half_extents, extents, "Half the edge lengths, metres."},
+                           })};
+const Object<Collider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
+                                 keys_of<Ellipsoid>({
+                                     {"center", &Ellipsoid::center, vec3, "Metres."},
+                                     {"radii", &Ellipsoid::radii, extents, "Half axes, metres."},
+                                 })};
 
-const Object<Colliders> colliders{
-    "colliders",
-    "Solid bodies the cloth stays outside of.",
-    {
-        {"planes", &Colliders::planes, list<PlaneCollider>(plane, "an array of at most 1024 colliders", 0, 1024),
-         "Half-spaces."},
-        {"spheres", &Colliders::spheres, list<SphereCollider>(sphere, "an array of at most 1024 colliders", 0, 1024),
-         "Spheres."},
-        {"boxes", &Colliders::boxes, list<BoxCollider>(box, "an array of at most 1024 colliders", 0, 1024), "Boxes."},
-        {"ellipsoids", &Colliders::ellipsoids,
-         list<EllipsoidCollider>(ellipsoid, "an array of at most 1024 colliders", 0, 1024), "Ellipsoids."},
-    }};
+using Colliders = std::vector<Collider>;
+
+/// The list of one shape; all lists are read into the scene's one, in the order of their rows.
+template <class Shape>
+Key<Colliders> colliders_of(const Object<Collider>& object, std::string_view help) {
+    const Value<Colliders> own =
+        list<Collider>(object, "an array of at most 1024 colliders", 0, 1024, Collider{Shape{}});
+    Key<Colliders> key(
+        collider_lists[ColliderShape(Shape{}).index()], own.text,
+        [own](const SceneNode& node, Colliders& all) {
+            Colliders read;
+            const bool fits = own.read(node, read);
+            all.insert(all.end(), read.begin(), read.end());
+            return fits;
+        },
+        help);
+    key.text.default_value = own.write({});
+    return key;
+}
+
+const Object<Colliders> colliders{"colliders",
+                                  "Solid bodies the cloth stays outside of.",
+                                  {
+                                      colliders_of<Plane>(plane, "Half-spaces."),
+                                      colliders_of<Sphere>(sphere, "Spheres."),
+                                      colliders_of<Box>(box, "Boxes."),
+                                      colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."),
+                                  }};
 
 const Object<Cutter> cutter{
     "cutter",

@@ -78,18 +78,19 @@ Value<T> without_default(Value<T> value) {
     return value;
 }
 
-/// An array of `least` to `most`; `what` is what an error says was expected.
+/// An array of `least` to `most`; `what` is what an error says was expected, `fresh` what an element is without keys.
 template <class T>
-Value<std::vector<T>> list(const Value<T>& item, std::string_view what, std::size_t least, std::size_t most) {
+Value<std::vector<T>> list(const Value<T>& item, std::string_view what, std::size_t least, std::size_t most,
+                           const T& fresh = {}) {
     Value<std::vector<T>> value;
     value.text = item.text;
     value.text.schema = "\"type\": \"array\", \"items\": {" + item.text.schema + "}";
     if (least > 0) value.text.schema += ", \"minItems\": " + std::to_string(least);
     value.text.schema += ", \"maxItems\": " + std::to_string(most);
     value.text.words = "array of " + item.text.words;
-    value.read = [item, what, least, most](const SceneNode& node, std::vector<T>& field) {
+    value.read = [item, what, least, most, fresh](const SceneNode& node, std::vector<T>& field) {
         if (!node.open_array(what, least, most)) return !node;
-        field.assign(node.size(), T{});
+        field.assign(node.size(), fresh);
         bool fits = true;
         for (std::size_t i = 0; i < field.size(); ++i) fits = item.read(node.element(i), field[i]) && fits;
         return fits;
@@ -154,6 +155,16 @@ struct Key {
         read = [read_value = std::move(read_value), required](const SceneNode& node, Object& object) {
             return node || required.empty() ? read_value(node, object) : node.fail_expected(required);
         };
+    }
+
+    /// The same key of an object around this one; `part` finds this one in it.
+    template <class Whole, class Part>
+    Key<Whole> within(Part part) const {
+        Key<Whole> key(
+            {}, {}, [part, read = read](const SceneNode& node, Whole& whole) { return read(node, part(whole)); }, {});
+        key.text = text;
+        key.uses = uses;
+        return key;
     }
 
     KeyText text;

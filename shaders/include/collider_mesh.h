@@ -45,6 +45,7 @@ MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
 }
 
 MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
+    if (collider_kind == kind_sphere) return ellipsoid_vertex(collider.shape.xxx, vertex);
     if (collider_kind == kind_ellipsoid) return ellipsoid_vertex(collider.shape.xyz, vertex);
     if (collider_kind == kind_box) return box_vertex(collider.shape.xyz, vertex);
     return plane_vertex(collider.shape.x, collider.shape.zw, vertex);

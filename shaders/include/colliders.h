@@ -1,16 +1,17 @@
-// Signed distances of the four collider kinds in their local frames, and the contact with friction.
+// Signed distances of the collider kinds in their local frames, and the contact with friction.
 // Positive distance is outside. Each gives the closest surface point's outward normal.
 #ifndef DRAPE_COLLIDERS_H
 #define DRAPE_COLLIDERS_H
 
 #include "include/vector.h"
+#include "shared/collider_types.h"
 
 struct SurfacePoint {
     vec3 normal;     // unit, outward, local frame
     float distance;  // m, negative inside
 };
 
-SHARED vec3 local_point(Collider collider, vec3 world) {
+SHARED vec3 local_point(ColliderRecord collider, vec3 world) {
     precise vec3 from_center = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
     precise vec3 local = vec3(collider.pose_x.x, collider.pose_x.y, collider.pose_x.z) * from_center.x +
                          vec3(collider.pose_y.x, collider.pose_y.y, collider.pose_y.z) * from_center.y +
@@ -18,14 +19,14 @@ SHARED vec3 local_point(Collider collider, vec3 world) {
     return local;
 }
 
-SHARED vec3 world_direction(Collider collider, vec3 local) {
+SHARED vec3 world_direction(ColliderRecord collider, vec3 local) {
     return vec3(ordered_dot(vec3(collider.pose_x.x, collider.pose_x.y, collider.pose_x.z), local),
                 ordered_dot(vec3(collider.pose_y.x, collider.pose_y.y, collider.pose_y.z), local),
                 ordered_dot(vec3(collider.pose_z.x, collider.pose_z.y, collider.pose_z.z), local));
 }
 
 /// How far the collider's material at `local` moved during the substep, world frame, metres.
-SHARED vec3 surface_displacement(Collider collider, vec3 local) {
+SHARED vec3 surface_displacement(ColliderRecord collider, vec3 local) {
     precise vec3 turned = vec3(ordered_dot(vec3(collider.change_x.x, collider.change_x.y, collider.change_x.z), local),
                                ordered_dot(vec3(collider.change_y.x, collider.change_y.y, collider.change_y.z), local),
                                ordered_dot(vec3(collider.change_z.x, collider.change_z.y, collider.change_z.z), local));
@@ -141,7 +142,7 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
 
 /// Contact with a surface whose nearest point has `normal` (world) at signed `distance`; `local` is the
 /// particle in the collider's frame.
-SHARED Contact resolve_contact(Collider collider, vec3 local, vec3 normal, float distance, vec3 displacement,
+SHARED Contact resolve_contact(ColliderRecord collider, vec3 local, vec3 normal, float distance, vec3 displacement,
                                float thickness, float friction) {
     precise float depth = thickness - distance;
     if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
@@ -150,35 +151,58 @@ SHARED Contact resolve_contact(Collider collider, vec3 local, vec3 normal, float
     return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth);
 }
 
-SHARED Contact plane_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
+/// Signed distance and normal of a shape other than the plane, in its own frame.
+SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
+    if (kind == kind_sphere) return sphere_surface(local, size.x);
+    if (kind == kind_box) return box_surface(local, size);
+    return ellipsoid_surface(local, size);
+}
+
+/// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
+/// literal kind, so that each loop holds one shape's code alone.
+SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
+                                float friction) {
     vec3 now = moved_position(start, displacement);
-    vec3 normal = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-    precise vec3 from_foot = now - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
-    float distance = ordered_dot(from_foot, normal);
-    return resolve_contact(collider, local_point(collider, now), normal, distance, displacement, thickness, friction);
-}
-
-SHARED Contact sphere_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
-    vec3 local = local_point(collider, moved_position(start, displacement));
-    SurfacePoint surface = sphere_surface(local, collider.shape.x);
+    vec3 local = local_point(collider, now);
+    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    if (kind == kind_plane) {
+        precise vec3 from_foot = now - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+        float above = ordered_dot(from_foot, size);
+        return resolve_contact(collider, local, size, above, displacement, thickness, friction);
+    }
+    if (kind == kind_ellipsoid && beyond_bounds(local, size, thickness)) return Contact(displacement, 0.0f);
+    SurfacePoint surface = shape_surface(kind, local, size);
     vec3 normal = world_direction(collider, surface.normal);
     return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
 }
 
-SHARED Contact box_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
-    vec3 local = local_point(collider, moved_position(start, displacement));
-    SurfacePoint surface = box_surface(local, vec3(collider.shape.x, collider.shape.y, collider.shape.z));
-    vec3 normal = world_direction(collider, surface.normal);
-    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
+#ifndef __cplusplus
+
+// Where each kind ends in the list, which is sorted by kind: loops over kinds that a scene lacks fold away.
+layout(constant_id = 0) const int planes_end = 0;
+layout(constant_id = 1) const int spheres_end = 0;
+layout(constant_id = 2) const int boxes_end = 0;
+layout(constant_id = 3) const int ellipsoids_end = 0;
+layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+
+#define CONTACTS(kind, begin, end)                                                                                \
+    for (int i = begin; i < end; ++i) {                                                                           \
+        Contact contact = collider_contact(kind, colliders[first + i], start, displacement, thickness, friction); \
+        if (in_turn) displacement = contact.displacement;                                                         \
+        deepest = contact.depth > deepest ? contact.depth : deepest;                                              \
+    }
+
+/// Contact with every collider from `first` on. `in_turn`: each takes the displacement that those before it left, else
+/// the given one, and only the depth counts.
+Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, bool in_turn) {
+    float deepest = 0.0f;
+    CONTACTS(kind_plane, 0, planes_end)
+    CONTACTS(kind_sphere, planes_end, spheres_end)
+    CONTACTS(kind_box, spheres_end, boxes_end)
+    CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
+    return Contact(displacement, deepest);
 }
 
-SHARED Contact ellipsoid_contact(Collider collider, vec3 start, vec3 displacement, float thickness, float friction) {
-    vec3 local = local_point(collider, moved_position(start, displacement));
-    vec3 radii = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-    if (beyond_bounds(local, radii, thickness)) return Contact(displacement, 0.0f);
-    SurfacePoint surface = ellipsoid_surface(local, radii);
-    vec3 normal = world_direction(collider, surface.normal);
-    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
-}
+#endif
 
 #endif

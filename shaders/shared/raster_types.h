@@ -11,17 +11,6 @@ namespace drape::glsl {
 
 const int light_limit = 4;
 
-/// Collider kinds: the specialization constant of the collider shaders. The backdrop is drawn with them so
-/// that the ground can fade into it by one function.
-const int kind_backdrop = 0;
-const int kind_plane = 1;
-const int kind_ellipsoid = 2;  // and sphere: three equal radii
-const int kind_box = 3;
-
-/// A unit sphere's mesh: segments around and from pole to pole.
-const int sphere_columns = 96;
-const int sphere_rows = 48;
-
 /// Texels of the square shadow map's side.
 const int shadow_map_size = 2048;
 
@@ -35,14 +24,6 @@ struct FrameConstants {
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
     vec4 to_light[4];           // xyz: unit, towards the light
     vec4 light_radiance[4];     // xyz: linear colour times intensity
-};
-
-/// A collider of any kind as drawn.
-struct ColliderInstance {
-    vec4 pose_x, pose_y, pose_z;  // rows of world from local; w: centre
-    vec4 shape;                   // ellipsoid: radii; box: half extents; plane: half side of the quad drawn,
-                                  // distance of the grid's lines, local x and z of the quad's centre
-    vec4 color;
 };
 
 struct ClothPush {

@@ -71,11 +71,10 @@ struct WindPush {
 };
 
 struct CollisionPush {
-    ivec4 first;   // first collider of this substep: planes, spheres, boxes, ellipsoids
-    ivec4 count;   // colliders of each kind
     vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction
                    // coefficient; z: depth, m, under which a contact asks for no further round; w unused
-    ivec4 grid;    // columns, rows, 0, 0
+    ivec2 grid;    // columns, rows
+    int first;     // first collider of this substep
 };
 
 struct PinPush {
@@ -94,15 +93,6 @@ struct TensionPush {
 
 struct GridPush {
     ivec2 grid;
-};
-
-/// A collider at the end of one substep, of any kind. The rotation's rows are world from local, their w is the
-/// centre; `change` is this pose minus the pose one substep earlier (computed in double on the host, so a
-/// collider at rest has exact zeros there and friction against it cannot creep).
-struct Collider {
-    vec4 pose_x, pose_y, pose_z;
-    vec4 change_x, change_y, change_z;
-    vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii. w: sqrt(friction)
 };
 
 /// A particle that the scene pins with a motion or a release.

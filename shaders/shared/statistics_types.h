@@ -15,12 +15,11 @@ const int statistics_rows = 8;
 /// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
 /// down-right, shear down-left.
 struct StatisticsPush {
-    vec4 rest_length;      // m; 0: the cloth has no springs of this direction
-    vec4 half_stiffness;   // N/m, k/2; 0: rigid, stores no energy
-    vec4 reference;        // xyz: positions are summed relative to this point, m; w: thickness, m
-    ivec4 collider_first;  // first collider at the frame's end: planes, spheres, boxes, ellipsoids
-    ivec4 collider_count;
-    ivec2 grid;  // columns, rows
+    vec4 rest_length;     // m; 0: the cloth has no springs of this direction
+    vec4 half_stiffness;  // N/m, k/2; 0: rigid, stores no energy
+    vec4 reference;       // xyz: positions are summed relative to this point, m; w: thickness, m
+    ivec2 grid;           // columns, rows
+    int collider_first;   // first collider at the frame's end
 };
 
 struct StatisticsSumPush {

@@ -80,7 +80,7 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.solver.method = SolverMethod::explicit_steps;
     scene.wind.velocity = {1, 0, 0};
-    scene.colliders.spheres.emplace_back();
+    scene.colliders.push_back({Sphere{}});
     const SimulationModel model(scene);
     EXPECT_EQ(model.method().name, "explicit");
     std::vector<StepKind> kinds;
@@ -112,7 +112,7 @@ TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
         return list;
     };
     EXPECT_EQ(kinds(), expected({control, predict, line, line, line, line, line, line, line, line}));
-    scene.colliders.spheres.emplace_back();
+    scene.colliders.push_back({Sphere{}});
     scene.cloths[0].stiffness.shear = 0;
     EXPECT_EQ(kinds(), expected({force, line, line, collide, line, line, collide}));
 }
@@ -123,7 +123,7 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
     EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
     scene.cloths[0].stiffness.stretch = 1e9;
     for (const bool collides : {false, true}) {
-        if (collides) scene.colliders.spheres.emplace_back();
+        if (collides) scene.colliders.push_back({Sphere{}});
         scene.solver.substeps = 20;
         const ClothModel model(scene, 0);
         ASSERT_EQ(model.plan.compromises.size(), 1u);
@@ -146,7 +146,7 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};
-    scene.colliders.spheres.emplace_back();
+    scene.colliders.push_back({Sphere{}});
     const SimulationModel model(scene);
     const std::vector<Step> steps = frame_steps(model);
     EXPECT_EQ(count(steps, StepKind::wind), 3);

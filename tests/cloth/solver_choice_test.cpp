@@ -67,7 +67,7 @@ TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
     const SceneDescription calm = automatic(64);
     SceneDescription windy = calm, colliding = calm;
     windy.wind.velocity = {8, 0, 0};
-    colliding.colliders.spheres.emplace_back();
+    colliding.colliders.push_back({Sphere{}});
     const auto substeps = [](const SceneDescription& scene, SolverMethod method) {
         return of(choose_solver(scene, DeviceKind::cpu), method).substeps;
     };

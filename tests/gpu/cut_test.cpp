@@ -97,9 +97,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     scene.cloths[0].damping = 3;
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cloths[0].holes = {{{3, 3}, {6, 7}}};
-    PlaneCollider floor;  // pieces stay within the blades' reach
-    floor.offset = -1;
-    scene.colliders.planes.push_back(floor);
+    scene.colliders.push_back({Plane{{0, 1, 0}, -1}});  // pieces stay within the blades' reach
     scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
 
     TwinWithCuts twin(scene);

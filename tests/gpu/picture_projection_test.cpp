@@ -33,10 +33,7 @@ SceneDescription marked_scene() {
     SceneDescription scene = test::shipped_scene("four_colliders");
     const Vec3 grey{0.5, 0.5, 0.5};
     for (Cloth& cloth : scene.cloths) cloth.appearance = {grey, grey, Pattern::plain};
-    for (SphereCollider& sphere : scene.colliders.spheres) sphere.color = grey;
-    for (BoxCollider& box : scene.colliders.boxes) box.color = grey;
-    for (EllipsoidCollider& ellipsoid : scene.colliders.ellipsoids) ellipsoid.color = grey;
-    for (PlaneCollider& plane : scene.colliders.planes) plane.color = grey;
+    for (Collider& collider : scene.colliders) collider.color = grey;
     scene.image.background = grey;
     scene.ambient = {1, 1, 1};
     scene.lights.clear();

@@ -44,16 +44,15 @@ TEST(CameraTest, LooksStraightDown) {
 }
 
 TEST(ColliderPoseTest, PathTurnsTheRestPoseAboutTheCentre) {
-    PlaneCollider plane;
-    plane.offset = 2;
+    Collider plane{Plane{{0, 1, 0}, 2}};
     plane.rotate = {0, 0, 90};                                    // y -> -x
     plane.path.keys = {{0, {}, {}}, {1, {0, 0, 5}, {0, 90, 0}}};  // then -x -> z
     const ColliderPose rest = collider_pose(plane, 0), moved = collider_pose(plane, 1);
     EXPECT_EQ(rest.center, (Vec3{0, 2, 0}));
     EXPECT_EQ(moved.center, (Vec3{0, 2, 5}));
     for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_NEAR(rotate(rest.rotation, plane.normal)[k], (Vec3{-1, 0, 0}[k]), 1e-15);
-        EXPECT_NEAR(rotate(moved.rotation, plane.normal)[k], (Vec3{0, 0, 1}[k]), 1e-15);
+        EXPECT_NEAR(rotate(rest.rotation, {0, 1, 0})[k], (Vec3{-1, 0, 0}[k]), 1e-15);
+        EXPECT_NEAR(rotate(moved.rotation, {0, 1, 0})[k], (Vec3{0, 0, 1}[k]), 1e-15);
     }
 }
 
@@ -99,22 +98,13 @@ TEST_F(Raster, FrontIsWhereTheNormalPoints) {
     EXPECT_EQ(channels(behind.at(pixel(scene, {0.5, 0, 0}))), channels(red));
 }
 
-ColliderCommon painted(const Vec3& color) {
-    ColliderCommon common;
-    common.color = color;
-    return common;
-}
+Collider painted(const ColliderShape& shape, const Vec3& color) { return {shape, 0.3, {}, {}, color}; }
 
-struct ColliderKind {
-    const char* name;
-    void (*add)(Colliders&);
-};
-
-class RasterDepth : public Raster, public testing::WithParamInterface<ColliderKind> {};
+class RasterDepth : public Raster, public testing::WithParamInterface<ColliderShape> {};
 
 TEST_P(RasterDepth, ClothHidesAndIsHidden) {
     SceneDescription scene = dark_room();
-    GetParam().add(scene.colliders);
+    scene.colliders = {painted(GetParam(), green)};
     const std::vector<DrawnCloth> cloths{square({-0.1, 0, 0.55}, 0.1, red, red),
                                          square({0.1, 0, -0.55}, 0.1, red, red)};
     for (const std::uint32_t samples : {1u, 4u}) {
@@ -126,36 +116,21 @@ TEST_P(RasterDepth, ClothHidesAndIsHidden) {
     EXPECT_EQ(channels(draw(scene, cloths).at(pixel(scene, {0.1, 0, -0.55}))), channels(red));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    EveryKind, RasterDepth,
-    testing::Values(ColliderKind{"plane",
-                                 [](Colliders& c) {
-                                     c.planes.push_back({painted(green), {0, 0, 1}, 0.25});
-                                 }},
-                    ColliderKind{"sphere",
-                                 [](Colliders& c) {
-                                     c.spheres.push_back({painted(green), {0, 0, 0}, 0.5});
-                                 }},
-                    ColliderKind{"box",
-                                 [](Colliders& c) {
-                                     c.boxes.push_back({painted(green), {0, 0, 0}, {0.4, 0.4, 0.5}});
-                                 }},
-                    ColliderKind{"ellipsoid",
-                                 [](Colliders& c) {
-                                     c.ellipsoids.push_back({painted(green), {0, 0, 0}, {0.4, 0.3, 0.5}});
-                                 }}),
-    [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(EveryKind, RasterDepth,
+                         testing::Values(Plane{{0, 0, 1}, 0.25}, Sphere{{0, 0, 0}, 0.5},
+                                         Box{{0, 0, 0}, {0.4, 0.4, 0.5}}, Ellipsoid{{0, 0, 0}, {0.4, 0.3, 0.5}}),
+                         [](const auto& test) { return std::string(collider_lists[test.param.index()]); });
 
 TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {
     SceneDescription scene = dark_room();
     // Half way along its path the sphere is at (0.7, 0.3, 0).
-    SphereCollider sphere{painted(green), {0.3, 0, 0}, 0.3};
+    Collider sphere = painted(Sphere{{0.3, 0, 0}, 0.3}, green);
     sphere.path.keys = {{0, {0, 0.3, 0}, {}}, {1, {0.8, 0.3, 0}, {}}};
-    scene.colliders.spheres.push_back(sphere);
+    scene.colliders.push_back(sphere);
     // Turned by 90 degrees about z, the half extents 0.5, 0.2 become 0.2, 0.5.
-    BoxCollider box{painted(blue), {-0.6, 0, 0}, {0.5, 0.2, 0.01}};
+    Collider box = painted(Box{{-0.6, 0, 0}, {0.5, 0.2, 0.01}}, blue);
     box.rotate = {0, 0, 90};
-    scene.colliders.boxes.push_back(box);
+    scene.colliders.push_back(box);
     scene.camera.fov = 60;
     const Picture picture = draw(scene, {}, {.time = 0.5});
     const auto has = [&](const Vec3& point) { return channels(picture.at(pixel(scene, point))); };
@@ -237,11 +212,11 @@ TEST_F(Raster, CollidersAreShadedByTheFormula) {
     scene.ambient = {0.2, 0.2, 0.2};
     scene.lights = {{{-0.1, -0.2, -1}, {1, 0.9, 0.8}, 0.6}};
     const Vec3 color{0.6, 0.5, 0.3};
-    scene.colliders.boxes.push_back({painted(color), {0, 0, -0.5}, {0.5, 0.5, 0.5}});
+    scene.colliders.push_back(painted(Box{{0, 0, -0.5}, {0.5, 0.5, 0.5}}, color));
     Shading shading{linear_color_of(color), {0, 0, 1}, {0, 0, 1}, scene.ambient, 0, 0.12, 0};
     expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "face of a box");
     scene.colliders = {};
-    scene.colliders.spheres.push_back({painted(color), {0, 0, -0.5}, 0.5});
+    scene.colliders.push_back(painted(Sphere{{0, 0, -0.5}, 0.5}, color));
     expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "middle of a sphere");
 }
 
@@ -308,7 +283,7 @@ SceneDescription floor_scene() {
     scene.camera = {{0, 2.5, 3}, {0, 0, 0}, 50};
     scene.ambient = {0.2, 0.2, 0.2};
     scene.lights = {{{0, -1, 0}, white, 0.6}};
-    scene.colliders.planes.push_back({painted({0.6, 0.6, 0.6}), {0, 1, 0}, 0});
+    scene.colliders.push_back(painted(Plane{{0, 1, 0}, 0}, {0.6, 0.6, 0.6}));
     return scene;
 }
 
@@ -333,7 +308,7 @@ TEST_F(Raster, FirstLightCastsShadows) {
 
 TEST_F(Raster, CollidersCastShadowsWithoutACloth) {
     SceneDescription scene = floor_scene();
-    scene.colliders.spheres.push_back({painted(red), {0, 1, 0}, 0.3});
+    scene.colliders.push_back(painted(Sphere{{0, 1, 0}, 0.3}, red));
     const Picture picture = draw(scene, {}, {.options = {.shadow = true}});
     EXPECT_LT(picture.at(pixel(scene, {0.07, 0, 0.07}))[0] + 30, picture.at(pixel(scene, {0.43, 0, 0.07}))[0]);
     // The lit half of the sphere has no specks of its own shadow.
@@ -367,7 +342,7 @@ TEST_F(Raster, SaysWhyThereIsNoShadow) {
 
 TEST_F(Raster, RepeatsByteForByte) {
     SceneDescription scene = floor_scene();
-    scene.colliders.spheres.push_back({painted({0.4, 0.5, 0.6}), {0.2, 0.3, 0}, 0.3});
+    scene.colliders.push_back(painted(Sphere{{0.2, 0.3, 0}, 0.3}, {0.4, 0.5, 0.6}));
     DrawnCloth cloth = flat_cloth({0, 1, 0}, {1, 0.2, 0}, {0, 0, -1}, {0, 1, 0}, red, blue, 9);
     cloth.appearance.pattern = Pattern::checker;
     for (const std::uint32_t samples : {1u, 4u}) {

@@ -199,9 +199,10 @@ Verdict mirror(const SceneRun& run, const Limits& limits) {
 /// The cap of cloth on top of the first sphere (rest distance from its middle under `radius` metres) turns
 /// with the sphere: never more than `lag` degrees behind or ahead.
 Verdict carried(const SceneRun& run, const Limits& limits) {
-    const SphereCollider& sphere = run.scene.colliders.spheres.at(0);
+    const Collider& collider = *std::ranges::find(run.scene.colliders, glsl::kind_sphere, &Collider::kind);
+    const Sphere& sphere = std::get<Sphere>(collider.shape);
     const auto heading = [&](std::size_t frame) {
-        const auto turn = collider_pose(sphere, run.time(frame)).rotation;
+        const auto turn = collider_pose(collider, run.time(frame)).rotation;
         return std::atan2(turn[2], turn[0]);
     };
     double cloth_turn = 0, sphere_turn = 0, worst = 0;

@@ -202,49 +202,43 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
             fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
 }
 
-double size_of(const PlaneCollider&) { return 1; }
-double size_of(const SphereCollider& sphere) { return sphere.radius; }
-double size_of(const BoxCollider& box) { return *std::ranges::min_element(box.half_extents); }
-double size_of(const EllipsoidCollider& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
-
-/// Whether a point is too far away to touch, told without the costly distance.
-template <class Shape>
-bool out_of_reach(const Shape&, double, const Vec3&, double) {
-    return false;
-}
-bool out_of_reach(const EllipsoidCollider& ellipsoid, double time, const Vec3& x, double thickness) {
-    return norm(minus(x, collider_pose(ellipsoid, time).center)) >
-           *std::ranges::max_element(ellipsoid.radii) + thickness;
-}
+double size_of(const Plane&) { return 1; }
+double size_of(const Sphere& sphere) { return sphere.radius; }
+double size_of(const Box& box) { return *std::ranges::min_element(box.half_extents); }
+double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
 
 /// Deepest particle below a collider's surface and the cloth's thickness on top of it, in units of the
 /// collider's size (radius, least half extent; a plane's is 1 m).
-template <class List>
-double deepest(const SceneRun& run, const List& colliders) {
+double deepest(const SceneRun& run, const Collider& collider) {
+    const double size = std::visit([](const auto& shape) { return size_of(shape); }, collider.shape);
+    const double reach = shape_geometry(collider.shape).reach;
     double depth = -std::numeric_limits<double>::infinity();
-    for (const auto& collider : colliders)
-        for (std::size_t frame = 1; frame < run.frames.size(); ++frame)
-            for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
-                const double thickness = run.scene.cloths[cloth].thickness, time = run.time(frame);
-                for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
-                    if (run.frames[frame][cloth][particle].w == 0) continue;
-                    const Vec3 x = run.at(frame, cloth, particle);
-                    if (out_of_reach(collider, time, x, thickness)) continue;
-                    depth = std::max(depth, (thickness - surface_distance(collider, time, x)) / size_of(collider));
-                }
+    for (std::size_t frame = 1; frame < run.frames.size(); ++frame)
+        for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+            const double thickness = run.scene.cloths[cloth].thickness, time = run.time(frame);
+            const Vec3 center = collider_pose(collider, time).center;
+            for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
+                if (run.frames[frame][cloth][particle].w == 0) continue;
+                const Vec3 x = run.at(frame, cloth, particle);
+                if (norm(minus(x, center)) > reach + thickness) continue;  // told without the costly distance
+                depth = std::max(depth, (thickness - surface_distance(collider, time, x)) / size);
             }
+        }
     return depth;
 }
 
 Verdict penetration(const SceneRun& run, const Limits& limits) {
-    const Colliders& colliders = run.scene.colliders;
-    const double depths[] = {deepest(run, colliders.planes), deepest(run, colliders.spheres),
-                             deepest(run, colliders.boxes), deepest(run, colliders.ellipsoids)};
+    double worst = -std::numeric_limits<double>::infinity();
+    std::string depths;
+    for (const Collider& collider : run.scene.colliders) {
+        const double depth = deepest(run, collider);
+        worst = std::max(worst, depth);
+        depths +=
+            fmt::format("{}{:.2e} (of {})", depths.empty() ? "" : ", ", depth, collider_lists[collider.shape.index()]);
+    }
     // Something must touch, else the statement is empty.
-    const double worst = *std::ranges::max_element(depths);
     return {worst <= limits["depth"] && worst > -1e-3,
-            fmt::format("deepest {:.2e} (plane), {:.2e} (sphere), {:.2e} (box), {:.2e} (ellipsoid), allowed {:.2e}",
-                        depths[0], depths[1], depths[2], depths[3], limits["depth"])};
+            fmt::format("deepest {}, allowed {:.2e}", depths, limits["depth"])};
 }
 
 /// The top of the cloth lies where the collider below puts it: `height` is the collider's top and the cloth's

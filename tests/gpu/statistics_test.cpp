@@ -322,36 +322,21 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValues) {
     for (const auto& [name, value] : values) EXPECT_TRUE(std::isfinite(value)) << name;
 }
 
-/// Four kinds, one of them key-framed.
-Colliders four_kinds() {
-    Colliders colliders;
-    colliders.planes.emplace_back();
-    colliders.planes[0].offset = 4.3;
-    colliders.spheres.emplace_back();
-    colliders.spheres[0].center = {3.4, 4.9, -2.05};
-    colliders.spheres[0].radius = 0.1;
-    colliders.spheres[0].path.keys = {{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}};
-    colliders.boxes.emplace_back();
-    colliders.boxes[0].center = {3.9, 4.7, -2};
-    colliders.boxes[0].half_extents = {0.1, 0.02, 0.3};
-    colliders.boxes[0].rotate = {0, 0, 30};
-    colliders.ellipsoids.emplace_back();
-    colliders.ellipsoids[0].center = {3.3, 4.5, -1.95};
-    colliders.ellipsoids[0].radii = {0.2, 0.1, 0.07};
-    return colliders;
+/// Every kind, one of them key-framed.
+std::vector<Collider> every_kind() {
+    return {{Plane{{0, 1, 0}, 4.3}},
+            {Sphere{{3.4, 4.9, -2.05}, 0.1}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}}},
+            {Box{{3.9, 4.7, -2}, {0.1, 0.02, 0.3}}, 0.3, {0, 0, 30}},
+            {Ellipsoid{{3.3, 4.5, -1.95}, {0.2, 0.1, 0.07}}}};
 }
 
 TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {
     for (const std::uint32_t frame : {0u, 1u, 20u})
-        for (int kind = -1; kind < 4; ++kind) {  // -1: all at once
+        for (int kind = -1; kind < glsl::collider_kind_count; ++kind) {  // -1: all at once
             SceneDescription scene = soft_sheet(70, 50);
             scene.time.frame_count = 31;
-            const Colliders all = four_kinds();
-            if (kind < 0) scene.colliders = all;
-            if (kind == 0) scene.colliders.planes = all.planes;
-            if (kind == 1) scene.colliders.spheres = all.spheres;
-            if (kind == 2) scene.colliders.boxes = all.boxes;
-            if (kind == 3) scene.colliders.ellipsoids = all.ellipsoids;
+            scene.colliders = every_kind();
+            std::erase_if(scene.colliders, [&](const Collider& c) { return kind >= 0 && c.kind() != kind; });
             const SimulationModel model(scene);
             const TwinCloth state = Twin(model).cloth(0);
             const auto statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame));
@@ -365,9 +350,7 @@ TEST(StatisticsTest, PenetrationIsTheDepthUnderTheThicknessOfFreeParticles) {
     scene.time.frame_count = 31;
     scene.cloths[0].thickness = 0.01;
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
-    scene.colliders.planes.emplace_back();
-    scene.colliders.planes[0].offset = -0.45;
-    scene.colliders.planes[0].path.keys = {{0, {0, 0, 0}, {}}, {0.5, {0, 0.4, 0}, {}}};
+    scene.colliders = {{Plane{{0, 1, 0}, -0.45}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0, 0.4, 0}, {}}}}}};
     const SimulationModel model(scene);
     const TwinCloth state = Twin(model).cloth(0);
     const auto penetration = [&](std::uint32_t frame) {
@@ -388,7 +371,7 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
     scene.solver.method = GetParam().first;
     scene.solver.iterations = GetParam().second;
     scene.time.frame_count = 9;
-    scene.colliders = four_kinds();
+    scene.colliders = every_kind();
     Cloth second = scene.cloths[0];
     second.name = "second";
     second.grid = {24, 41};

@@ -14,31 +14,14 @@ namespace drape::test {
 
 inline constexpr std::uint32_t frame_count = 18, substep_count = 12;  // 216 substeps
 
-inline Colliders four_moving_colliders() {
+/// Every kind, in no order, all but one moving.
+inline std::vector<Collider> every_collider() {
     const MotionPath path{{{0, {0, 0, 0}, {0, 0, 0}}, {0.3, {0.05, 0.1, 0}, {20, 90, 10}}}};
-    Colliders colliders;
-    colliders.planes.emplace_back();
-    colliders.planes[0].offset = -0.4;
-    colliders.planes[0].normal = {0, 1, 0};
-    colliders.planes[0].path = path;
-    colliders.spheres.emplace_back();
-    colliders.spheres[0].center = {-0.2, -0.25, 0.1};
-    colliders.spheres[0].radius = 0.2;
-    colliders.spheres[0].path = path;
-    colliders.spheres.push_back(colliders.spheres[0]);
-    colliders.spheres[1].center = {0.1, -0.3, 0.3};
-    colliders.spheres[1].path = {};
-    colliders.boxes.emplace_back();
-    colliders.boxes[0].center = {0.3, -0.2, -0.1};
-    colliders.boxes[0].half_extents = {0.1, 0.15, 0.2};
-    colliders.boxes[0].rotate = {10, 20, 30};
-    colliders.boxes[0].path = path;
-    colliders.ellipsoids.emplace_back();
-    colliders.ellipsoids[0].center = {0, -0.2, -0.3};
-    colliders.ellipsoids[0].radii = {0.3, 0.15, 0.1};
-    colliders.ellipsoids[0].rotate = {0, 40, 0};
-    colliders.ellipsoids[0].path = path;
-    return colliders;
+    return {{Box{{0.3, -0.2, -0.1}, {0.1, 0.15, 0.2}}, 0.3, {10, 20, 30}, path},
+            {Sphere{{-0.2, -0.25, 0.1}, 0.2}, 0.3, {}, path},
+            {Sphere{{0.1, -0.3, 0.3}, 0.2}},
+            {Ellipsoid{{0, -0.2, -0.3}, {0.3, 0.15, 0.1}}, 0.3, {0, 40, 0}, path},
+            {Plane{{0, 1, 0}, -0.4}, 0.3, {}, path}};
 }
 
 /// Everything at once: pins of all sorts, wind with gusts, all colliders moving, friction, damping.
@@ -47,7 +30,7 @@ inline SceneDescription everything() {
     scene.time.frame_count = frame_count + 1;
     scene.wind.velocity = {2, 0.5, -1};
     scene.wind.gust = {1.5, 0.2, 7};
-    scene.colliders = four_moving_colliders();
+    scene.colliders = every_collider();
     Cloth& cloth = scene.cloths[0];
     cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0, 1}};
     cloth.stiffness = {false, 800, 60, 0};

@@ -26,7 +26,7 @@ struct Depths {
 };
 
 /// Drops a horizontal sheet onto the colliders and measures against double precision every frame.
-Depths drop(const Colliders& colliders, const std::function<void(SceneDescription&)>& change = {}) {
+Depths drop(const std::vector<Collider>& colliders, const std::function<void(SceneDescription&)>& change = {}) {
     SceneDescription scene = test::sheet(33, 33, 1.6, 1.6, 12);
     scene.time.frame_count = 121;
     scene.colliders = colliders;
@@ -74,89 +74,52 @@ void expect_contact(const char* what, const Depths& depths, double size, double 
     }
 }
 
-Colliders one_sphere() {
-    Colliders colliders;
-    SphereCollider sphere;
-    sphere.center = {0, 0.3, 0};
-    sphere.radius = 0.5;
-    colliders.spheres.push_back(sphere);
-    return colliders;
-}
-
-Colliders one_ellipsoid() {
-    Colliders colliders;
-    EllipsoidCollider ellipsoid;
-    ellipsoid.center = {0, 0.3, 0};
-    ellipsoid.radii = {0.6, 0.4, 0.3};
-    ellipsoid.rotate = {20, 30, 40};
-    colliders.ellipsoids.push_back(ellipsoid);
-    return colliders;
-}
-
-Colliders one_box() {
-    Colliders colliders;
-    BoxCollider box;
-    box.center = {0, 0.3, 0};
-    box.half_extents = {0.4, 0.3, 0.3};
-    box.rotate = {10, 25, 15};
-    colliders.boxes.push_back(box);
-    return colliders;
-}
+const Collider one_sphere{Sphere{{0, 0.3, 0}, 0.5}};
+const Collider one_ellipsoid{Ellipsoid{{0, 0.3, 0}, {0.6, 0.4, 0.3}}, 0.3, {20, 30, 40}};
+const Collider one_box{Box{{0, 0.3, 0}, {0.4, 0.3, 0.3}}, 0.3, {10, 25, 15}};
 
 const MotionPath moving{
     {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0.2, 0.1, -0.1}, {30, 200, -40}}, {2, {0, 0.2, 0.1}, {0, 360, 0}}}};
 
+Collider with_path(Collider collider, const MotionPath& path) {
+    collider.path = path;
+    return collider;
+}
+
 TEST(ContactTest, Plane) {
-    Colliders colliders;
-    PlaneCollider plane;
-    plane.normal = {0.2 / std::hypot(0.2, 1), 1 / std::hypot(0.2, 1), 0};
-    plane.offset = 0.1;
-    colliders.planes.push_back(plane);
-    expect_contact("plane", drop(colliders), 1.0, 0);
-    colliders.planes[0].path = {{{0, {0, 0, 0}, {0, 0, 0}}, {2, {0, 0.4, 0}, {10, 0, 15}}}};
-    expect_contact("moving plane", drop(colliders), 1.0, 0);
+    const Collider plane{Plane{{0.2 / std::hypot(0.2, 1), 1 / std::hypot(0.2, 1), 0}, 0.1}};
+    expect_contact("plane", drop({plane}), 1.0, 0);
+    const MotionPath tilting{{{0, {0, 0, 0}, {0, 0, 0}}, {2, {0, 0.4, 0}, {10, 0, 15}}}};
+    expect_contact("moving plane", drop({with_path(plane, tilting)}), 1.0, 0);
 }
 
 TEST(ContactTest, Sphere) {
-    Colliders colliders = one_sphere();
-    expect_contact("sphere", drop(colliders), 0.5, 0.5);
-    colliders.spheres[0].path = moving;
-    expect_contact("moving sphere", drop(colliders), 0.5, 0.5);
+    expect_contact("sphere", drop({one_sphere}), 0.5, 0.5);
+    expect_contact("moving sphere", drop({with_path(one_sphere, moving)}), 0.5, 0.5);
 }
 
 TEST(ContactTest, Box) {
-    Colliders colliders = one_box();
-    expect_contact("box", drop(colliders), 0.4, 0);
-    colliders.boxes[0].path = moving;
-    expect_contact("moving box", drop(colliders), 0.4, 0);
+    expect_contact("box", drop({one_box}), 0.4, 0);
+    expect_contact("moving box", drop({with_path(one_box, moving)}), 0.4, 0);
 }
 
 TEST(ContactTest, Ellipsoid) {
-    Colliders colliders = one_ellipsoid();
     const double curvature = 0.3 * 0.3 / 0.6;
-    expect_contact("ellipsoid", drop(colliders), 0.6, curvature);
-    colliders.ellipsoids[0].path = moving;
-    expect_contact("moving ellipsoid", drop(colliders), 0.6, curvature);
+    expect_contact("ellipsoid", drop({one_ellipsoid}), 0.6, curvature);
+    expect_contact("moving ellipsoid", drop({with_path(one_ellipsoid, moving)}), 0.6, curvature);
 }
 
 TEST(ContactTest, OverlappingColliders) {
-    Colliders colliders = one_sphere();
-    SphereCollider second = colliders.spheres[0];
-    second.center = {0.45, 0.35, 0.1};
-    second.radius = 0.4;
-    colliders.spheres.push_back(second);
-    expect_contact("two overlapping spheres", drop(colliders), 0.5, 0);
+    const Collider second{Sphere{{0.45, 0.35, 0.1}, 0.4}};
+    expect_contact("two overlapping spheres", drop({one_sphere, second}), 0.5, 0);
 
-    colliders = one_ellipsoid();
-    colliders.boxes = one_box().boxes;
-    colliders.boxes[0].center = {0.3, 0.3, 0.2};
-    colliders.planes.emplace_back();
-    colliders.boxes[0].path = moving;
-    expect_contact("box, ellipsoid and plane overlapping, box moving", drop(colliders), 0.6, 0);
+    Collider box = with_path(one_box, moving);
+    std::get<Box>(box.shape).center = {0.3, 0.3, 0.2};
+    expect_contact("box, ellipsoid and plane overlapping, box moving", drop({one_ellipsoid, box, {Plane{}}}), 0.6, 0);
 }
 
 TEST(ContactTest, ThicknessKeepsItsDistance) {
-    const Depths depths = drop(one_sphere(), [](SceneDescription& scene) { scene.cloths[0].thickness = 0.02; });
+    const Depths depths = drop({one_sphere}, [](SceneDescription& scene) { scene.cloths[0].thickness = 0.02; });
     EXPECT_TRUE(depths.touched);
     EXPECT_LE(depths.particles, 1e-5 * 0.5);
     EXPECT_LE(depths.edges, 0.0) << "thickness covers the sagitta";

@@ -14,15 +14,12 @@ constexpr double angle = 30.0 * M_PI / 180.0;
 /// A sheet lying on a 30 degree incline that falls along -x, at rest; pair friction `mu`.
 SceneDescription incline(double mu) {
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 16);
-    PlaneCollider plane;
-    plane.normal = {-std::sin(angle), std::cos(angle), 0};
-    plane.friction = mu;
-    scene.colliders.planes.push_back(plane);
+    scene.colliders.push_back({Plane{{-std::sin(angle), std::cos(angle), 0}, 0}, mu});
     Cloth& cloth = scene.cloths[0];
     cloth.friction = mu;
     cloth.thickness = 0.01;
     cloth.placement = {
-        {0.01 * plane.normal[0], 0.01 * plane.normal[1], 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
+        {-0.01 * std::sin(angle), 0.01 * std::cos(angle), 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
     return scene;
 }
 
@@ -56,10 +53,9 @@ TEST(FrictionTest, SticksExactlyWhenFrictionExceedsTheSlope) {
 TEST(FrictionTest, ASurfaceThatMovesCarriesTheClothAlong) {
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 16);
     scene.time.frame_count = 61;
-    PlaneCollider belt;
-    belt.friction = 1;
+    Collider belt{Plane{}, 1};
     belt.path.keys = {{0, {0, 0, 0}, {}}, {1, {0.5, 0, 0}, {}}};
-    scene.colliders.planes.push_back(belt);
+    scene.colliders.push_back(belt);
     Cloth& cloth = scene.cloths[0];
     cloth.friction = 1;
     cloth.placement = {{0, 0.005, 0}, {1, 0, 0}, {0, 0, 1}};

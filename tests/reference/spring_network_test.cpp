@@ -62,7 +62,7 @@ TEST(SpringNetworkTest, HasTheMassesSpringsAndRestLengthsOfTheDevice) {
 
 TEST(SpringNetworkTest, RefusesWhatHasNoReference) {
     SceneDescription scene = holed_sheet();
-    scene.colliders.spheres.emplace_back();
+    scene.colliders.push_back({Sphere{}});
     EXPECT_THROW(SpringNetwork(scene, 0), std::invalid_argument);
     EXPECT_NO_THROW(SpringNetwork(scene, 0, {.ignore_colliders = true}));
     scene.colliders = {};

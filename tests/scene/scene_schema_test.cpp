@@ -210,10 +210,7 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
     expected.cloths[0].pins.resize(1);
     expected.cloths[0].pins[0].particles = {{0, 0}, {0, 1}};
     expected.cloths[0].pins[0].path.keys.resize(1);
-    expected.colliders.planes.resize(1);
-    expected.colliders.spheres.resize(1);
-    expected.colliders.boxes.resize(1);
-    expected.colliders.ellipsoids.resize(1);
+    expected.colliders = {{Plane{}}, {Sphere{}}, {Box{}}, {Ellipsoid{}}};
     // Directions are made unit length by the reader; the default light is not written as one.
     const SceneResult result = read_scene_text(written(scene), "s");
     for (const SceneError& error : result.errors) ADD_FAILURE() << error.text();

@@ -66,21 +66,15 @@ TEST(SceneValues, PinsOfTheFullScene) {
 }
 
 TEST(SceneValues, CollidersOfTheFullScene) {
-    const Colliders colliders = scene_of(testing::full_scene).colliders;
-    ASSERT_EQ(colliders.planes.size(), 1u);
-    ASSERT_EQ(colliders.spheres.size(), 1u);
-    ASSERT_EQ(colliders.boxes.size(), 1u);
-    ASSERT_EQ(colliders.ellipsoids.size(), 1u);
-    const auto common = [](double friction, Vec3 rotate, MotionKey key, double red) {
-        return ColliderCommon{friction, rotate, {{key}}, {red, 0.1, 0.2}};
+    const auto collider = [](ColliderShape shape, double friction, Vec3 rotate, MotionKey key, double red) {
+        return Collider{shape, friction, rotate, {{key}}, {red, 0.1, 0.2}};
     };
-    EXPECT_EQ(colliders.planes[0], (PlaneCollider{common(0.6, {1, 2, 3}, {0, {}, {}}, 0.1), {0, 0, 1}, -0.5}));
-    EXPECT_EQ(colliders.spheres[0],
-              (SphereCollider{common(0.1, {4, 5, 6}, {1, {1, 1, 1}, {}}, 0.2), {0, 1, 0.5}, 0.3}));
-    EXPECT_EQ(colliders.boxes[0],
-              (BoxCollider{common(0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3), {0, 0.5, 0}, {0.3, 0.1, 0.2}}));
-    EXPECT_EQ(colliders.ellipsoids[0],
-              (EllipsoidCollider{common(0.4, {7, 8, 9}, {3, {}, {}}, 0.4), {0, 1, 0}, {0.4, 0.2, 0.1}}));
+    const std::vector<Collider> expected{
+        collider(Plane{{0, 0, 1}, -0.5}, 0.6, {1, 2, 3}, {0, {}, {}}, 0.1),
+        collider(Sphere{{0, 1, 0.5}, 0.3}, 0.1, {4, 5, 6}, {1, {1, 1, 1}, {}}, 0.2),
+        collider(Box{{0, 0.5, 0}, {0.3, 0.1, 0.2}}, 0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3),
+        collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4)};
+    EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
 }
 
 TEST(SceneValues, EveryEdgeAndCorner) {
@@ -102,9 +96,9 @@ TEST(SceneValues, NamesTheNameless) {
 TEST(SceneValues, NormalisesTinyAndHugeDirections) {
     const SceneDescription scene = scene_of(R"({"cloths": [{}], "colliders": {"planes": [
         {"normal": [3e-300, 4e-300, 0]}, {"normal": [0, 3e38, 3e38]}]}})");
-    EXPECT_DOUBLE_EQ(scene.colliders.planes[0].normal[0], 0.6);
-    EXPECT_DOUBLE_EQ(scene.colliders.planes[0].normal[1], 0.8);
-    EXPECT_DOUBLE_EQ(scene.colliders.planes[1].normal[2], std::sqrt(0.5));
+    EXPECT_DOUBLE_EQ(std::get<Plane>(scene.colliders[0].shape).normal[0], 0.6);
+    EXPECT_DOUBLE_EQ(std::get<Plane>(scene.colliders[0].shape).normal[1], 0.8);
+    EXPECT_DOUBLE_EQ(std::get<Plane>(scene.colliders[1].shape).normal[2], std::sqrt(0.5));
 }
 
 TEST(SceneValues, AcceptsBomBlockCommentsCarriageReturnsAndIntegralReals) {

@@ -48,17 +48,12 @@ inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
     return foot;
 }
 
-inline double surface_distance(const PlaneCollider& plane, double time, const Vec3& x) {
-    const ColliderPose pose = collider_pose(plane, time);
-    return dot(minus(x, pose.center), rotate(pose.rotation, plane.normal));
-}
+// Of a point in the shape's own frame, about its centre.
+inline double shape_distance(const Plane& plane, const Vec3& local) { return dot(local, plane.normal); }
 
-inline double surface_distance(const SphereCollider& sphere, double time, const Vec3& x) {
-    return norm(minus(x, collider_pose(sphere, time).center)) - sphere.radius;
-}
+inline double shape_distance(const Sphere& sphere, const Vec3& local) { return norm(local) - sphere.radius; }
 
-inline double surface_distance(const BoxCollider& box, double time, const Vec3& x) {
-    const Vec3 local = to_local(collider_pose(box, time), x);
+inline double shape_distance(const Box& box, const Vec3& local) {
     Vec3 outside{};
     double inside = -1e300;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -69,24 +64,22 @@ inline double surface_distance(const BoxCollider& box, double time, const Vec3& 
     return inside > 0 ? norm(outside) : inside;
 }
 
-inline double surface_distance(const EllipsoidCollider& ellipsoid, double time, const Vec3& x) {
-    const Vec3 local = to_local(collider_pose(ellipsoid, time), x);
+inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
     const double gap = norm(minus(local, ellipsoid_foot(local, ellipsoid.radii)));
     double level = -1;
     for (std::size_t k = 0; k < 3; ++k) level += std::pow(local[k] / ellipsoid.radii[k], 2);
     return level < 0 ? -gap : gap;
 }
 
+inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
+    const Vec3 local = to_local(collider_pose(collider, time), x);
+    return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
+}
+
 /// Least distance of a point to all colliders.
-inline double surface_distance(const Colliders& colliders, double time, const Vec3& x) {
+inline double surface_distance(const std::vector<Collider>& colliders, double time, const Vec3& x) {
     double least = 1e300;
-    const auto all = [&](const auto& list) {
-        for (const auto& collider : list) least = std::min(least, surface_distance(collider, time, x));
-    };
-    all(colliders.planes);
-    all(colliders.spheres);
-    all(colliders.boxes);
-    all(colliders.ellipsoids);
+    for (const Collider& collider : colliders) least = std::min(least, surface_distance(collider, time, x));
     return least;
 }
 

@@ -68,16 +68,13 @@ Problem incline(const char* name, const char* title, double mu, std::initializer
     problem.scene = [mu](std::uint32_t size, const Setting&) {
         SceneDescription scene = sheet(size, size, 0.4, 0.4, 1);
         scene.time.frame_count = 61;
-        PlaneCollider plane;
-        plane.normal = {-std::sin(angle), std::cos(angle), 0};
-        plane.friction = mu;
-        scene.colliders.planes.push_back(plane);
+        scene.colliders.push_back({Plane{{-std::sin(angle), std::cos(angle), 0}, 0}, mu});
         Cloth& cloth = scene.cloths[0];
         cloth.friction = mu;
         cloth.stiffness = {false, 1, 0, 0};
         cloth.thickness = 0.01;
         cloth.placement = {
-            {0.01 * plane.normal[0], 0.01 * plane.normal[1], 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
+            {-0.01 * std::sin(angle), 0.01 * std::cos(angle), 0}, {std::cos(angle), std::sin(angle), 0}, {0, 0, 1}};
         return scene;
     };
     problem.evaluate = [mu](const Recording& run, References&) -> Metrics {

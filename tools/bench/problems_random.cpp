@@ -32,11 +32,10 @@ class Draw {
 };
 
 void add_ball(SceneDescription& scene, Draw& draw) {
-    scene.colliders.spheres.emplace_back();
-    SphereCollider& ball = scene.colliders.spheres.back();
+    Sphere ball;
     ball.radius = draw.between(0.2, 0.45);
     ball.center = {draw.between(-0.2, 0.2), -draw.between(0.05, 0.3) - ball.radius, draw.between(-0.2, 0.2)};
-    ball.friction = draw.between(0, 0.8);
+    scene.colliders.push_back({ball, draw.between(0, 0.8)});
 }
 
 /// How the cloth is held and what acts on it: by an edge, swinging; by two corners; on a ball; as a flag; by all edges.

@@ -1,0 +1,53 @@
+// The collider kinds, and a collider of any kind as contact and pictures see it. std430.
+#ifndef DRAPE_COLLIDER_TYPES_H
+#define DRAPE_COLLIDER_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// In the order in which contacts are resolved; lists of colliders are sorted by it.
+const int kind_plane = 0;
+const int kind_sphere = 1;
+const int kind_box = 2;
+const int kind_ellipsoid = 3;
+const int collider_kind_count = 4;
+/// Drawn with the colliders, so that the ground can fade into it by one function.
+const int kind_backdrop = collider_kind_count;
+
+/// A collider at the end of one substep. The rotation's rows are world from local, their w is the centre; `change` is
+/// this pose minus the pose one substep earlier (computed in double on the host, so a collider at rest has exact zeros
+/// there and friction against it cannot creep).
+struct ColliderRecord {
+    vec4 pose_x, pose_y, pose_z;
+    vec4 change_x, change_y, change_z;
+    vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii. w: sqrt(friction)
+};
+
+/// A collider as drawn.
+struct ColliderInstance {
+    vec4 pose_x, pose_y, pose_z;  // rows of world from local; w: centre
+    vec4 shape;                   // xyz as in the record; plane: half side of the quad drawn, distance of the grid's
+                                  // lines, local x and z of the quad's centre
+    vec4 color;
+};
+
+/// A round mesh: segments around and from pole to pole.
+const int sphere_columns = 96;
+const int sphere_rows = 48;
+
+/// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad.
+SHARED int mesh_vertex_count(int kind) {
+    if (kind == kind_backdrop) return 3;
+    if (kind == kind_plane) return 6;
+    if (kind == kind_box) return 36;
+    return 6 * sphere_columns * sphere_rows;
+}
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif
