@@ -31,10 +31,33 @@ ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
     return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
 }
 
+/// Its own y runs from `from` to `to`.
+ShapeGeometry geometry(const Capsule& capsule) {
+    Vec3 center, y;
+    for (std::size_t k = 0; k < 3; ++k) {
+        center[k] = 0.5 * (capsule.from[k] + capsule.to[k]);
+        y[k] = capsule.to[k] - capsule.from[k];
+    }
+    const double apart = std::hypot(y[0], y[1], y[2]);
+    y = apart > 0 ? Vec3{y[0] / apart, y[1] / apart, y[2] / apart} : Vec3{0, 1, 0};
+    // Any x across it: of the world's x and z, the one farther from y, made perpendicular.
+    Vec3 x = std::abs(y[0]) < std::abs(y[2]) ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+    const double shared = x[0] * y[0] + x[2] * y[2];
+    for (std::size_t k = 0; k < 3; ++k) x[k] -= shared * y[k];
+    const double length = std::hypot(x[0], x[1], x[2]);
+    for (double& entry : x) entry /= length;
+    const Vec3 z{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+    return {center,
+            {0.5 * apart, capsule.radii[0], capsule.radii[1]},
+            0.5 * apart + std::max(capsule.radii[0], capsule.radii[1]),
+            std::array{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}};
+}
+
 template <int kind>
 using Shape = std::variant_alternative_t<kind, ColliderShape>;
 static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
-              std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid>);
+              std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid> &&
+              std::is_same_v<Shape<glsl::kind_capsule>, Capsule>);
 
 }  // namespace
 

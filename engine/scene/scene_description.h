@@ -154,10 +154,19 @@ struct Ellipsoid {
     bool operator==(const Ellipsoid&) const = default;
 };
 
+/// A sphere swept from `from` to `to`, its radius going from the first to the second: two balls and the cone that
+/// touches both. One ball inside the other leaves the larger. It turns about the segment's middle.
+struct Capsule {
+    Vec3 from{-0.5, 0, 0};
+    Vec3 to{0.5, 0, 0};
+    std::array<double, 2> radii{0.25, 0.25};  ///< m, at `from` and at `to`
+    bool operator==(const Capsule&) const = default;
+};
+
 /// In the order of the collider kinds (shaders/shared/collider_types.h).
-using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid>;
+using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid, Capsule>;
 /// The lists of the scene file.
-inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids"};
+inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids", "capsules"};
 static_assert(std::size(collider_lists) == std::variant_size_v<ColliderShape>);
 
 /// `rotate` and `path` rotate about the collider's own centre (a plane's: the foot point normal * offset); a path is

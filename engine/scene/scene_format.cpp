@@ -199,6 +199,35 @@ const Object<Collider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
                                      {"radii", &Ellipsoid::radii, extents, "Half axes, metres."},
                                  })};
 
+/// One radius for both ends.
+Value<std::array<double, 2>> equal_radii() {
+    const Value<double> radius = number(positive);
+    return {radius.text,
+            [radius](const SceneNode& node, std::array<double, 2>& radii) {
+                if (!node || !radius.read(node, radii[0])) return !node;
+                radii[1] = radii[0];
+                return true;
+            },
+            [radius](const std::array<double, 2>& radii) { return radius.write(radii[0]); }};
+}
+
+bool check_capsule(const Members& members, Collider&) {
+    if (!members["radius"] || !members["radii"]) return true;
+    return members.object().fail("expected radius or radii, got both");
+}
+
+const Object<Collider> capsule{
+    "capsule",
+    "A sphere swept along a segment: a rod with round ends. With two radii it tapers; one end inside the other leaves "
+    "the larger ball. Its centre is the segment's middle. At most one of radius and radii.",
+    keys_of<Capsule>({
+        {"from", &Capsule::from, vec3, "Metres: centre of one end."},
+        {"to", &Capsule::to, vec3, "Metres: centre of the other end."},
+        {"radius", &Capsule::radii, equal_radii(), "Metres."},
+        {"radii", &Capsule::radii, without_default(two_numbers(positive)), "Metres, at from and at to."},
+    }),
+    check_capsule, R"("not": {"required": ["radius", "radii"]})"};
+
 using Colliders = std::vector<Collider>;
 
 /// The list of one shape; all lists are read into the scene's one, in the order of their rows.
@@ -226,6 +255,7 @@ const Object<Colliders> colliders{"colliders",
                                       colliders_of<Sphere>(sphere, "Spheres."),
                                       colliders_of<Box>(box, "Boxes."),
                                       colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."),
+                                      colliders_of<Capsule>(capsule, "Capsules."),
                                   }};
 
 const Object<Cutter> cutter{

@@ -44,9 +44,25 @@ MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
     return MeshVertex(vec3(corner.x, 0.0, corner.y), vec3(0.0, 1.0, 0.0));
 }
 
+/// The ball at the upper end from its pole to where the side touches it, the side in one step, the lower ball.
+MeshVertex capsule_vertex(vec3 size, int vertex) {
+    int quad = vertex / 6;
+    ivec2 corner = ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6);
+    const float pi = 3.14159265358979;
+    float touching = acos(clamp((size.y - size.z) / max(2.0 * size.x, 1.0e-20), -1.0, 1.0));
+    bool upper = corner.y <= sphere_rows / 2;
+    float polar = upper ? touching * float(corner.y) / float(sphere_rows / 2)
+                        : pi - (pi - touching) * float(sphere_rows - corner.y) / float(sphere_rows / 2 - 1);
+    float azimuth = 2.0 * pi * float(corner.x) / float(sphere_columns);
+    vec3 unit = vec3(sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth));
+    vec3 center = vec3(0.0, upper ? size.x : -size.x, 0.0);
+    return MeshVertex(center + unit * (upper ? size.z : size.y), unit);
+}
+
 MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
     if (collider_kind == kind_sphere) return ellipsoid_vertex(collider.shape.xxx, vertex);
     if (collider_kind == kind_ellipsoid) return ellipsoid_vertex(collider.shape.xyz, vertex);
+    if (collider_kind == kind_capsule) return capsule_vertex(collider.shape.xyz, vertex);
     if (collider_kind == kind_box) return box_vertex(collider.shape.xyz, vertex);
     return plane_vertex(collider.shape.x, collider.shape.zw, vertex);
 }

@@ -113,6 +113,36 @@ SHARED bool beyond_bounds(vec3 local, vec3 radii, float reach) {
     return abs(local.x) > bound.x || abs(local.y) > bound.y || abs(local.z) > bound.z;
 }
 
+/// A capsule along y: `size` is half the distance of its ends' centres, the radius at the lower end, at the upper. Its
+/// side is the cone that touches both balls, along circles; there its normal leans out of the horizontal by an angle
+/// whose sine is the radii's difference over the centres' distance, and beyond the circles the surface is the ball's.
+SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
+    precise float apart = size.x + size.x;
+    precise float narrowing = size.y - size.z;
+    bool has_side = abs(narrowing) < apart;  // else one ball holds the other
+    bool upper = narrowing < 0.0f;           // the ball that may be the nearest, without a side the larger
+    precise float above = local.y + size.x;  // the lower end's centre
+    if (has_side) {
+        precise float sine = narrowing / apart;
+        precise float cosine = sqrt((1.0f - sine) * (1.0f + sine));
+        precise float from_axis = sqrt(local.x * local.x + local.z * local.z);
+        precise float along = above * cosine - from_axis * sine;  // the side, from the lower circle
+        precise float side = apart * cosine;
+        if (along > 0.0f && along < side && from_axis > 0.0f) {
+            precise vec3 normal = vec3(local.x / from_axis * cosine, sine, local.z / from_axis * cosine);
+            precise float distance = from_axis * cosine + above * sine - size.y;
+            return SurfacePoint(normal, distance);
+        }
+        if (along > 0.0f && along < side) {  // on the axis every direction is as near
+            precise float distance = above * sine - size.y;
+            return SurfacePoint(vec3(cosine, sine, 0.0f), distance);
+        }
+        upper = along > 0.0f;
+    }
+    precise float below_upper = local.y - size.x;
+    return sphere_surface(vec3(local.x, upper ? below_upper : above, local.z), upper ? size.z : size.y);
+}
+
 /// Displacement after contact: moved out by `depth` along `normal`, and the motion relative to the surface
 /// along the tangent reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a) h^2 of
 /// a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): metres.
@@ -155,6 +185,7 @@ SHARED Contact resolve_contact(ColliderRecord collider, vec3 local, vec3 normal,
 SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     if (kind == kind_sphere) return sphere_surface(local, size.x);
     if (kind == kind_box) return box_surface(local, size);
+    if (kind == kind_capsule) return capsule_surface(local, size);
     return ellipsoid_surface(local, size);
 }
 
@@ -183,6 +214,7 @@ layout(constant_id = 0) const int planes_end = 0;
 layout(constant_id = 1) const int spheres_end = 0;
 layout(constant_id = 2) const int boxes_end = 0;
 layout(constant_id = 3) const int ellipsoids_end = 0;
+layout(constant_id = 4) const int capsules_end = 0;
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 
 #define CONTACTS(kind, begin, end)                                                                                \
@@ -200,6 +232,7 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     CONTACTS(kind_sphere, planes_end, spheres_end)
     CONTACTS(kind_box, spheres_end, boxes_end)
     CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
+    CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     return Contact(displacement, deepest);
 }
 

@@ -13,7 +13,8 @@ const int kind_plane = 0;
 const int kind_sphere = 1;
 const int kind_box = 2;
 const int kind_ellipsoid = 3;
-const int collider_kind_count = 4;
+const int kind_capsule = 4;
+const int collider_kind_count = 5;
 /// Drawn with the colliders, so that the ground can fade into it by one function.
 const int kind_backdrop = collider_kind_count;
 
@@ -23,7 +24,8 @@ const int kind_backdrop = collider_kind_count;
 struct ColliderRecord {
     vec4 pose_x, pose_y, pose_z;
     vec4 change_x, change_y, change_z;
-    vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii. w: sqrt(friction)
+    vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii; capsule, along its y:
+                 // half length, radius at the lower end, at the upper. w: sqrt(friction)
 };
 
 /// A collider as drawn.

@@ -118,7 +118,8 @@ TEST_P(RasterDepth, ClothHidesAndIsHidden) {
 
 INSTANTIATE_TEST_SUITE_P(EveryKind, RasterDepth,
                          testing::Values(Plane{{0, 0, 1}, 0.25}, Sphere{{0, 0, 0}, 0.5},
-                                         Box{{0, 0, 0}, {0.4, 0.4, 0.5}}, Ellipsoid{{0, 0, 0}, {0.4, 0.3, 0.5}}),
+                                         Box{{0, 0, 0}, {0.4, 0.4, 0.5}}, Ellipsoid{{0, 0, 0}, {0.4, 0.3, 0.5}},
+                                         Capsule{{-0.4, 0, 0}, {0.4, 0.1, 0}, {0.5, 0.4}}),
                          [](const auto& test) { return std::string(collider_lists[test.param.index()]); });
 
 TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {

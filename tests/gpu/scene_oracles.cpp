@@ -205,6 +205,7 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
 double size_of(const Plane&) { return 1; }
 double size_of(const Sphere& sphere) { return sphere.radius; }
 double size_of(const Box& box) { return *std::ranges::min_element(box.half_extents); }
+double size_of(const Capsule& capsule) { return std::min(capsule.radii[0], capsule.radii[1]); }
 double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
 
 /// Deepest particle below a collider's surface and the cloth's thickness on top of it, in units of the

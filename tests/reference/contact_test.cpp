@@ -109,9 +109,25 @@ TEST(ContactTest, Ellipsoid) {
     expect_contact("moving ellipsoid", drop({with_path(one_ellipsoid, moving)}), 0.6, curvature);
 }
 
+TEST(ContactTest, Capsule) {
+    const Collider rod{Capsule{{-0.4, 0.3, 0.1}, {0.4, 0.3, -0.1}, {0.25, 0.25}}};
+    expect_contact("capsule", drop({rod}), 0.25, 0.25);
+    expect_contact("moving capsule", drop({with_path(rod, moving)}), 0.25, 0.25);
+    const Collider tapered{Capsule{{-0.4, 0.2, 0}, {0.35, 0.4, 0.1}, {0.35, 0.2}}, 0.3, {20, 30, 40}};
+    expect_contact("turned, tapered capsule", drop({tapered}), 0.2, 0.2);
+    expect_contact("moving, turned, tapered capsule", drop({with_path(tapered, moving)}), 0.2, 0.2);
+    const Collider ball{Capsule{{0, 0.3, 0}, {0.1, 0.35, 0}, {0.4, 0.1}}};
+    expect_contact("capsule whose one end holds the other", drop({ball}), 0.4, 0.4);
+}
+
 TEST(ContactTest, OverlappingColliders) {
     const Collider second{Sphere{{0.45, 0.35, 0.1}, 0.4}};
     expect_contact("two overlapping spheres", drop({one_sphere, second}), 0.5, 0);
+
+    const Collider rod{Capsule{{-0.5, 0.3, 0.2}, {0.5, 0.35, -0.2}, {0.3, 0.15}}, 0.3, {0, 0, 10}};
+    const MotionPath turning{{{0, {0, 0, 0}, {0, 0, 0}}, {2, {0, 0.15, 0}, {0, -15, 0}}}};  // opens the cross
+    const Collider across{Capsule{{-0.1, 0.2, -0.5}, {0.1, 0.3, 0.5}, {0.2, 0.25}}};
+    expect_contact("two crossing capsules, one moving", drop({with_path(rod, turning), across}), 0.15, 0);
 
     Collider box = with_path(one_box, moving);
     std::get<Box>(box.shape).center = {0.3, 0.3, 0.2};

@@ -272,6 +272,15 @@ const Malformed collider_cases[] = {
       "2:73: /colliders/spheres/0/radius: expected a number > 0 (single precision), got 0",
       "3:35: /colliders/boxes/0/half_extents/2: expected a number > 0 (single precision), got 0",
       "3:70: /colliders/ellipsoids/0/radii/1: expected a number > 0 (single precision), got -1"}},
+    {"Capsules",
+     scene("\"colliders\": {\"capsules\": [{\"radius\": 1, \"radii\": [1, 2]},\n{\"radius\": [1, 2]}, {\"radii\": [1, "
+           "0]}, "
+           "{\"center\": 0}]}"),
+     {"2:28: /colliders/capsules/0: expected radius or radii, got both",
+      "3:12: /colliders/capsules/1/radius: expected a number > 0 (single precision), got [1, 2]",
+      "3:35: /colliders/capsules/2/radii/1: expected a number > 0 (single precision), got 0",
+      "3:41: /colliders/capsules/3/center: expected one of from, to, radius, radii, friction, rotate, path, color, got "
+      "the unknown key \"center\""}},
     {"Common",
      scene("\"colliders\": {\"planes\": {}, \"boxes\": [{\"friction\": -1, \"color\": \"red\", \"rotate\": "
            "90}]}"),

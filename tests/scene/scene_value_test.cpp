@@ -73,7 +73,9 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Plane{{0, 0, 1}, -0.5}, 0.6, {1, 2, 3}, {0, {}, {}}, 0.1),
         collider(Sphere{{0, 1, 0.5}, 0.3}, 0.1, {4, 5, 6}, {1, {1, 1, 1}, {}}, 0.2),
         collider(Box{{0, 0.5, 0}, {0.3, 0.1, 0.2}}, 0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3),
-        collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4)};
+        collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4),
+        collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
+        {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}}};
     EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
 }
 

@@ -71,6 +71,30 @@ inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
     return level < 0 ? -gap : gap;
 }
 
+/// The ball among all of the sweep whose surface is nearest: its depth is convex along the segment.
+inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foot = nullptr) {
+    const double half = 0.5 * norm(minus(capsule.to, capsule.from));
+    const auto radius = [&](double t) { return capsule.radii[0] + t * (capsule.radii[1] - capsule.radii[0]); };
+    const auto from_center = [&](double t) { return Vec3{local[0], local[1] + half - 2 * half * t, local[2]}; };
+    const auto distance = [&](double t) { return norm(from_center(t)) - radius(t); };
+    double low = 0, high = 1;
+    for (int step = 0; step < 200; ++step) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+    }
+    double best = 0.5 * (low + high);
+    for (const double end : {0.0, 1.0})
+        if (distance(end) <= distance(best)) best = end;
+    if (foot) {
+        const Vec3 out = from_center(best);
+        for (std::size_t k = 0; k < 3; ++k)
+            (*foot)[k] = local[k] - out[k] + radius(best) * out[k] / std::max(norm(out), 1e-300);
+    }
+    return distance(best);
+}
+
+inline double shape_distance(const Capsule& capsule, const Vec3& local) { return capsule_sweep(capsule, local); }
+
 inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
     const Vec3 local = to_local(collider_pose(collider, time), x);
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);

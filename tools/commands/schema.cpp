@@ -1,3 +1,4 @@
+#include "options.h"
 #include "program.h"
 #include "scene/scene_reader.h"
 #include "streams.h"
@@ -5,12 +6,14 @@
 namespace drape::cli {
 
 void add_schema(Program& program) {
-    const auto run = [] {
-        print_data(scene_schema());
+    const auto markdown = std::make_shared<bool>(false);
+    const auto run = [=] {
+        print_data(*markdown ? scene_format_markdown() : scene_schema());
         return ExitCode::ok;
     };
-    program.add("schema", "Print the JSON Schema (draft-07) of scene files, with every default",
-                "\nExample:\n  drape schema > scene.schema.json\n", run);
+    CLI::App& command = program.add("schema", "Print the JSON Schema (draft-07) of scene files, with every default",
+                                    "\nExample:\n  drape schema > scene.schema.json\n", run);
+    add_flag(command, "--markdown", "The format for readers, as Markdown", *markdown);
 }
 
 }  // namespace drape::cli
