@@ -88,7 +88,7 @@ void ValidationLog::add(std::string message_id, std::string text) {
     const std::lock_guard lock(mutex_);
     if (messages_.size() >= kept_message_count) return;
     // Most texts of the layer name their id themselves.
-    if (text.find(message_id) == std::string::npos) text = message_id + ": " + text;
+    if (text.find(message_id) == std::string::npos) text = std::move(message_id) + ": " + text;
     messages_.push_back(std::move(text));
 }
 
