@@ -25,7 +25,6 @@ namespace {
 
 struct FrameRange {
     std::uint32_t start, end, step;
-    bool wants(std::uint32_t frame) const { return frame >= start && frame <= end && (frame - start) % step == 0; }
     std::uint32_t count() const { return (end - start) / step + 1; }
 };
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "drape/error.h"
+#include "drape/scene_reader.h"
 #include "exit_code.h"
 #include "output/output_folder.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 

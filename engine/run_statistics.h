@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene.h"
 #include "drape/statistics.h"
 #include "output/manifest.h"
-#include "scene/scene_description.h"
 
 namespace drape {
 

@@ -11,7 +11,7 @@
 #include "cloth/stiffness_constants.h"
 #include "cloth/tethers.h"
 #include "drape/compromise.h"
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 #include "shared/simulation_types.h"
 
 namespace drape {

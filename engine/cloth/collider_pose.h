@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 #include "shared/glsl_types.h"
 
 namespace drape {

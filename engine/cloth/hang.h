@@ -1,7 +1,7 @@
 // How a cloth hangs: what the laws of the methods' stretch errors depend on. Pure.
 #pragma once
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

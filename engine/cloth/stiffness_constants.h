@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "cloth/directions.h"
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

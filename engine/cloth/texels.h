@@ -4,7 +4,7 @@
 #include <array>
 
 #include "cloth/grid.h"
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 #include "shared/glsl_types.h"
 
 namespace drape {

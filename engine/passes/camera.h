@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 

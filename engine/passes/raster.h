@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "drape/scene.h"
 #include "graph/executor.h"
 #include "passes/collider_mesh.h"
-#include "scene/scene_description.h"
 #include "shared/raster_types.h"
 #include "vulkan/pipeline.h"
 

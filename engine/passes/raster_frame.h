@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "drape/scene.h"
 #include "passes/collider_mesh.h"
-#include "scene/scene_description.h"
 #include "shared/raster_types.h"
 
 namespace drape {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape::model_scenes {
 

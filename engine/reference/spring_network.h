@@ -12,7 +12,7 @@
 
 #include "cloth/directions.h"
 #include "cloth/grid.h"
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

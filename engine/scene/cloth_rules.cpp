@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 #include "scene/scene_rules.h"
 #include "scene/vectors.h"
 

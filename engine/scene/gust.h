@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 #include "scene/scene_text.h"
 
 namespace drape {

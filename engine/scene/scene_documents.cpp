@@ -1,7 +1,7 @@
 // The format for editors (JSON Schema) and for people (Markdown).
 #include <fmt/format.h>
 
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 #include "scene/scene_value.h"
 
 namespace drape {

@@ -1,4 +1,4 @@
-// The rows of the format. A new key is its field in scene_description.h and its row here.
+// The rows of the format. A new key is its field in drape/scene.h and its row here.
 #include <fmt/format.h>
 
 #include <algorithm>

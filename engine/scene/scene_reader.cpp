@@ -1,4 +1,4 @@
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 
 #include <fmt/format.h>
 

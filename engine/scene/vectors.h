@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 

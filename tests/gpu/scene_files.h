@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 
 namespace drape::test {
 

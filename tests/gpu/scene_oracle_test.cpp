@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <map>
 
+#include "drape/scene_reader.h"
 #include "gpu_test.h"
-#include "scene/scene_reader.h"
 #include "scene_breaks.h"
 #include "scene_files.h"
 #include "scene_oracles.h"

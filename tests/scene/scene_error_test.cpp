@@ -1,7 +1,7 @@
 // Golden messages of malformed scenes: place, pointer and words are what users and editors rely on.
 #include <gtest/gtest.h>
 
-#include "scene/scene_reader.h"
+#include "drape/scene_reader.h"
 
 namespace drape {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <random>
 
+#include "drape/scene_reader.h"
 #include "full_scene.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 namespace {

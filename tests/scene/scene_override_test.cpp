@@ -1,8 +1,8 @@
 // --set /json/pointer=value
 #include <gtest/gtest.h>
 
+#include "drape/scene_reader.h"
 #include "full_scene.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 namespace {

@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
+#include "drape/scene_reader.h"
 #include "full_scene.h"
 #include "scene/scene_format.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 namespace {

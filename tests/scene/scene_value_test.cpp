@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "drape/scene_reader.h"
 #include "full_scene.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cloth/collider_pose.h"
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape::test {
 

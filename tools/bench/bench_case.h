@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "drape/scene.h"
 
 namespace drape::bench {
 

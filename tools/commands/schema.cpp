@@ -1,6 +1,6 @@
+#include "drape/scene_reader.h"
 #include "options.h"
 #include "program.h"
-#include "scene/scene_reader.h"
 #include "streams.h"
 
 namespace drape::cli {

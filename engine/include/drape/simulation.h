@@ -12,8 +12,8 @@
 #include "drape/compromise.h"
 #include "drape/device.h"
 #include "drape/error.h"
+#include "drape/scene_reader.h"
 #include "drape/statistics.h"
-#include "scene/scene_reader.h"
 
 namespace drape {
 

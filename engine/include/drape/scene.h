@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "solver_method.h"
+#include "drape/solver_method.h"
 
 namespace drape {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drape/error.h"
-#include "scene_description.h"
+#include "drape/scene.h"
 
 namespace drape {
 
