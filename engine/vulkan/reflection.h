@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vulkan/error.h"
 #include "shared/struct_layout.h"
+#include "vulkan/error.h"
 
 namespace drape::vulkan {
 

@@ -1,6 +1,6 @@
-// C++ only. The layout of a struct that GLSL and C++ share (this folder), derived from the C++ type, so that nobody retypes
-// its members: how many initializers the aggregate takes says how many members it has, a structured binding where they
-// are.
+// C++ only. The layout of a struct that GLSL and C++ share (this folder), derived from the C++ type, so that nobody
+// retypes its members: how many initializers the aggregate takes says how many members it has, a structured binding
+// where they are.
 #pragma once
 
 #include <cstddef>
@@ -112,9 +112,7 @@ constexpr std::string_view type_name() {
 
 template <class T>
 const StructLayout& layout_of() {
-    constexpr bool plain =
-        std::is_arithmetic_v<T> ||
-        detail::is_one_of<T, vec2, vec3, vec4, ivec2, ivec4, uvec4>;
+    constexpr bool plain = std::is_arithmetic_v<T> || detail::is_one_of<T, vec2, vec3, vec4, ivec2, ivec4, uvec4>;
     static const StructLayout layout = [] {
         if constexpr (plain)
             return StructLayout{detail::type_name<T>(), sizeof(T), {}};

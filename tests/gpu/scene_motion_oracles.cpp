@@ -9,6 +9,7 @@
 #include "scene/gust.h"
 #include "scene/motion.h"
 #include "scene_oracles.h"
+#include "shared/collider_types.h"
 #include "support/surface_distance.h"
 
 namespace drape::test {
