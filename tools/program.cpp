@@ -38,13 +38,13 @@ Program::Program(std::vector<std::string> arguments)
 Program::~Program() = default;
 
 CLI::App& Program::add(const std::string& name, const char* summary, const char* details,
-                       std::function<ExitCode()> run) {
+                       const std::function<ExitCode()>& run) {
     const std::size_t space = name.find(' ');
     CLI::App* parent = space == std::string::npos ? app_.get() : app_->get_subcommand(name.substr(0, space));
     CLI::App* command = parent->add_subcommand(name.substr(space + 1), summary);
     command->footer(std::string(details) + about_exit_codes + exit_code_list(98) + ".\n");
     if (run)
-        command->callback([this, run = std::move(run)] { run_ = run; });
+        command->callback([this, run] { run_ = run; });
     else
         command->require_subcommand(1);
     return *command;

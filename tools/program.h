@@ -23,7 +23,8 @@ class Program {
     /// Adds a command, to whose options the caller adds. Its name has two words when it is a member of the group that
     /// the first one names; `summary` is its line in the list, `details` stand below its options. `run` is called once
     /// the options are parsed; a group has none.
-    CLI::App& add(const std::string& name, const char* summary, const char* details, std::function<ExitCode()> run);
+    CLI::App& add(const std::string& name, const char* summary, const char* details,
+                  const std::function<ExitCode()>& run);
 
     /// Parses the command line and runs the command it names, or says what is wrong with it.
     ExitCode run();

@@ -178,7 +178,8 @@ std::array<double, 2> CutTopology::material(std::uint32_t vertex) const {
         const glsl::vec4& at = vertices_[vertex - grid_.particle_count()].material;
         return {static_cast<double>(at.x), static_cast<double>(at.y)};
     }
-    return {vertex % columns_ * cloth_->spacing[0], vertex / columns_ * cloth_->spacing[1]};
+    const auto column = vertex % columns_, row = vertex / columns_;
+    return {column * cloth_->spacing[0], row * cloth_->spacing[1]};
 }
 
 std::uint32_t CutTopology::edge_vertex(std::uint32_t anchor, std::uint32_t other, float fraction) {

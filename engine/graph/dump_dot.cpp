@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <tuple>

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "output/frame_writer.h"
 #include "output/npy.h"
 #include "output/zip_file.h"
