@@ -15,11 +15,11 @@
 
 namespace drape::test {
 
+using glsl::layout_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using vulkan::DescriptorKind;
-using glsl::layout_of;
 using vulkan::ReflectedDescriptor;
 using vulkan::ReflectedModule;
 using vulkan::VulkanError;
