@@ -1,5 +1,5 @@
 // Relaxes one colour of the bending elements of one axis, plain schedule: one invocation per element, so no particle is
-// touched twice. MASKED: the stiffness comes from an image (holes, cuts).
+// touched twice. MASKED: the spring shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -13,14 +13,14 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 
 float share_of(ivec2 owner) {
 #ifdef MASKED
-    return imageLoad(stiffness_image, owner)[push.channel];
+    return imageLoad(spring_share_image, owner)[push.channel];
 #else
-    return border_stiffness(owner, push.axis, push.grid);
+    return border_share(owner, push.axis, push.grid);
 #endif
 }
 

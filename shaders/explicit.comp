@@ -1,6 +1,6 @@
 // Explicit micro-step: finishes the last substep (X += d, after the first substep of a frame), gathers
 // the springs around each particle and takes the next step. It reads neighbours, so it writes the other image of each
-// pair, every texel of it. WIND: adds the wind's force. MASKED: the stiffness comes from an image (holes, cuts).
+// pair, every texel of it. WIND: adds the wind's force. MASKED: the spring shares come from an image (holes, cuts).
 // Particles with w = 0 feel no force; the pin pass moves those that the user moves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,7 +18,7 @@ layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
 layout(push_constant) uniform Push { ExplicitPush push; };
 #ifdef MASKED
-layout(set = 0, binding = 9, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 
 struct Particle {
@@ -35,7 +35,7 @@ Particle particle_at(ivec2 texel) {
     Particle particle =
         Particle(texel, imageLoad(position_in, texel).xyz, imageLoad(displacement_in, texel).xyz, vec4(0.0f));
 #ifdef MASKED
-    particle.shares = imageLoad(stiffness_image, texel);
+    particle.shares = imageLoad(spring_share_image, texel);
 #endif
     return particle;
 }
@@ -50,7 +50,7 @@ float share_of(Particle owner, ivec2 offset, int channel) {
 #ifdef MASKED
     return owner.shares[channel];
 #else
-    return border_stiffness(owner.texel, offset, push.grid);
+    return border_share(owner.texel, offset, push.grid);
 #endif
 }
 
@@ -60,8 +60,8 @@ vec3 gather(vec3 sum, Particle center, ivec4 around) {
     Particle there = particle_at(center.texel + around.xy);
     precise vec3 closing = there.displacement - center.displacement;
     float share = around.w == 1 ? share_of(center, around.xy, around.z) : share_of(there, around.xy, around.z);
-    precise float stiffness = push.stiffness[around.z] * share;
-    return add_pull(sum, edge_between(center, there), closing, push.rest_length[around.z], stiffness,
+    precise float relative_stiffness = push.relative_stiffness[around.z] * share;
+    return add_pull(sum, edge_between(center, there), closing, push.rest_length[around.z], relative_stiffness,
                     push.strain_damping);
 }
 
@@ -134,7 +134,7 @@ void main() {
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
 #ifdef MASKED
-    center.shares = imageLoad(stiffness_image, texel);
+    center.shares = imageLoad(spring_share_image, texel);
 #endif
     vec3 pull = empty_sum();
     pull = gather(pull, center, neighbour(0));

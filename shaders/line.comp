@@ -1,6 +1,6 @@
 // Solves the springs of one direction line by line: one invocation per line, Thomas algorithm. The lines of a direction
 // share no particle, so the displacement is updated in place. SECOND_ORDER: the control says whether this substep is
-// BDF2, and hears of the worst spring. MASKED: the stiffness comes from an image (holes, cuts). TENSION: the springs'
+// BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts). TENSION: the springs'
 // tension is stored, as in the spring passes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,7 +15,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 3, std430) buffer Scratch { vec2 scratch[]; };
 #ifdef MASKED
-layout(set = 0, binding = 4, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 #ifdef TENSION
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
@@ -42,9 +42,9 @@ LineSpring spring_between(LineParticle first, LineParticle second) {
 float share_of(ivec2 first) {
     if (first.x == push.seam) return 0.0f;
 #ifdef MASKED
-    return imageLoad(stiffness_image, first)[push.channel];
+    return imageLoad(spring_share_image, first)[push.channel];
 #else
-    return border_stiffness(first, push.step, push.grid);
+    return border_share(first, push.step, push.grid);
 #endif
 }
 
@@ -83,11 +83,11 @@ LinePlace eliminate_line(int line, float compliance, float followed) {
             third = load_particle(at_third);
             after = spring_between(place.second, third);
         }
-        float stiffness = share_of(place.at_first);
-        place.largest_excess = larger_excess(place.largest_excess, spring, stiffness);
+        float share = share_of(place.at_first);
+        place.largest_excess = larger_excess(place.largest_excess, spring, share);
         eliminated =
             eliminate_spring(eliminated, normal_before, spring, after.normal, place.first.position.w,
-                             place.second.position.w, stiffness, compliance, tension_of(place.at_first, followed));
+                             place.second.position.w, share, compliance, tension_of(place.at_first, followed));
         scratch[e * push.line_count + line] = eliminated;
         if (e == last) break;
         normal_before = spring.normal;

@@ -1,5 +1,5 @@
 // Stretch error within a substep: an invocation per residual_rows particles of a column, a record per workgroup. A
-// particle answers for the stretch springs whose first particle it is. MASKED: stiffness from an image (holes, cuts).
+// particle answers for the stretch springs whose first particle it is. MASKED: spring shares from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -15,7 +15,7 @@ layout(set = 0, binding = 2, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 4, std430) writeonly buffer Partials { ResidualRecord partials[]; };
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 
 #define RECORD ResidualRecord
@@ -26,7 +26,7 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
     ivec2 second = first + offset;
     if (second.x >= push.grid.x || second.y >= push.grid.y) return record;
 #ifdef MASKED
-    float share = imageLoad(stiffness_image, first)[channel];
+    float share = imageLoad(spring_share_image, first)[channel];
 #else
     float share = 1.0f;
 #endif

@@ -1,5 +1,5 @@
 // Relaxes one parity of one spring direction, plain schedule: one invocation per spring, so no particle is touched
-// twice. MASKED: the stiffness comes from an image (holes, cuts). TENSION: the springs' tension is stored, for the next
+// twice. MASKED: the spring shares come from an image (holes, cuts). TENSION: the springs' tension is stored, for the next
 // iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 #ifdef TENSION
 layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
@@ -30,9 +30,9 @@ void main() {
     vec3 displacement_first = imageLoad(displacement_in, first).xyz;
     vec3 displacement_second = imageLoad(displacement_in, second).xyz;
 #ifdef MASKED
-    float stiffness = imageLoad(stiffness_image, first)[push.channel];
+    float share = imageLoad(spring_share_image, first)[push.channel];
 #else
-    float stiffness = border_stiffness(first, push.offset, push.grid);
+    float share = border_share(first, push.offset, push.grid);
 #endif
     float tension = 0.0f;
 #ifdef TENSION
@@ -40,7 +40,7 @@ void main() {
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
     precise float weight_sum = position_first.w + position_second.w;
-    SpringResult result = project_spring(edge, weight_sum, push.rest_length, stiffness, push.compliance, tension);
+    SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
     vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
     imageStore(displacement_out, first, vec4(moved_first, 0.0f));

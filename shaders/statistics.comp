@@ -1,5 +1,5 @@
 // Statistics of a cloth: an invocation per statistics_rows particles of a column, a record per workgroup. A
-// particle answers for the springs whose first particle it is. MASKED: stiffness and masses come from images (holes,
+// particle answers for the springs whose first particle it is. MASKED: spring shares and masses come from images (holes,
 // cuts). COLLIDING: the scene has colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
 #endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
@@ -41,9 +41,9 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
     ivec2 second = first + offset;
     if (!inside(second)) return record;
 #ifdef MASKED
-    float share = imageLoad(stiffness_image, first)[direction];
+    float share = imageLoad(spring_share_image, first)[direction];
 #else
-    float share = border_stiffness(first, offset, push.grid);
+    float share = border_share(first, offset, push.grid);
 #endif
     return add_spring_strain(record, start, imageLoad(position, second).xyz, push.rest_length[direction],
                              push.half_stiffness[direction], share, tension, direction >= 2);

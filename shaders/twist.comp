@@ -1,5 +1,5 @@
 // Relaxes the twist of one colour of the cells: one invocation per cell, so no particle is touched twice.
-// MASKED: whether the cell is whole comes from the stiffness image (holes, cuts).
+// MASKED: whether the cell is whole comes from the spring shares (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D stiffness_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 
 void main() {
@@ -25,8 +25,8 @@ void main() {
     ivec2 lower_right = upper_left + ivec2(1, 1);
     float share = 1.0f;
 #ifdef MASKED
-    share = twist_share(imageLoad(stiffness_image, upper_left), imageLoad(stiffness_image, upper_right),
-                        imageLoad(stiffness_image, lower_left));
+    share = twist_share(imageLoad(spring_share_image, upper_left), imageLoad(spring_share_image, upper_right),
+                        imageLoad(spring_share_image, lower_left));
 #endif
     vec4 position_00 = imageLoad(position, upper_left);
     vec4 position_10 = imageLoad(position, upper_right);

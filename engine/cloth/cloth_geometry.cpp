@@ -35,7 +35,7 @@ void ClothGeometry::place() {
             position.push_back(texel(at, free_weight.back()));
         }
     if (!starts_masked)
-        skipped.push_back({name + "/stiffness", "no holes or cuts: the grid's extent gives every stiffness"});
+        skipped.push_back({name + "/spring shares", "no holes or cuts: the grid's extent gives every stiffness"});
 }
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {

@@ -36,6 +36,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
                   static_cast<float>(2.4e-7 * extent), 0},
                  grid.size(),
+                 0,
                  0};
 }
 

@@ -38,6 +38,8 @@ bool tense(Context c) {
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
 
+constexpr std::uint64_t size_count = glsl::iteration_size_count;
+
 std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
 }
@@ -47,7 +49,6 @@ const std::vector<FieldRow>& rows() {
     using enum FieldView;
     static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
                       &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
-    constexpr std::uint64_t size_count = glsl::iteration_size_count;
     static const std::vector<FieldRow> table = {
         {Field::position, "position", image, vector, state, always, particles,
          [](Context c) { return bytes_of(c.cloth.position); }},
@@ -67,7 +68,7 @@ const std::vector<FieldRow>& rows() {
          [](Context) { return FieldExtent{glsl::control_texel_count}; }},
         {Field::wind_force, "wind force", image, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
-        {Field::stiffness, "stiffness", image, vector, constant, masked, particles,
+        {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
          [](Context c) { return bytes_of(c.topology.spring_shares()); }},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles,
          [](Context c) { return bytes_of(mass_shares(c.cloth)); }},

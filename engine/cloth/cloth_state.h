@@ -29,7 +29,7 @@ enum class Field : std::uint8_t {
     line_control,         ///< LineControl (shaders/include/bdf2.h), an integer per texel
     wind_force,           ///< N
     normal,               ///< unit normal of the front
-    stiffness,            ///< share per direction, by first particle
+    spring_share,         ///< share per direction, by first particle
     mass_share,           ///< 1 = an inner particle's
     cells,                ///< triangles that exist, bits 1 and 2, one texel per cell
     tension_row,          ///< per direction (tension_of), by first particle, m: extension that would balance the

@@ -20,7 +20,7 @@ struct SpringDirection {
     SpringFamily family;
 };
 
-/// Row index = channel of the stiffness image.
+/// Row index = channel of the spring shares.
 inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"row", {1, 0}, 0, SpringFamily::stretch},
     {"column", {0, 1}, 1, SpringFamily::stretch},
@@ -50,7 +50,7 @@ SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
 /// pass of a two-column grid) included.
 std::vector<SpringPass> spring_passes(glsl::ivec2 grid);
 
-/// Axes along which three neighbouring particles form a bending element. Row index = channel of the stiffness image
+/// Axes along which three neighbouring particles form a bending element. Row index = channel of the spring shares
 /// whose springs the element lies on.
 struct BendAxis {
     std::string_view name;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "cloth/method_explicit.h"
 #include "cloth/method_line.h"
@@ -67,7 +68,11 @@ struct ByteList {
         add(steps.size());
         for (const auto& [kind, constants] : steps) {
             add(kind);
-            std::visit([this](const auto& push) { add(push); }, constants);
+            std::visit(
+                [this]<class T>(const T& push) {
+                    if constexpr (!std::is_empty_v<T>) add(push);  // the byte of an empty one is anything
+                },
+                constants);
         }
     }
 };

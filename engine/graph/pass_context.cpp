@@ -105,14 +105,19 @@ void PassContext::bind_uses(const vulkan::ComputePipeline& pipeline) {
 }
 
 void PassContext::bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings) {
-    for (const auto& [variable, handle] : bindings) {
-        check_resource(pipeline, variable, graph_.resources()[use_of(handle).handle.resource]);
-        for (const auto [stage, access] : {std::pair(VK_SHADER_STAGE_VERTEX_BIT, Access::vertex_read),
-                                           std::pair(VK_SHADER_STAGE_FRAGMENT_BIT, Access::fragment_read)}) {
+    struct Stage {
+        VkShaderStageFlags flag;
+        Access access;
+    };
+    for (const Binding& binding : bindings) {
+        check_resource(pipeline, binding.variable, graph_.resources()[use_of(binding.handle).handle.resource]);
+        for (const Stage& stage : {Stage{VK_SHADER_STAGE_VERTEX_BIT, Access::vertex_read},
+                                   Stage{VK_SHADER_STAGE_FRAGMENT_BIT, Access::fragment_read}}) {
             const bool declared = std::ranges::any_of(
-                pass_.uses, [&](const Use& use) { return use.handle == handle && use.access == access; });
-            if ((find(pipeline, variable)->stages & stage) && !declared)
-                refuse(pipeline, variable, fmt::format("the pass does not declare {}", access_name(access)));
+                pass_.uses, [&](const Use& use) { return use.handle == binding.handle && use.access == stage.access; });
+            if ((find(pipeline, binding.variable)->stages & stage.flag) && !declared)
+                refuse(pipeline, binding.variable,
+                       fmt::format("the pass does not declare {}", access_name(stage.access)));
         }
     }
     push_descriptors(pipeline, bindings);

@@ -15,7 +15,8 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
-            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.element_count.x),

@@ -22,7 +22,8 @@ void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& sta
             setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
             setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");
             state[Field::residuals] = setup.write(state[Field::residuals], graph::Access::compute_write, "partials");
-            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

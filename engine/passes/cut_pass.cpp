@@ -45,7 +45,7 @@ void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, g
             setup.read(cutters, Access::compute_read, "cutters");
             update_in_place(setup, count, "count");
             if (!state.masked()) return;
-            setup.read(state[Field::stiffness], Access::compute_read, "stiffness_image");
+            setup.read(state[Field::spring_share], Access::compute_read, "spring_share_image");
             setup.read(state[Field::cells], Access::compute_read, "cells");
         },
         [&pipeline, push = glsl::CutPush{grid.size(), static_cast<int>(cutter_count) * glsl::cutter_triangle_count, 0}](

@@ -5,7 +5,7 @@ namespace drape {
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const auto& push = step.push<glsl::ExplicitPush>();
-    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.stiffness.z > 0 ? 1 : 0,
+    const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,
                         has_bend = push.twist > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("explicit.comp", {{"masked", state.masked()}, {"wind", wind}}),
@@ -22,7 +22,8 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
             update(setup, state[Field::position_remainder], "position_remainder");
             update(setup, state[Field::displacement_remainder], "displacement_remainder");
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
-            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
         [&pipeline, push](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

@@ -54,7 +54,8 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
             update_in_place(setup, state[Field::line_scratch], "scratch");
-            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
             if (stores_tension) update(setup, state[tension_of(direction)], "tension");
             if (model.plan.second_order) update_in_place(setup, state[Field::line_control], "control");
             dispatch.declare(setup);

@@ -22,7 +22,8 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
-            if (state.masked()) setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
             if (stores_tension) update(setup, state[tension_of(direction)], "tension");
             dispatch.declare(setup);
         },

@@ -34,7 +34,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
             setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
             setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");
             if (state.masked()) {
-                setup.read(state[Field::stiffness], graph::Access::compute_read, "stiffness_image");
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
                 setup.read(state[Field::mass_share], graph::Access::compute_read, "mass_image");
             }
             if (collides) setup.read(inputs.colliders, graph::Access::compute_read, "colliders");

@@ -74,7 +74,7 @@ class Reduction {
         const ivec2 second{first.x + offset.x, first.y + offset.y};
         if (!inside(second)) return record;
         const float share = state_.topology.masked() ? component(state_.topology.spring_shares()[at(first)], direction)
-                                                     : border_stiffness(first, offset, push_.grid);
+                                                     : border_share(first, offset, push_.grid);
         const float tension = direction < 2 ? state_.tension(static_cast<std::size_t>(direction))[at(first)] : 0.0f;
         return add_spring_strain(record, xyz(state_[Field::position][at(first)]),
                                  xyz(state_[Field::position][at(second)]), component(push_.rest_length, direction),

@@ -183,7 +183,7 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             const std::size_t first = at(model.grid, owner);
             const std::size_t second = at(model.grid, {owner.x + push.offset.x, owner.y + push.offset.y});
             const float share = state.topology.masked() ? component(state.topology.spring_shares()[first], push.channel)
-                                                        : border_stiffness(owner, push.offset, push.grid);
+                                                        : border_share(owner, push.offset, push.grid);
             const float tension = carried ? tensions[first] : 0.0f;
             const float weight_first = state[Field::position][first].w,
                         weight_second = state[Field::position][second].w;

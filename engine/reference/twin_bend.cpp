@@ -12,7 +12,7 @@ void Twin::bend(TwinCloth& state, const Step& step) {
     const CutTopology& topology = state.topology;
     const auto share = [&](ivec2 owner) {
         return topology.masked() ? component(topology.spring_shares()[at(topology.grid(), owner)], push.channel)
-                                 : border_stiffness(owner, push.axis, push.grid);
+                                 : border_share(owner, push.axis, push.grid);
     };
     for (int y = 0; y < push.element_count.y; ++y)
         for (int x = 0; x < push.element_count.x; ++x) {

@@ -26,19 +26,19 @@ struct Before {
     }
     float share(ivec2 owner, ivec2 offset, int channel) const {
         return state.topology.masked() ? component(state.topology.spring_shares()[index(owner)], channel)
-                                       : border_stiffness(owner, offset, push.grid);
+                                       : border_share(owner, offset, push.grid);
     }
     vec3 with_springs(vec3 sum, ivec2 here) const {
         for (int k = 0; k < neighbour_count; ++k) {
             const ivec4 around = neighbour(k);
-            if (around.z >= 2 && push.stiffness.z == 0.0f) continue;
+            if (around.z >= 2 && push.relative_stiffness.z == 0.0f) continue;
             const ivec2 offset{around.x, around.y}, there{here.x + around.x, here.y + around.y};
             if (!inside(there, push.grid)) continue;
             const vec3 closing =
                 xyz(state[Field::displacement][index(there)]) - xyz(state[Field::displacement][index(here)]);
-            const float stiffness =
-                component(push.stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
-            sum = add_pull(sum, edge(here, there), closing, component(push.rest_length, around.z), stiffness,
+            const float relative_stiffness =
+                component(push.relative_stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
+            sum = add_pull(sum, edge(here, there), closing, component(push.rest_length, around.z), relative_stiffness,
                            push.strain_damping);
         }
         return sum;

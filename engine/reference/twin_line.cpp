@@ -79,7 +79,7 @@ struct LineView {
     float share(std::size_t e) const {
         if (particles[e].x == push.seam) return 0.0f;
         return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
-                                       : border_stiffness(particles[e], push.step, push.grid);
+                                       : border_share(particles[e], push.step, push.grid);
     }
 };
 
@@ -91,9 +91,9 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     vec3 before{0, 0, 0};
     for (std::size_t e = 0; e < springs.size(); ++e) {
         const vec3 after = e + 1 < springs.size() ? springs[e + 1].normal : vec3{0, 0, 0};
-        const float stiffness = line.share(e);
-        largest = larger_excess(largest, springs[e], stiffness);
-        previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), stiffness,
+        const float share = line.share(e);
+        largest = larger_excess(largest, springs[e], share);
+        previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), share,
                                     compliance, tensions[e]);
         eliminated.push_back(previous);
         before = springs[e].normal;

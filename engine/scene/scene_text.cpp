@@ -218,7 +218,7 @@ std::string with_finite_numbers(std::string_view text) {
         const std::string sign = word[0] == '-' ? "-" : "";
         // No number that overflows is shorter than the 5 characters of 1e308.
         const std::string filling(word.size() - sign.size() - 5, '0');
-        finite.replace(token->begin, word.size(), sign + "1e" + filling + "308");
+        finite.replace(token->begin, word.size(), fmt::format("{}1e{}308", sign, filling));
     }
     return finite;
 }

@@ -33,13 +33,13 @@ SHARED LineSpring line_spring(vec3 edge, float rest_length) {
 }
 
 /// Whether a spring takes part in its line's system: it exists and has a direction.
-SHARED bool pulls(LineSpring spring, float stiffness) {
-    return stiffness > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
+SHARED bool pulls(LineSpring spring, float share) {
+    return share > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
 }
 
 /// |C| (m), what the solve is asked to take back; `largest` or more.
-SHARED float larger_excess(float largest, LineSpring spring, float stiffness) {
-    if (!pulls(spring, stiffness)) return largest;
+SHARED float larger_excess(float largest, LineSpring spring, float share) {
+    if (!pulls(spring, share)) return largest;
     float excess = abs(spring.excess);
     return excess > largest ? excess : largest;
 }
@@ -53,17 +53,16 @@ SHARED float line_violation(float largest_excess, float rest_length) {
 /// Forward elimination of row e of the system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
 ///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1),
-/// every row times s = `stiffness` (share in [0, 1]; 0 = no spring: x_e = 0). `previous` and the result are (c', d') of
+/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0). `previous` and the result are (c', d') of
 /// x_e = d' - c' x_(e+1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`:
 /// T = -alpha lambda/s as in project_spring, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
-                             float weight_first, float weight_second, float stiffness, float compliance,
-                             float tension) {
-    if (!pulls(spring, stiffness)) return vec2(0.0f, 0.0f);
-    precise float before = -(stiffness * weight_first) * ordered_dot(normal_before, spring.normal);
-    precise float after = -(stiffness * weight_second) * ordered_dot(spring.normal, normal_after);
-    precise float diagonal = stiffness * (weight_first + weight_second) + compliance;
-    precise float right = -(stiffness * (spring.excess - tension));
+                             float weight_first, float weight_second, float share, float compliance, float tension) {
+    if (!pulls(spring, share)) return vec2(0.0f, 0.0f);
+    precise float before = -(share * weight_first) * ordered_dot(normal_before, spring.normal);
+    precise float after = -(share * weight_second) * ordered_dot(spring.normal, normal_after);
+    precise float diagonal = share * (weight_first + weight_second) + compliance;
+    precise float right = -(share * (spring.excess - tension));
     precise float pivot = diagonal - before * previous.x;
     precise float upper = after / pivot;
     precise float reduced = (right - before * previous.y) / pivot;
@@ -83,9 +82,9 @@ SHARED vec3 line_correction(vec3 normal_before, float change_before, vec3 normal
 }
 
 /// Tension (m) of a spring whose multiplier changed.
-SHARED float changed_tension(float tension, float change, float stiffness, float compliance) {
-    if (!(stiffness > 0.0f)) return tension;
-    precise float updated = tension - (compliance / stiffness) * change;
+SHARED float changed_tension(float tension, float change, float share, float compliance) {
+    if (!(share > 0.0f)) return tension;
+    precise float updated = tension - (compliance / share) * change;
     return updated;
 }
 

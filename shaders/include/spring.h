@@ -16,7 +16,7 @@ SHARED ivec2 spring_owner(ivec2 pair, ivec2 offset, int parity_axis, int parity)
 
 /// Share of a spring's stiffness that the cells beside it give: springs lying along a border have one cell
 /// instead of two; a diagonal belongs to one cell alone and always has all of it.
-SHARED float border_stiffness(ivec2 owner, ivec2 offset, ivec2 grid) {
+SHARED float border_share(ivec2 owner, ivec2 offset, ivec2 grid) {
     if (offset.y == 0 && (owner.y == 0 || owner.y == grid.y - 1)) return 0.5f;
     if (offset.x == 0 && (owner.x == 0 || owner.x == grid.x - 1)) return 0.5f;
     return 1.0f;
@@ -40,20 +40,20 @@ struct SpringResult {
     float tension;    // m: extension that would balance the tension applied so far
 };
 
-/// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `stiffness`
+/// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `share`
 /// in [0, 1] scales the spring's stiffness, 0 = no spring; `compliance` = m_inner / (k h^2), 0 = rigid.
 /// `tension`: the XPBD multiplier lambda as the extension that would balance it, T = -a lambda/s, m. In place of lambda
 /// it means the same to every solver: C - T is what a perfect solve makes zero. delta lambda = -s (C - T) /
 /// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by
 /// zero. A rigid spring between two fixed particles, and one of zero length (no direction), are left alone.
-SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float stiffness, float compliance,
+SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float share, float compliance,
                                    float tension) {
     precise float length_squared = ordered_dot(edge, edge);
-    precise float denominator = stiffness * weight_sum + compliance;
+    precise float denominator = share * weight_sum + compliance;
     if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
     precise float current = sqrt(length_squared);
     precise float residual = (current - rest_length) - tension;
-    precise float change = -(stiffness * residual) / denominator;
+    precise float change = -(share * residual) / denominator;
     precise vec3 correction = edge * (change / current);
     precise float updated = tension + compliance * (residual / denominator);
     return SpringResult(correction, updated);

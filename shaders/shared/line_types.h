@@ -18,7 +18,7 @@ struct LinePush {
     int line_count;
     int particle_count;     // of each line, >= 2
     int seam;               // column whose particles own no spring of this direction, -1 = none
-    int channel;            // of the stiffness image
+    int channel;            // of the spring shares
     float rest_length;      // m
     float compliance;       // m_inner / (k h^2), dimensionless, > 0
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)

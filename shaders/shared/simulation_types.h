@@ -21,7 +21,7 @@ struct SpringPush {
     int parity;           // 0 even, 1 odd
     float rest_length;    // m
     float compliance;     // m_inner / (k h^2), dimensionless; 0 = rigid
-    int channel;          // of the stiffness image: row, column, shear down-right, shear down-left
+    int channel;          // of the spring shares: row, column, shear down-right, shear down-left
     int first_iteration;  // 1: the tension starts at zero (it is written, not read)
 };
 
@@ -35,14 +35,14 @@ struct ForcePush {
 /// Vectors over the spring directions: row, column, shear down-right, shear down-left.
 struct ExplicitPush {
     ivec2 grid;
-    float damping_loss;    // q = 1 - exp(-c h)
-    float force_step;      // phi h^2 / m_inner: displacement per newton on an inner particle
-    vec4 gravity_step;     // xyz: phi h^2 g, metres; w unused
-    vec4 rest_length;      // m
-    vec4 stiffness;        // phi k h^2 / m_inner, dimensionless, softened where the step would not be stable
-    vec2 bend;             // phi b h^2 / m_inner: elements along columns (a row's), along rows
-    float strain_damping;  // kappa: strain-rate damping is kappa k h
-    float twist;           // phi t h^2 / m_inner
+    float damping_loss;       // q = 1 - exp(-c h)
+    float force_step;         // phi h^2 / m_inner: displacement per newton on an inner particle
+    vec4 gravity_step;        // xyz: phi h^2 g, metres; w unused
+    vec4 rest_length;         // m
+    vec4 relative_stiffness;  // phi k h^2 / m_inner, dimensionless, softened where the step would not be stable
+    vec2 bend;                // phi b h^2 / m_inner: elements along columns (a row's), along rows
+    float strain_damping;     // kappa: strain-rate damping is kappa k h
+    float twist;              // phi t h^2 / m_inner
 };
 
 /// One colour of the bending elements of one axis (engine/cloth/directions.h).
@@ -51,7 +51,7 @@ struct BendPush {
     ivec2 element_count;  // elements of this pass along columns, rows
     ivec2 axis;           // (1, 0): three particles of a row, (0, 1): of a column
     int colour;           // 0, 1, 2
-    int channel;          // of the stiffness image: 0 row, 1 column
+    int channel;          // of the spring shares: 0 row, 1 column
     float compliance;     // m_inner / (b h^2), dimensionless, > 0
 };
 
@@ -75,6 +75,7 @@ struct CollisionPush {
                    // coefficient; z: depth, m, under which a contact asks for no further round; w unused
     ivec2 grid;    // columns, rows
     int first;     // first collider of this substep
+    int unused;
 };
 
 struct PinPush {

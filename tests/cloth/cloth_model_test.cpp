@@ -56,7 +56,7 @@ TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
     EXPECT_EQ(model.cloths[0].plan.iterated.size(), 3u);  // row even, column even, column odd
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring row odd"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring shear down-right even"));
-    EXPECT_TRUE(skips(model.skipped(), "sheet/stiffness"));
+    EXPECT_TRUE(skips(model.skipped(), "sheet/spring shares"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/tension between iterations"));
     EXPECT_TRUE(skips(model.skipped(), "wind"));
     EXPECT_TRUE(skips(model.skipped(), "collision"));

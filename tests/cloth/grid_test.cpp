@@ -37,10 +37,10 @@ TEST(GridTest, SpringsAlongABorderHaveHalfTheStiffnessAndDiagonalsNever) {
             const glsl::ivec2 at{static_cast<int>(column), static_cast<int>(row)};
             // The mask of a whole grid says the same as the shader's rule without a mask.
             if (column < 4) {
-                EXPECT_EQ(share.x, glsl::border_stiffness(at, {1, 0}, {5, 4}));
+                EXPECT_EQ(share.x, glsl::border_share(at, {1, 0}, {5, 4}));
             }
             if (row < 3) {
-                EXPECT_EQ(share.y, glsl::border_stiffness(at, {0, 1}, {5, 4}));
+                EXPECT_EQ(share.y, glsl::border_share(at, {0, 1}, {5, 4}));
             }
             if (column < 4 && row < 3) {
                 EXPECT_EQ(share.z, 1.0f);

@@ -214,7 +214,7 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
     for (const std::string& name : timed) EXPECT_EQ(name.find("cut"), std::string::npos) << name;
     for (const graph::PlannedPass& pass : idle_loop.plan(FrameKind::simulate_and_output).passes)
         EXPECT_NE(idle_loop.graph(FrameKind::simulate_and_output).passes()[pass.pass].stage, "cut");
-    EXPECT_FALSE(idle_loop.pool().has("sheet/stiffness")) << "stiffness images come with the first cut";
+    EXPECT_FALSE(idle_loop.pool().has("sheet/spring shares")) << "the image comes with the first cut";
     EXPECT_FALSE(plain_loop.pool().has("cutters"));
 }
 

@@ -81,8 +81,8 @@ TEST(TwinExplicitTest, ExactSkipsChangeNoBit) {
     const SceneDescription scene = everything_explicit();
     const SimulationModel lean(scene), full(scene, {.skip = false});
     DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
-    EXPECT_FALSE(skipping.pool().has("sheet/stiffness"));
-    EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
+    EXPECT_FALSE(skipping.pool().has("sheet/spring shares"));
+    EXPECT_TRUE(keeping.pool().has("sheet/spring shares"));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         skipping.run_frame(frame);
         keeping.run_frame(frame);
