@@ -1,5 +1,6 @@
 // The spring directions as a table, and the parity passes that relax them (docs/physics.md 2: constraints are
-// coloured, not particles); the same for bending elements and twisting cells. A new direction is one row here.
+// coloured, not particles); the same for bending elements and twisting cells. What else a new direction meets:
+// engine/README.md, "How to add".
 #pragma once
 
 #include <array>

@@ -41,7 +41,7 @@ struct ClothState {
     std::uint32_t index_count = 0;  ///< of the triangles
     /// What Field::iteration_sizes will hold, gathered while the passes are added.
     std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
-    /// Whether stiffness and cells are images.
+    /// Whether spring shares and cells are images.
     bool masked() const { return topology->masked(); }
     /// What a micro-step wrote becomes the state.
     void turn();
