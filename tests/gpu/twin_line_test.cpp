@@ -145,7 +145,7 @@ TEST(TwinLineTest, ExactSkipsChangeNoBit) {
     DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
     EXPECT_FALSE(skipping.pool().has("sheet/tension row"));
     EXPECT_TRUE(keeping.pool().has("sheet/tension row"));
-    EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
+    EXPECT_TRUE(keeping.pool().has("sheet/spring shares"));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         skipping.run_frame(frame);
         keeping.run_frame(frame);

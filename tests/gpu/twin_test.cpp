@@ -67,8 +67,8 @@ TEST(SkipTest, ExactSkipsChangeNoBit) {
     SceneDescription scene = everything();
     const SimulationModel lean(scene), full(scene, {.skip = false});
     DeviceRun skipping(test::gpu().device, lean), keeping(test::gpu().device, full);
-    EXPECT_FALSE(skipping.pool().has("sheet/stiffness"));
-    EXPECT_TRUE(keeping.pool().has("sheet/stiffness"));
+    EXPECT_FALSE(skipping.pool().has("sheet/spring shares"));
+    EXPECT_TRUE(keeping.pool().has("sheet/spring shares"));
     EXPECT_FALSE(skipping.pool().has("sheet/tension row"));
     EXPECT_TRUE(keeping.pool().has("sheet/tension row"));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
@@ -83,7 +83,7 @@ TEST(SkipTest, WhatASceneDoesNotNeedDoesNotExist) {
     SceneDescription scene = test::sheet(16, 16, 1, 1, 4);
     const SimulationModel model(scene);
     const DeviceRun run(test::gpu().device, model);
-    for (const char* name : {"wind", "sheet/wind force", "sheet/stiffness", "sheet/cells", "sheet/tension row",
+    for (const char* name : {"wind", "sheet/wind force", "sheet/spring shares", "sheet/cells", "sheet/tension row",
                              "sheet/pinned particles", "sheet/pin motions", "colliders/spheres", "sheet/triangles"})
         EXPECT_FALSE(run.pool().has(name)) << name;
     EXPECT_TRUE(run.pool().has("sheet/position"));
