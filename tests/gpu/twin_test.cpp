@@ -84,7 +84,7 @@ TEST(SkipTest, WhatASceneDoesNotNeedDoesNotExist) {
     const SimulationModel model(scene);
     const DeviceRun run(test::gpu().device, model);
     for (const char* name : {"wind", "sheet/wind force", "sheet/spring shares", "sheet/cells", "sheet/tension row",
-                             "sheet/pinned particles", "sheet/pin motions", "colliders/spheres", "sheet/triangles"})
+                             "sheet/pinned particles", "sheet/pin motions", "colliders", "sheet/triangles"})
         EXPECT_FALSE(run.pool().has(name)) << name;
     EXPECT_TRUE(run.pool().has("sheet/position"));
     // force (two variants), springs (one), advance, normals
