@@ -27,7 +27,7 @@ TEST(ProblemsTest, EveryCaseHasANameOfItsOwnAndAModel) {
                 for (const Setting& setting : sweep.settings) {
                     const std::string name = case_name(problem, sweep.size, setting);
                     EXPECT_TRUE(names.insert(name).second) << name;
-                    EXPECT_GT(case_work(problem, sweep.size, setting), 0) << name;
+                    EXPECT_GT(case_work({}, problem, sweep.size, setting), 0) << name;
                 }
                 SceneDescription scene = problem.scene(sweep.size, sweep.settings[0]);
                 EXPECT_GT(scene.time.frame_count, 1u) << problem.name;

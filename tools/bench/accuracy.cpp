@@ -89,7 +89,7 @@ class AccuracyRun {
               [this](double fraction) { show_reference(fraction); }) {
         for (const PlannedSweep& p : plan_)
             for (const Setting& setting : p.sweep.settings) {
-                forecast_.left(case_work(*p.problem, p.sweep.size, setting));
+                forecast_.left(case_work(device_.info(), *p.problem, p.sweep.size, setting));
                 ++case_count_;
             }
     }
@@ -106,7 +106,7 @@ class AccuracyRun {
     void run_sweep(const PlannedSweep& p, AccuracySummary& summary) {
         bool at_floor = false;
         for (const Setting& setting : p.sweep.settings) {
-            const double work = case_work(*p.problem, p.sweep.size, setting);
+            const double work = case_work(device_.info(), *p.problem, p.sweep.size, setting);
             forecast_.left_out(work);
             ++case_number_;
             if (at_floor) continue;

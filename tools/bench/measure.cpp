@@ -187,10 +187,10 @@ std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint
     return run_key(parts);
 }
 
-double case_work(const Problem& problem, std::uint32_t size, const Setting& setting) {
+double case_work(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting) {
     const SceneDescription scene = scene_of(problem, size, setting);
     const std::array<std::uint32_t, 2> grid = scene.cloths[0].grid;
-    const SolverSettings solver = choose_solver(scene, DeviceKind::cpu).settings;
+    const SolverSettings solver = choose_solver(scene, device_kind(device)).settings;
     const Method& method = row_of(solver.method);
     // With a tolerance few of the iterations are run.
     const double iterations = solver.tolerance > 0 ? std::min(solver.iterations, 2u) : solver.iterations;

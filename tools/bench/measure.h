@@ -20,7 +20,7 @@ std::string case_name(const Problem& problem, std::uint32_t size, const Setting&
 std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting);
 
 /// Passes per frame x particles x frames: what a case's run time goes by, with a share per dispatch.
-double case_work(const Problem& problem, std::uint32_t size, const Setting& setting);
+double case_work(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting);
 
 /// Throws DeviceError, Stopped, and what the references throw. `stop` is asked before every frame.
 CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
