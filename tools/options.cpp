@@ -20,16 +20,6 @@ std::optional<std::uint32_t> parse_whole(std::string_view text, std::uint32_t le
     return value;
 }
 
-/// Takes a whole number or says what was expected.
-SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
-    return [=](const std::string& text) {
-        const auto value = parse_whole(text, least, UINT32_MAX);
-        if (!value) return fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text);
-        set(*value);
-        return std::string();
-    };
-}
-
 std::string set_size(const std::string& text, SceneRequest& scene) {
     const std::size_t cross = text.find('x');
     if (cross != std::string::npos) {
@@ -84,6 +74,15 @@ void add_export_option(CLI::App& command, RunRequest& request) {
 
 }  // namespace
 
+SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
+    return [=](const std::string& text) {
+        const auto value = parse_whole(text, least, UINT32_MAX);
+        if (!value) return fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text);
+        set(*value);
+        return std::string();
+    };
+}
+
 void add_flag(CLI::App& command, const std::string& names, const std::string& help, bool& value) {
     command.add_flag(names, value, help);
 }
@@ -103,6 +102,10 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
 
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
     command.add_option("SCENE", paths, "Scene files")->required()->type_name("");
+}
+
+void add_optional_scene(CLI::App& command, std::string& path, const std::string& help) {
+    command.add_option("SCENE", path, help)->type_name("");
 }
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {

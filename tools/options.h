@@ -3,6 +3,7 @@
 // compile.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,8 +27,13 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
 void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
                 std::string& value);
 
+/// Takes a whole number, at least `least`, or says what was expected.
+SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set);
+
 /// SCENE..., at least one
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
+/// SCENE, or none; `help` says what happens then
+void add_optional_scene(CLI::App& command, std::string& path, const std::string& help);
 /// --set
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
 /// --device

@@ -1,8 +1,7 @@
 // Who is soonest at equal error, and which limits hold.
-#include "bench/claims.h"
-
 #include <gtest/gtest.h>
 
+#include "bench/report.h"
 #include "results.h"
 
 namespace drape::bench {
@@ -24,7 +23,7 @@ TEST(ClaimsTest, TheSoonestIsAMeasuredSettingAndNeverBetweenTwo) {
                                              swing_result(SolverMethod::relax, 1, 30, 0.2, 0.2, 40),
                                              swing_result(SolverMethod::explicit_steps, 16, 0.5, 5e-4, 0.5),
                                              swing_result(SolverMethod::explicit_steps, 32, 1, 1e-4, 1e-2)};
-    const std::vector<Soonest> soonest = find_soonest(results);
+    const std::vector<Soonest> soonest = find_soonest(results, Report().targets);
     EXPECT_EQ(soonest.size(), 6u);
     EXPECT_EQ(found(soonest, "relax", "stretch_error").name, "swing/64/relax/40");
     EXPECT_EQ(found(soonest, "relax", "position_rms").name, "swing/64/relax/80");
@@ -68,7 +67,7 @@ TEST(ClaimsTest, ADivergedCaseMeetsNothing) {
     CaseResult result = swing_result(SolverMethod::relax, 20, 2, 0, 0);
     result.diverged = true;
     result.metrics.clear();
-    EXPECT_TRUE(find_soonest(std::vector{result}).empty());
+    EXPECT_TRUE(find_soonest(std::vector{result}, Report().targets).empty());
     EXPECT_TRUE(check_limits(std::vector{result}).empty());
 }
 

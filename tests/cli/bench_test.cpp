@@ -7,6 +7,7 @@
 
 #include "output/temporary_folder.h"
 #include "program.h"
+#include "scenes.h"
 
 namespace drape {
 namespace {
@@ -78,6 +79,50 @@ TEST(BenchAccuracy, ALimitThatIsNotMetIsExitCode7AndEverythingIsWrittenAllTheSam
     EXPECT_THAT(outcome.out, HasSubstr("NOT MET"));
     EXPECT_THAT(outcome.err, HasSubstr("1 of the benchmark's limits, orders and promises not met"));
     EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("0.5"));
+}
+
+TEST(BenchAccuracy, AUsersSceneIsMeasuredAgainstItsOwnRefinedRuns) {
+    const SceneFolder folder(small_scene(7));
+    const std::vector<std::string> arguments = {
+        "bench",    "accuracy", folder.scene(), "--short",      "--validate", "--error",    "1e-1,1e-9",
+        "--frames", "5",        "--filter",     "auto|line/8$", "--folder",   folder.out(), "--reference-substeps",
+        "64"};
+    const Outcome first = drape(arguments);
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_THAT(first.out,
+                AllOf(HasSubstr("scene/7/line/8"), HasSubstr("scene/7/auto/chosen"), HasSubstr("Reference: "),
+                      HasSubstr("Richardson"), HasSubstr("Cheapest measured setting"),
+                      HasSubstr("cannot be told: the reference's own error is")));
+    EXPECT_THAT(first.err, AllOf(HasSubstr("reference: line at "), HasSubstr("2 cases measured, 0 kept")));
+    EXPECT_THAT(names_in(folder.out()), testing::IsSupersetOf({"accuracy.csv", "accuracy.json", "results.jsonl"}));
+    EXPECT_THAT(read_text(folder.out() + "/accuracy.csv"),
+                AllOf(HasSubstr(",position_rms,"), HasSubstr(",worst_spring")));
+    EXPECT_THAT(read_text(folder.out() + "/accuracy.json"), HasSubstr("\"compared_with\""));
+    const Outcome second = drape(arguments);
+    EXPECT_EQ(second.code, 0) << second.err;
+    EXPECT_THAT(second.err, AllOf(HasSubstr("0 cases measured, 2 kept"), Not(HasSubstr("reference: line at "))));
+    EXPECT_EQ(second.out.substr(second.out.find('\n')), first.out.substr(first.out.find('\n')));
+}
+
+TEST(BenchAccuracy, RefusesAUsersSceneThatCannotBeMeasured) {
+    const SceneFolder folder(small_scene(7)), still(small_scene(1)), wrong("{\"cloths\": 3}");
+    const auto refused = [&](std::vector<std::string> options, int code, const char* message) {
+        options.insert(options.begin(), {"bench", "accuracy", "--folder", folder.out()});
+        const Outcome outcome = drape(options);
+        EXPECT_EQ(outcome.code, code) << message;
+        EXPECT_THAT(outcome.out, IsEmpty()) << message;
+        EXPECT_THAT(outcome.err, HasSubstr(message));
+        EXPECT_FALSE(std::filesystem::exists(folder.out())) << message;
+    };
+    refused({folder.scene(), "--frames", "0"}, 2, "--frames: expected a whole number from 1");
+    refused({folder.scene(), "--error", "0"}, 2, "--error: expected metres above 0, separated by commas, got '0'");
+    refused({folder.scene(), "--error", "1e-3,"}, 2, "--error");
+    refused({folder.scene(), "--reference-substeps", "8"}, 2, "--reference-substeps: expected a whole number from 16");
+    refused({folder.scene(), "--filter", "no such case"}, 2, "matches no case");
+    refused({still.scene()}, 2, "has no frame after the first");
+    refused({folder.scene() + "x"}, 1, "scene.jsonx");
+    refused({wrong.scene()}, 3, "/cloths");
+    refused({folder.scene(), "--device", "no such device"}, 4, "no such device");
 }
 
 TEST(BenchAccuracy, RefusesWhatItCannotDo) {

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
 #include <regex>
 
 #include "bench/measure.h"
 #include "bench/report.h"
+#include "bench/scene_problem.h"
 #include "bench/store.h"
 #include "drape.h"
 #include "output/atomic_file.h"
@@ -97,10 +101,28 @@ class AccuracyRun {
     /// Throws Stopped.
     void run(AccuracySummary& summary) {
         for (const PlannedSweep& p : plan_) run_sweep(p, summary);
+        for (const PlannedSweep& p : plan_)
+            if (p.problem->about && !results_.empty()) notes_.emplace(p.problem->name, p.problem->about(references_));
         summary.computed_reference_count = references_.computed_count();
     }
 
     const std::vector<CaseResult>& results() const { return results_; }
+    const std::map<std::string, std::string>& notes() const { return notes_; }
+
+    void begin_reference(const std::string& what) {
+        say(what);
+        reference_start_ = last_line_ = now();
+        reference_before_ = reference_seconds_;
+    }
+
+    void show_reference(double fraction) {
+        if (stopped()) throw Stopped{};
+        const double time = now(), spent = time - reference_start_;
+        reference_seconds_ = reference_before_ + spent;
+        if (time - last_line_ < 10 || fraction <= 0) return;
+        last_line_ = time;
+        say(fmt::format("  reference {:.0f} %, {} left", 100 * fraction, duration(spent / fraction - spent)));
+    }
 
   private:
     void run_sweep(const PlannedSweep& p, AccuracySummary& summary) {
@@ -157,21 +179,6 @@ class AccuracyRun {
         if (!request_.quiet && request_.message) request_.message(text);
     }
 
-    void begin_reference(const std::string& what) {
-        say(what);
-        reference_start_ = last_line_ = now();
-        reference_before_ = reference_seconds_;
-    }
-
-    void show_reference(double fraction) {
-        if (stopped()) throw Stopped{};
-        const double time = now(), spent = time - reference_start_;
-        reference_seconds_ = reference_before_ + spent;
-        if (time - last_line_ < 10 || fraction <= 0) return;
-        last_line_ = time;
-        say(fmt::format("  reference {:.0f} %, {} left", 100 * fraction, duration(spent / fraction - spent)));
-    }
-
     const AccuracyRequest& request_;
     Device device_;
     std::vector<PlannedSweep> plan_;
@@ -179,11 +186,18 @@ class AccuracyRun {
     References references_;
     Forecast forecast_;
     std::vector<CaseResult> results_;
+    std::map<std::string, std::string> notes_;
     std::size_t case_number_ = 0, case_count_ = 0;
     double start_ = now(), reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0, last_line_ = 0;
 };
 
-void write_files(const AccuracyRequest& request, const Report& report, const std::vector<Problem>& problems) {
+void write_files(AccuracyRequest request, const Report& report, const std::vector<Problem>& problems) {
+    if (!request.scene.empty()) {
+        const fs::path folder = request.folder;
+        if (request.json.empty()) request.json = folder / "accuracy.json";
+        if (request.csv.empty()) request.csv = folder / "accuracy.csv";
+        if (request.svg.empty()) request.svg = folder;
+    }
     if (!request.json.empty()) write_file(request.json, report_json(report));
     if (!request.csv.empty()) write_file(request.csv, report_csv(report));
     if (request.svg.empty()) return;
@@ -192,15 +206,38 @@ void write_files(const AccuracyRequest& request, const Report& report, const std
         write_file(fs::path(request.svg) / name, svg_text(plot));
 }
 
+/// The benchmark's, or the user's scene, whose reference tells `run` what it does once there is one.
+std::vector<Problem> problems_of(const AccuracyRequest& request, const std::optional<UserScene>& user,
+                                 const Device& device, const std::shared_ptr<AccuracyRun*>& run) {
+    if (!user) return all_problems(request.is_short);
+    RefinementOptions options;
+    if (!request.errors.empty()) options.wanted_error = std::ranges::min(request.errors) / 4;
+    options.most_substeps = request.reference_substeps;
+    options.say = [run](const std::string& text) { (*run)->begin_reference(text); };
+    options.progress = [run](double fraction) { (*run)->show_reference(fraction); };
+    return {user_problem(*user, device, options, request.is_short)};
+}
+
+std::vector<Target> targets_of(const AccuracyRequest& request) {
+    std::vector<Target> targets{{"stretch_error", 0.01}};
+    for (const double error : request.errors) targets.push_back({"position_rms", error});
+    return targets;
+}
+
 }  // namespace
 
 AccuracySummary run_accuracy(const AccuracyRequest& request) {
-    const std::vector<Problem> problems = all_problems(request.is_short);
+    std::optional<UserScene> user;
+    if (!request.scene.empty()) user = read_user_scene(request.scene, request.overrides, request.frames);
+    if (!user) planned(all_problems(request.is_short), request.filter);  // a wrong filter needs no device
+    const Device device(request.device, request.validate ? Validation::print : Validation::off);
+    const auto current = std::make_shared<AccuracyRun*>();
+    const std::vector<Problem> problems = problems_of(request, user, device, current);
     std::vector<PlannedSweep> plan = planned(problems, request.filter);
     make_folder(request.folder);
-    const Device device(request.device, request.validate ? Validation::print : Validation::off);
     AccuracySummary summary;
     AccuracyRun run(request, device, std::move(plan));
+    *current = &run;
     try {
         run.run(summary);
     } catch (const Stopped&) {
@@ -208,17 +245,16 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
         return summary;
     }
     const DeviceInfo& info = device.info();
-    Report report{program_version(),
-                  utc_timestamp(),
-                  info.name,
-                  info.driver + " " + info.driver_version,
-                  request.is_short,
-                  summary.left_out_count == 0,
-                  run.results(),
-                  {},
-                  {},
-                  {},
-                  {}};
+    Report report;
+    report.program_version = program_version();
+    report.created = utc_timestamp();
+    report.device = info.name;
+    report.driver = info.driver + " " + info.driver_version;
+    report.is_short = request.is_short;
+    report.complete = summary.left_out_count == 0;
+    report.results = run.results();
+    report.notes = run.notes();
+    if (user) report.targets = targets_of(request);
     evaluate(report);
     write_files(request, report, problems);
     summary.text = report_text(report, problems);

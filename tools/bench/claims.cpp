@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "cloth/solver_choice.h"
+
 namespace drape::bench {
 
 namespace {
@@ -64,13 +66,6 @@ void add_check(const CaseResult& result, const char* metric, double limit, std::
         checks.push_back({result.name, metric, limit, found->second});
 }
 
-struct Target {
-    const char* metric;
-    double limit;
-};
-
-constexpr Target targets[] = {{"stretch_error", 0.01}, {"position_rms", 1e-3}};
-
 using Group = std::map<std::string, std::vector<const CaseResult*>>;  ///< results by family
 
 Soonest soonest_of(const std::vector<const CaseResult*>& results, const Target& target) {
@@ -124,13 +119,18 @@ std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
 std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
     std::vector<AutoRatio> ratios;
     for (const CaseResult& chosen : results) {
-        if (chosen.method != SolverMethod::automatic || chosen.diverged) continue;
-        AutoRatio ratio{
-            chosen.problem, chosen.size, chosen.metrics.at("worst_stretch_error"), case_milliseconds(chosen), {},
-            INFINITY};
+        if (chosen.method != SolverMethod::automatic) continue;
+        const auto asked = chosen.metrics.find("tolerance");
+        AutoRatio ratio{chosen.problem,
+                        chosen.size,
+                        asked == chosen.metrics.end() ? default_tolerance : asked->second,
+                        chosen.diverged ? INFINITY : chosen.metrics.at("worst_stretch_error"),
+                        case_milliseconds(chosen),
+                        {},
+                        INFINITY};
         for (const CaseResult& other : results) {
             if (other.problem != chosen.problem || other.size != chosen.size || other.method == chosen.method) continue;
-            if (other.diverged || other.metrics.at("worst_stretch_error") > AutoRatio::auto_tolerance) continue;
+            if (other.diverged || other.metrics.at("worst_stretch_error") > ratio.tolerance) continue;
             if (case_milliseconds(other) >= ratio.best_milliseconds) continue;
             ratio.best = other.name;
             ratio.best_milliseconds = case_milliseconds(other);
@@ -140,7 +140,7 @@ std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
     return ratios;
 }
 
-std::vector<Soonest> find_soonest(std::span<const CaseResult> results) {
+std::vector<Soonest> find_soonest(std::span<const CaseResult> results, std::span<const Target> targets) {
     std::map<std::tuple<std::string, std::uint32_t>, Group> groups;
     for (const CaseResult& result : results)
         if (!result.diverged && result.metrics.contains("stretch_error"))

@@ -39,21 +39,26 @@ struct Soonest {
     double time_ratio = 0, passes_ratio = 0;
 };
 
-/// Of every family of the timed sheets, for 1 % stretch error and 1e-3 m position error. "relax" is the
-/// best-tuned substepped relaxation; the slides' form is a family of its own.
-std::vector<Soonest> find_soonest(std::span<const CaseResult> results);
+struct Target {
+    std::string metric;
+    double limit;
+};
+
+/// Of every family of every timed problem, for each target. "relax" is the best-tuned substepped relaxation; the
+/// slides' form is a family of its own.
+std::vector<Soonest> find_soonest(std::span<const CaseResult> results, std::span<const Target> targets);
 
 /// What `auto` took, over the soonest measured setting of any method that keeps its tolerance.
 struct AutoRatio {
     std::string problem;
     std::uint32_t size = 0;
+    double tolerance = 0;     ///< that auto is to keep: the scene's, or 1 %
     double worst_error = 0;   ///< of auto
     double milliseconds = 0;  ///< of auto, per frame
     std::string best;         ///< the soonest's case; empty: no other setting keeps the tolerance
     double best_milliseconds = 0;
-    bool met() const { return worst_error <= auto_tolerance; }
+    bool met() const { return worst_error <= tolerance; }
     double ratio() const { return best.empty() ? 0 : milliseconds / best_milliseconds; }
-    static constexpr double auto_tolerance = 0.01;
 };
 
 /// Of every scene that auto was measured on.

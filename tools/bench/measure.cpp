@@ -38,6 +38,15 @@ SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Sett
     return scene;
 }
 
+StrainStatistics joined_strains(const StrainStatistics& a, const StrainStatistics& b) {
+    if (a.spring_count == 0) return b;
+    if (b.spring_count == 0) return a;
+    const double first = a.spring_count, second = b.spring_count;
+    return {a.spring_count + b.spring_count,
+            std::sqrt((first * a.rms * a.rms + second * b.rms * b.rms) / (first + second)),
+            std::max(a.largest, b.largest), std::min(a.smallest, b.smallest)};
+}
+
 /// Steps that read and write every particle; the others touch a few, or only look.
 double passes_of(const SimulationModel& model) {
     double passes = 0;
@@ -84,18 +93,16 @@ RecordedRun record(const Device& device, const Problem& problem, const SceneDesc
     const std::uint32_t last = scene.time.frame_count - 1;
     const auto wanted = [&](std::uint32_t frame) { return frame == last || frame % problem.record_every == 0; };
     const auto start = Clock::now();
-    const bool complete = simulation.run(
-        last, wanted,
-        [&](const FinishedFrame& frame) {
-            run.diverged = run.diverged || frame.statistics[0].non_finite_count > 0;
-            Sample sample{frame.frame, {}, frame.statistics[0]};
-            for (std::size_t i = 0; i + 3 < frame.positions[0].size(); i += 4)
-                sample.position.push_back(
-                    {frame.positions[0][i], frame.positions[0][i + 1], frame.positions[0][i + 2]});
-            run.samples.push_back(std::move(sample));
-            if (frame.frame > warm_up_frames) run.device_ms.push_back(simulate_ms(frame.timings));
-        },
-        [&] { return run.diverged || stop(); });
+    const auto finished = [&](const FinishedFrame& frame) {
+        Sample sample{frame.frame, {}, joined(frame.statistics)};
+        run.diverged = run.diverged || sample.statistics.non_finite_count > 0;
+        for (const std::span<const float> cloth : frame.positions)
+            for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
+                sample.position.push_back({cloth[i], cloth[i + 1], cloth[i + 2]});
+        run.samples.push_back(std::move(sample));
+        if (frame.frame > warm_up_frames) run.device_ms.push_back(simulate_ms(frame.timings));
+    };
+    const bool complete = simulation.run(last, wanted, finished, [&] { return run.diverged || stop(); });
     if (!complete && !run.diverged) throw Stopped{};
     run.wall_ms = 1000 * seconds_since(start) / std::max(last, 1u);
     return run;
@@ -170,26 +177,57 @@ SimulationModel model_of(const DeviceInfo& device, const Problem& problem, std::
 
 }  // namespace
 
+std::string shaders_hash() {
+    std::vector<std::string> parts;
+    for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    return run_key(parts);
+}
+
+ClothStatistics joined(std::span<const ClothStatistics> cloths) {
+    ClothStatistics all = cloths[0];
+    for (const ClothStatistics& cloth : cloths.subspan(1)) {
+        const double mass = all.mass + cloth.mass;
+        for (std::size_t k = 0; k < 3; ++k)
+            all.center_of_mass[k] =
+                (all.mass * all.center_of_mass[k] + cloth.mass * cloth.center_of_mass[k]) / std::max(mass, 1e-300);
+        all.mass = mass;
+        all.stretch = joined_strains(all.stretch, cloth.stretch);
+        all.shear = joined_strains(all.shear, cloth.shear);
+        all.stretch_error_rms = std::max(all.stretch_error_rms, cloth.stretch_error_rms);
+        all.stretch_error_max = std::max(all.stretch_error_max, cloth.stretch_error_max);
+        all.kinetic_energy += cloth.kinetic_energy;
+        all.potential_energy += cloth.potential_energy;
+        all.elastic_energy += cloth.elastic_energy;
+        all.largest_distance = std::max(all.largest_distance, cloth.largest_distance);
+        all.largest_speed = std::max(all.largest_speed, cloth.largest_speed);
+        all.non_finite_count += cloth.non_finite_count;
+        if (cloth.penetration) all.penetration = std::max(all.penetration.value_or(0), *cloth.penetration);
+        if (cloth.iteration_count) all.iteration_count = all.iteration_count.value_or(0) + *cloth.iteration_count;
+    }
+    return all;
+}
+
 std::string case_name(const Problem& problem, std::uint32_t size, const Setting& setting) {
     return fmt::format("{}/{}/{}/{}", problem.name, size, named(setting.method).name, setting_name(setting));
 }
 
 std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting) {
     const SimulationModel model = model_of(device, problem, size, setting);
-    std::vector<std::string> parts{program_version(),     fmt::format("{}", measuring_version),
-                                   device.uuid_text(),    device.driver,
-                                   device.driver_version, case_name(problem, size, setting)};
+    std::vector<std::string> parts{
+        program_version(),     fmt::format("{}", measuring_version), device.uuid_text(), device.driver,
+        device.driver_version, case_name(problem, size, setting),    problem.identity};
     const std::vector<std::string> given = hashes_of(model);
     parts.insert(parts.end(), given.begin(), given.end());
     parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count, model.scene.time.fps,
                                 problem.record_every));
-    for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    parts.push_back(shaders_hash());
     return run_key(parts);
 }
 
 double case_work(const DeviceInfo& device, const Problem& problem, std::uint32_t size, const Setting& setting) {
     const SceneDescription scene = scene_of(problem, size, setting);
-    const std::array<std::uint32_t, 2> grid = scene.cloths[0].grid;
+    double particle_count = 0;
+    for (const Cloth& cloth : scene.cloths) particle_count += double(cloth.grid[0]) * cloth.grid[1];
     const SolverSettings solver = choose_solver(scene, device_kind(device)).settings;
     const Method& method = row_of(solver.method);
     // With a tolerance few of the iterations are run.
@@ -197,7 +235,7 @@ double case_work(const DeviceInfo& device, const Problem& problem, std::uint32_t
     const double passes = solver.substeps * (method.passes_per_substep + method.passes_per_iteration * iterations);
     constexpr double dispatch_share = 5000;  // particles whose pass takes as long as an empty dispatch
     const double frames = scene.time.frame_count + (problem.timed ? repetition_count * 10.0 : 0);
-    return passes * frames * (double(grid[0]) * grid[1] + dispatch_share);
+    return passes * frames * (particle_count + dispatch_share * static_cast<double>(scene.cloths.size()));
 }
 
 CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
@@ -213,12 +251,12 @@ CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t 
     result.substeps = setting.substeps;
     result.iterations = setting.iterations;
     result.passes = passes_of(model);
-    const ClothModel& cloth = model.cloths[0];
     result.stiffness_share = 1;
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.plan.used_stiffness[axis]))
-            result.stiffness_share = std::min(result.stiffness_share,
-                                              cloth.plan.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
+    for (const ClothModel& cloth : model.cloths)
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.plan.used_stiffness[axis]))
+                result.stiffness_share = std::min(
+                    result.stiffness_share, cloth.plan.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
 
     const SceneDescription scene = scene_of(problem, size, setting);
     RecordedRun run = record(device, problem, scene, stop);

@@ -12,6 +12,9 @@ namespace drape::bench {
 /// Thrown when `stop` said so.
 struct Stopped {};
 
+/// Of all shader modules.
+std::string shaders_hash();
+
 /// "swing/64/relax/20"
 std::string case_name(const Problem& problem, std::uint32_t size, const Setting& setting);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,13 @@ namespace drape::bench {
 /// A frame of a run on the device.
 struct Sample {
     std::uint32_t frame;
-    std::vector<Vec3> position;  ///< m, per particle
-    ClothStatistics statistics;
+    std::vector<Vec3> position;  ///< m, per particle, the cloths one after the other
+    ClothStatistics statistics;  ///< of all cloths (`joined`)
 };
+
+/// One for all cloths: the stretch errors are the worst cloth's, as a tolerance bounds each; strains, energies and the
+/// centre of mass are those of all together.
+ClothStatistics joined(std::span<const ClothStatistics> cloths);
 
 struct Recording {
     const SceneDescription& scene;
@@ -40,9 +45,12 @@ struct Problem {
     bool timed = false;              ///< repetitions for the time; a plot of error against time
     double strain_damping = 0;       ///< explicit; it is for tangled cloth, and the references have none
     std::uint32_t record_every = 1;  ///< frames between samples; frame 0 and the last are always samples
+    std::string identity{};          ///< what else decides a result, beside what the device is given
+    bool of_user = false;            ///< a scene of the user's, measured against its own refined runs
     std::function<SceneDescription(std::uint32_t size, const Setting&)> scene{};
     std::function<Metrics(const Recording&, References&)> evaluate{};
     std::vector<Sweep> sweeps{};
+    std::function<std::string(References&)> about{};  ///< lines for the report: what it is compared with
 };
 
 /// The order in which `metric` falls as a problem is refined, fitted over the cases of one family.

@@ -17,7 +17,7 @@ const ReferenceRun& References::get(const std::string& key, const std::string& w
                                     const std::function<ReferenceRun()>& compute) {
     if (const auto known = runs_.find(key); known != runs_.end()) return known->second;
     CachedRun result = cache_.get(key, [&] {
-        say_(what);
+        if (!what.empty()) say_(what);
         ++computed_count_;
         return compute();
     });
@@ -46,6 +46,10 @@ const ReferenceRun& References::equilibrium(const SpringNetwork& network) {
                    for (Vec3& velocity : run.states[0].velocity) velocity = {};
                    return run;
                });
+}
+
+const ReferenceRun& References::refined(const std::string& key, const std::function<ReferenceRun()>& compute) {
+    return get(key, {}, compute);
 }
 
 }  // namespace drape::bench

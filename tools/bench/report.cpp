@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "bench/result_json.h"
@@ -33,25 +35,90 @@ std::string order_subject(const OrderClaim& claim) {
 
 std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.3g}", value); }
 
+struct Column {
+    const char *head, *metric;
+};
+
+/// Beside the problem's own error; one that no case has is left out.
+constexpr Column motion_columns[] = {{"its worst", "worst_position"},
+                                     {"center", "center_error"},
+                                     {"strain", "stretch_rms"},
+                                     {"stretch err", "stretch_error"},
+                                     {"worst frame", "worst_stretch_error"},
+                                     {"worst spring", "worst_spring"}};
+
+std::vector<Column> columns_of(const Problem& problem, const std::vector<const CaseResult*>& results) {
+    std::vector<Column> columns{{"error", problem.metric.c_str()}};
+    if (problem.timed)
+        for (const Column& column : motion_columns)
+            if (std::ranges::any_of(results, [&](const CaseResult* r) { return r->metrics.contains(column.metric); }))
+                columns.push_back(column);
+    return columns;
+}
+
+std::optional<double> metric_of(const CaseResult& result, const std::string& name) {
+    const auto found = result.metrics.find(name);
+    return found == result.metrics.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool below_reference(const Problem& problem, const CaseResult& result) {
+    const std::optional<double> error = metric_of(result, problem.metric), own = metric_of(result, "reference_error");
+    return error && own && *error < *own;
+}
+
+std::string case_row(const Problem& problem, const CaseResult& result, const std::vector<Column>& columns) {
+    std::string text = fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}", result.name, number(result.passes),
+                                   result.device_ms, result.wall_ms);
+    for (const Column& column : columns) {
+        const std::optional<double> value = metric_of(result, column.metric);
+        text += fmt::format("{:>13}", value                                          ? number(*value)
+                                      : result.diverged && &column == columns.data() ? "diverged"
+                                                                                     : "-");
+    }
+    if (below_reference(problem, result)) text += "  below the reference's own error";
+    if (result.stiffness_share < 0.995) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
+    return text + "\n";
+}
+
 /// Sizes and settings of one problem, in the order they ran.
-std::string problem_table(const Problem& problem, const std::vector<CaseResult>& results) {
-    std::string text;
-    const bool motion = problem.timed;
-    for (const CaseResult& result : results) {
-        if (result.problem != problem.name) continue;
-        if (text.empty())
-            text = fmt::format("\n{} ({}, {})\n{:<34}{:>9}{:>11}{:>11}{:>12}{}\n", problem.title, problem.metric,
-                               problem.unit, "case", "passes", "device ms", "wall ms", "error",
-                               motion ? fmt::format("{:>12}{:>12}", "stretch", "stretch err") : "");
-        const auto metric = [&](const char* name) {
-            const auto found = result.metrics.find(name);
-            return found == result.metrics.end() ? std::string("-") : number(found->second);
-        };
-        text += fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}{:>12}", result.name, number(result.passes), result.device_ms,
-                            result.wall_ms, result.diverged ? "diverged" : metric(problem.metric.c_str()));
-        if (motion) text += fmt::format("{:>12}{:>12}", metric("stretch_rms"), metric("stretch_error"));
-        if (result.stiffness_share < 0.995) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
-        text += "\n";
+std::string problem_table(const Problem& problem, const Report& report) {
+    std::vector<const CaseResult*> results;
+    for (const CaseResult& result : report.results)
+        if (result.problem == problem.name) results.push_back(&result);
+    if (results.empty()) return {};
+    const std::vector<Column> columns = columns_of(problem, results);
+    std::string text = fmt::format("\n{} ({}, {})\n", problem.title, problem.metric, problem.unit);
+    if (const auto note = report.notes.find(problem.name); note != report.notes.end()) text += note->second;
+    text += fmt::format("{:<34}{:>9}{:>11}{:>11}", "case", "passes", "device ms", "wall ms");
+    for (const Column& column : columns) text += fmt::format("{:>13}", column.head);
+    text += "\n";
+    for (const CaseResult* result : results) text += case_row(problem, *result, columns);
+    return text;
+}
+
+/// Of all families, the one that meets each target of a user's scene soonest.
+std::string cheapest_text(const Report& report, const Problem& problem) {
+    std::string text = "\nCheapest measured setting for a wanted error\n";
+    double own_error = 0;
+    for (const CaseResult& result : report.results)
+        if (result.problem == problem.name)
+            own_error = std::max(own_error, metric_of(result, "reference_error").value_or(0));
+    for (const Target& target : report.targets) {
+        const Soonest* best = nullptr;
+        for (const Soonest& s : report.soonest)
+            if (s.problem == problem.name && s.metric == target.metric && s.limit == target.limit && !s.name.empty() &&
+                (!best || s.milliseconds < best->milliseconds))
+                best = &s;
+        const bool is_position = target.metric == problem.metric;
+        text += fmt::format("  {:<14}{:>8}{:<3}", target.metric, number(target.limit), is_position ? " m" : "");
+        if (is_position && target.limit < own_error)
+            text += fmt::format("cannot be told: the reference's own error is {}\n", number(own_error));
+        else if (!best)
+            text += "no measured setting\n";
+        else
+            text +=
+                fmt::format("{:<26}{:>10.3f} ms per frame, measured {}\n", best->name.substr(best->name.find('/') + 1),
+                            best->milliseconds, number(best->measured));
     }
     return text;
 }
@@ -98,12 +165,12 @@ std::string soonest_text(const Report& report) {
 
 std::string auto_text(const Report& report) {
     if (report.auto_ratios.empty()) return {};
-    std::string text = "\nWhat auto took, over the soonest measured setting that keeps its tolerance of 1 %\n";
+    std::string text = "\nWhat auto took, over the soonest measured setting that keeps its tolerance\n";
     for (const AutoRatio& a : report.auto_ratios)
-        text +=
-            fmt::format("  {:<12}error {:>9}: {:<9}{:>9.3f} ms{:>8.2f}x  {}\n", fmt::format("{} {}", a.problem, a.size),
-                        number(a.worst_error), a.met() ? "kept" : "NOT KEPT", a.milliseconds, a.ratio(),
-                        a.best.empty() ? "no other setting keeps it" : a.best);
+        text += fmt::format("  {:<12}worst error {:>9} of {:>6}: {:<9}{:>9.3f} ms{:>8.2f}x  {}\n",
+                            fmt::format("{} {}", a.problem, a.size), number(a.worst_error), number(a.tolerance),
+                            a.met() ? "kept" : "NOT KEPT", a.milliseconds, a.ratio(),
+                            a.best.empty() ? "no other setting keeps it" : a.best);
     return text;
 }
 
@@ -111,7 +178,8 @@ Json::Value json_of(const AutoRatio& ratio) {
     Json::Value value(Json::objectValue);
     value["problem"] = ratio.problem;
     value["size"] = ratio.size;
-    value["worst_stretch_error"] = ratio.worst_error;
+    if (std::isfinite(ratio.worst_error)) value["worst_stretch_error"] = ratio.worst_error;  // nothing: diverged
+    value["tolerance"] = ratio.tolerance;
     value["kept"] = ratio.met();
     value["ms_per_frame"] = ratio.milliseconds;
     if (ratio.best.empty()) return value;
@@ -183,7 +251,7 @@ Json::Value json_list(const std::vector<T>& items) {
 void evaluate(Report& report) {
     report.orders = fit_orders(order_claims(), report.results);
     report.limits = check_limits(report.results);
-    report.soonest = find_soonest(report.results);
+    report.soonest = find_soonest(report.results, report.targets);
     report.auto_ratios = auto_ratios(report.results);
 }
 
@@ -199,8 +267,11 @@ std::string report_text(const Report& report, const std::vector<Problem>& proble
     std::string text =
         fmt::format("drape {} on {} ({}), {}\n", report.program_version, report.device, report.driver, report.created);
     if (!report.complete) text += "The budget of time left cases out.\n";
-    for (const Problem& problem : problems) text += problem_table(problem, report.results);
-    return text + orders_text(report) + limits_text(report) + soonest_text(report) + auto_text(report);
+    for (const Problem& problem : problems) text += problem_table(problem, report);
+    text += orders_text(report) + limits_text(report) + soonest_text(report) + auto_text(report);
+    for (const Problem& problem : problems)
+        if (problem.of_user) text += cheapest_text(report, problem);
+    return text;
 }
 
 std::string report_json(const Report& report) {
@@ -212,6 +283,8 @@ std::string report_json(const Report& report) {
     value["driver"] = report.driver;
     value["short"] = report.is_short;
     value["complete"] = report.complete;
+    value["compared_with"] = Json::Value(Json::objectValue);
+    for (const auto& [problem, note] : report.notes) value["compared_with"][problem] = note;
     value["results"] = json_list(report.results);
     value["orders"] = json_list(report.orders);
     value["limits"] = json_list(report.limits);

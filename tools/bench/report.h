@@ -1,6 +1,7 @@
 // The benchmark's results for people and programs: a table, JSON, CSV, plots.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +17,13 @@ struct Report {
     std::string device, driver;            ///< driver with its version
     bool is_short = false;
     bool complete = true;  ///< false: the budget of time left cases out
-    std::vector<CaseResult> results;
-    std::vector<OrderFit> orders;
-    std::vector<LimitCheck> limits;
-    std::vector<Soonest> soonest;
-    std::vector<AutoRatio> auto_ratios;
+    std::vector<CaseResult> results{};
+    std::map<std::string, std::string> notes{};  ///< by problem: what it is compared with
+    std::vector<Target> targets{{"stretch_error", 0.01}, {"position_rms", 1e-3}};  ///< errors wanted soonest
+    std::vector<OrderFit> orders{};
+    std::vector<LimitCheck> limits{};
+    std::vector<Soonest> soonest{};
+    std::vector<AutoRatio> auto_ratios{};
 };
 
 /// Orders, limits and ratios of the results that the report holds.

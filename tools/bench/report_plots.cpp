@@ -45,6 +45,15 @@ bool worth_drawing(const LogPlot& plot) {
 
 using Plots = std::vector<std::pair<std::string, LogPlot>>;
 
+/// Below it no error can be told.
+void add_reference_level(const std::vector<const CaseResult*>& results, LogPlot& plot) {
+    for (const CaseResult* result : results)
+        if (const auto found = result->metrics.find("reference_error"); found != result->metrics.end()) {
+            plot.levels.push_back({"the reference's own error", found->second});
+            return;
+        }
+}
+
 void add_work_plots(const Problem& problem, std::uint32_t size, const std::vector<const CaseResult*>& results,
                     Plots& plots) {
     struct Error {
@@ -52,7 +61,7 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
         double target;
     };
     const Error errors[] = {{"position_rms", "position", "RMS position error, m", 1e-3},
-                            {"stretch_error", "stretch", "RMS stretch error", 0.01}};
+                            {"stretch_error", "stretch", "RMS stretch error (strain, 1)", 0.01}};
     struct Work {
         const char *name, *label;
         Coordinate x;
@@ -68,6 +77,8 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
                          series_of(results, error.metric, work.x),
                          work.slopes,
                          {{fmt::format("{:g}", error.target), error.target}}};
+            if (problem.of_user) plot.title = problem.title;
+            if (problem.of_user && error.metric == problem.metric) add_reference_level(results, plot);
             if (problem.name == "strip") plot.title = fmt::format("{}, {} links long", problem.title, size);
             if (worth_drawing(plot))
                 plots.emplace_back(file_name(problem.name, fmt::format("{}_{}_{}", size, error.name, work.name)), plot);

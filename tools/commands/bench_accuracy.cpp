@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "bench/accuracy.h"
@@ -39,7 +40,40 @@ std::string set_minutes(const std::string& text, bench::AccuracyRequest& request
     return {};
 }
 
+std::string set_errors(const std::string& text, std::vector<double>& errors) {
+    std::vector<double> wanted;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        const std::string part = text.substr(at, end - at);
+        char* rest = nullptr;
+        wanted.push_back(std::strtod(part.c_str(), &rest));
+        if (part.empty() || *rest != 0 || !(wanted.back() > 0 && wanted.back() < 1e6))
+            return "expected metres above 0, separated by commas, got '" + text + "'";
+        at = end + 1;
+    }
+    errors = wanted;
+    return {};
+}
+
+void add_user_scene_options(CLI::App& command, bench::AccuracyRequest& request) {
+    add_optional_scene(command, request.scene,
+                       "Scene file to be measured against its own refined runs; without one the\n"
+                       "benchmark's reference problems are");
+    add_override_option(command, request.overrides);
+    add_option(command, "--frames", "N", "Of SCENE: at most N frames after the first; default: all",
+               whole(1, [&request](std::uint32_t value) { request.frames = value; }));
+    add_option(command, "--error", "METRES,...",
+               "Of SCENE: RMS position errors whose cheapest setting is wanted; default:\n"
+               "0.1,0.01,0.001,0.0001",
+               [&request](const std::string& text) { return set_errors(text, request.errors); });
+    add_option(command, "--reference-substeps", "N",
+               "Of SCENE: substeps per frame of the finest reference, at most, and at least 16;\n"
+               "default: 1280",
+               whole(16, [&request](std::uint32_t value) { request.reference_substeps = value; }));
+}
+
 void add_options(CLI::App& command, bench::AccuracyRequest& request) {
+    add_user_scene_options(command, request);
     add_option(command, "--filter", "REGEX",
                "Only cases whose name contains this regular expression; names are\n"
                "PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
@@ -48,7 +82,8 @@ void add_options(CLI::App& command, bench::AccuracyRequest& request) {
     add_flag(command, "--short", "A few small cases of every problem: under 3 minutes", request.is_short);
     add_option(command, "--folder", "DIR",
                "Where finished cases and references are kept: the same command goes on from\n"
-               "there, and only what has changed is measured again; default: bench",
+               "there, and only what has changed is measured again; of SCENE also accuracy.json,\n"
+               "accuracy.csv and the plots; default: bench",
                request.folder);
     add_option(command, "--budget", "MINUTES",
                "Start no case that would end later than after so many minutes, the important\n"
@@ -72,10 +107,17 @@ void add_bench_accuracy(Program& program) {
 Runs reference problems by every solver at many settings and compares with closed forms and converged
 double-precision solutions. On stdout a table of errors and times, fitted orders of convergence, limits met, and
 which solver meets an error soonest. Times are the device's, of the simulation alone: medians over repetitions.
-When a limit or an order is not met, it ends with exit code 7, everything written all the same.
-The full benchmark takes hours on a CPU, references included; SIGINT ends it, and the same command goes on.
+When a limit or an order is not met, or method auto misses its tolerance, it ends with exit code 7, everything
+written all the same. The full benchmark takes hours on a CPU, references included; SIGINT ends it, and the same
+command goes on.
+
+With SCENE every method at many substeps, and auto, are measured against runs of the same scene at ever more
+substeps. How far these references are off is estimated (Richardson) and stated, and errors below it are marked;
+positions are compared until the two finest references part. At the end stands the cheapest setting for each wanted
+error.
 
 Examples:
+  drape bench accuracy scenes/flag.json --frames 30 --error 1e-3 --folder out/flag_accuracy
   drape bench accuracy --short --svg out/plots
   drape bench accuracy --filter '^(swing|drum)/(64|128)/' --json out/swing.json
   drape bench accuracy --budget 120 --json out/accuracy.json --csv out/accuracy.csv --svg out/plots

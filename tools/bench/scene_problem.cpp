@@ -1,0 +1,224 @@
+#include "bench/scene_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "bench/measure.h"
+#include "bench/sheet_sweeps.h"
+#include "cloth/directions.h"
+#include "cloth/grid.h"
+#include "cloth/solver_choice.h"
+#include "drape.h"
+#include "output/atomic_file.h"
+
+namespace drape::bench {
+
+namespace {
+
+/// What positions are turned into, beside their difference: cloth by cloth, in the samples' order.
+class SceneMeasures {
+  public:
+    explicit SceneMeasures(const SceneDescription& scene) {
+        std::size_t first = 0;
+        for (const Cloth& cloth : scene.cloths) {
+            const Grid grid(cloth.grid[0], cloth.grid[1], cloth.holes);
+            add_masses(cloth, grid);
+            add_springs(cloth, grid, first);
+            first += grid.particle_count();
+        }
+    }
+
+    Vec3 center(std::span<const Vec3> position) const {
+        Vec3 sum{};
+        double mass = 0;
+        for (std::size_t p = 0; p < position.size(); ++p) {
+            mass += mass_[p];
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += mass_[p] * position[p][k];
+        }
+        for (double& x : sum) x /= mass;
+        return sum;
+    }
+
+    /// RMS over the stretch springs.
+    double strain(std::span<const Vec3> x) const {
+        double sum = 0;
+        for (const Spring& spring : springs_) {
+            const Vec3 &a = x[spring.first], &b = x[spring.second];
+            const double strain = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / spring.rest_length - 1;
+            sum += strain * strain;
+        }
+        return std::sqrt(sum / std::max<double>(static_cast<double>(springs_.size()), 1));
+    }
+
+  private:
+    struct Spring {
+        std::size_t first, second;
+        double rest_length;
+    };
+
+    void add_masses(const Cloth& cloth, const Grid& grid) {
+        const double inner =
+            cloth.areal_density * cloth.size[0] / (cloth.grid[0] - 1) * cloth.size[1] / (cloth.grid[1] - 1);
+        for (std::uint32_t row = 0; row < grid.rows(); ++row)
+            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+                const auto inverse = static_cast<double>(grid.relative_inverse_mass(column, row));
+                mass_.push_back(inverse > 0 ? inner / inverse : 0);
+            }
+    }
+
+    void add_springs(const Cloth& cloth, const Grid& grid, std::size_t first) {
+        for (std::uint32_t row = 0; row < grid.rows(); ++row)
+            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+                const glsl::vec4 share = grid.spring_shares(column, row);
+                const std::size_t here = first + grid.particle(column, row);
+                if (share.x > 0) springs_.push_back({here, here + 1, cloth.size[0] / (cloth.grid[0] - 1)});
+                if (share.y > 0) springs_.push_back({here, here + grid.columns(), cloth.size[1] / (cloth.grid[1] - 1)});
+            }
+    }
+
+    std::vector<double> mass_;
+    std::vector<Spring> springs_;
+};
+
+double largest_side(const SceneDescription& scene) {
+    double side = 0;
+    for (const Cloth& cloth : scene.cloths) side = std::max({side, cloth.size[0], cloth.size[1]});
+    return side;
+}
+
+std::uint32_t largest_links(const SceneDescription& scene) {
+    std::uint32_t links = 1;
+    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
+    return links;
+}
+
+double squared_distance(const Vec3& a, const Vec3& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+}
+
+Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
+    const SceneMeasures measures(run.scene);
+    const std::size_t agreeing = agreeing_count(reference, agreement_share * largest_side(run.scene));
+    const auto frames = static_cast<double>(reference.times.size());
+    Metrics m{{"position_rms", 0},  {"worst_position", 0},      {"center_error", 0}, {"stretch_rms", 0},
+              {"stretch_error", 0}, {"worst_stretch_error", 0}, {"worst_spring", 0}};
+    double true_strain = 0;
+    for (std::size_t k = 0; k < reference.times.size(); ++k) {
+        const Sample& sample = run.samples.at(k + 1);
+        const std::vector<Vec3>& exact = reference.states[k].position;
+        if (k < agreeing) {
+            const double rms = position_rms(sample.position, exact);
+            m["position_rms"] += rms / static_cast<double>(agreeing);
+            m["worst_position"] = std::max(m["worst_position"], rms);
+        }
+        m["center_error"] += squared_distance(measures.center(sample.position), measures.center(exact)) / frames;
+        m["stretch_rms"] += sample.statistics.stretch.rms / frames;
+        m["stretch_error"] += sample.statistics.stretch_error_rms / frames;
+        m["worst_stretch_error"] = std::max(m["worst_stretch_error"], sample.statistics.stretch_error_rms);
+        m["worst_spring"] = std::max(m["worst_spring"], sample.statistics.stretch_error_max);
+        true_strain += measures.strain(exact) / frames;
+    }
+    m["center_error"] = std::sqrt(m["center_error"]);
+    if (run.scene.cutters.empty()) m["stretch_rms_reference"] = true_strain;
+    m["reference_error"] = mean_error(reference, agreeing);
+    m["agreement_s"] = agreeing > 0 ? reference.times[agreeing - 1] : 0;
+    m["substeps_used"] = run.scene.solver.substeps;
+    m["tolerance"] = run.scene.solver.tolerance > 0 ? run.scene.solver.tolerance : default_tolerance;
+    if (agreeing == 0) m.erase("position_rms"), m.erase("worst_position"), m.erase("reference_error");
+    return m;
+}
+
+/// What the reference is, and how far it can be trusted.
+std::string about_reference(const ReferenceRun& reference, double distance) {
+    const std::size_t agreeing = agreeing_count(reference, distance), count = reference.times.size();
+    std::string text = fmt::format("Reference: {}\n", reference.method);
+    if (agreeing == 0)
+        return text + fmt::format(
+                          "The finest runs differ by more than {:g} m from the first frame on: no position can be "
+                          "compared; strains and centres of mass are those of chaotic runs.\n",
+                          distance);
+    const auto end = reference.error_estimate.begin() + static_cast<std::ptrdiff_t>(agreeing);
+    text += fmt::format("Its own error by Richardson's estimate, until {:.3g} s: mean {:.2g} m, worst frame {:.2g} m\n",
+                        reference.times[agreeing - 1], mean_error(reference, agreeing),
+                        *std::max_element(reference.error_estimate.begin(), end));
+    if (agreeing < count)
+        text += fmt::format(
+            "Its two finest runs then part by more than {:g} m: positions are compared until there, "
+            "strains and centres of mass throughout.\n",
+            distance);
+    return text;
+}
+
+/// A cloth of few links has the same substeps more than once in a sweep that counts them per link.
+std::vector<Setting> different(std::vector<Setting> settings) {
+    std::vector<Setting> all;
+    for (Setting& setting : settings) {
+        setting.substeps = std::max(setting.substeps, 1u);
+        if (std::ranges::find(all, setting) == all.end()) all.push_back(setting);
+    }
+    return all;
+}
+
+std::string row_name(const std::string& path) {
+    std::string name = std::filesystem::path(path).stem().string();
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+    return name.empty() ? "scene" : name;
+}
+
+}  // namespace
+
+UserScene read_user_scene(const std::string& path, const std::vector<std::string>& overrides, std::uint32_t frames) {
+    SceneResult result = read_scene(path, overrides);
+    if (!result.scene) throw SceneFailure(std::move(result));
+    UserScene user{path, std::move(*result.scene), {}};
+    std::uint32_t& count = user.scene.time.frame_count;
+    if (count < 2)
+        throw UsageError(fmt::format("{} has no frame after the first: there is no motion to measure", path));
+    if (frames > 0 && frames < count) count = frames + 1;
+    std::string text = result.text;
+    for (const std::string& each : overrides) text += "\n" + each;
+    user.identity = xxh3_128_hex(text);
+    return user;
+}
+
+Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options, bool is_short) {
+    const std::uint32_t links = largest_links(user.scene);
+    Problem problem{.name = row_name(user.path),
+                    .title = user.scene.name.empty() ? row_name(user.path) : user.scene.name,
+                    .metric = "position_rms",
+                    .unit = "m",
+                    .floor = 1e-7 * largest_side(user.scene),
+                    .timed = true,
+                    .strain_damping = user.scene.solver.strain_damping};
+    problem.of_user = true;
+    problem.identity = fmt::format("{} {} {}", user.identity, options.wanted_error, options.most_substeps);
+    problem.scene = [scene = user.scene](std::uint32_t, const Setting& setting) {
+        SceneDescription result = scene;
+        // The settings of a sweep make no promise; what auto promises is the scene's.
+        if (setting.method != SolverMethod::automatic) result.solver.tolerance = 0;
+        return result;
+    };
+    const std::string key =
+        fmt::format("refined scene 1: {} frames {} on {} {}, {}", problem.identity, user.scene.time.frame_count,
+                    device.info().name, device.info().driver_version, shaders_hash());
+    problem.evaluate = [scene = user.scene, key, device, options](const Recording& run, References& references) {
+        return scene_errors(run, references.refined(key, [&] { return refined_scene(device, scene, options); }));
+    };
+    problem.about = [scene = user.scene, key, device, options](References& references) {
+        return about_reference(references.refined(key, [&] { return refined_scene(device, scene, options); }),
+                               agreement_share * largest_side(scene));
+    };
+    problem.sweeps.push_back({links, {{SolverMethod::automatic, 1, 1}}, 0});
+    for (const Method& method : methods())
+        problem.sweeps.push_back({links, different(sweep_settings(method, links, is_short)), 1});
+    return problem;
+}
+
+}  // namespace drape::bench
