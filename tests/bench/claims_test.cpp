@@ -1,13 +1,17 @@
 // Who is soonest at equal error, and which limits hold.
+#include "bench/claims.h"
+
 #include <gtest/gtest.h>
 
-#include "bench/report.h"
 #include "results.h"
 
 namespace drape::bench {
 namespace {
 
 using test::swing_result;
+
+const std::map<std::string, std::vector<Target>> swing_targets{
+    {"swing", {{"stretch_error", 0.01}, {"position_rms", 1e-3}}}};
 
 const Soonest& found(const std::vector<Soonest>& all, const std::string& family, const std::string& metric) {
     for (const Soonest& s : all)
@@ -23,7 +27,7 @@ TEST(ClaimsTest, TheSoonestIsAMeasuredSettingAndNeverBetweenTwo) {
                                              swing_result(SolverMethod::relax, 1, 30, 0.2, 0.2, 40),
                                              swing_result(SolverMethod::explicit_steps, 16, 0.5, 5e-4, 0.5),
                                              swing_result(SolverMethod::explicit_steps, 32, 1, 1e-4, 1e-2)};
-    const std::vector<Soonest> soonest = find_soonest(results, Report().targets);
+    const std::vector<Soonest> soonest = find_soonest(results, swing_targets);
     EXPECT_EQ(soonest.size(), 6u);
     EXPECT_EQ(found(soonest, "relax", "stretch_error").name, "swing/64/relax/40");
     EXPECT_EQ(found(soonest, "relax", "position_rms").name, "swing/64/relax/80");
@@ -46,7 +50,7 @@ TEST(ClaimsTest, AutoIsComparedWithTheSoonestThatKeepsTheTolerance) {
         result.substeps = substeps;
         result.iterations = 1;
         result.name = std::string(named(method).name) + "/" + std::to_string(substeps);
-        result.device_ms = ms;
+        result.device = {ms, ms, 0};
         result.metrics["worst_stretch_error"] = error;
         return result;
     };
@@ -63,11 +67,26 @@ TEST(ClaimsTest, AutoIsComparedWithTheSoonestThatKeepsTheTolerance) {
     EXPECT_TRUE(ratios[1].best.empty());
 }
 
+TEST(ClaimsTest, TimesThatCannotBeAreDoubtful) {
+    std::vector<CaseResult> results = {
+        swing_result(SolverMethod::relax, 20, 5, 0, 0), swing_result(SolverMethod::relax, 40, 3, 0, 0),
+        swing_result(SolverMethod::relax, 80, 12, 0, 0), swing_result(SolverMethod::line, 4, 6, 0, 0)};
+    results[2].device.spread = 0.4;
+    EXPECT_EQ(doubtful_times(results), (std::set<std::string>{"swing/64/relax/20", "swing/64/relax/80"}))
+        << "more passes in less time; repetitions far apart";
+    results[3].wall.median = 5;
+    EXPECT_EQ(case_milliseconds(results[3]), 5) << "no device works longer than the wall's clock goes";
+    results[3].device.median = 0;
+    EXPECT_EQ(case_milliseconds(results[3]), 5) << "no timestamps";
+    const Timing timing = timing_of({4, 2, 3});
+    EXPECT_EQ(timing, (Timing{3, 2, 2.0 / 3}));
+}
+
 TEST(ClaimsTest, ADivergedCaseMeetsNothing) {
     CaseResult result = swing_result(SolverMethod::relax, 20, 2, 0, 0);
     result.diverged = true;
     result.metrics.clear();
-    EXPECT_TRUE(find_soonest(std::vector{result}, Report().targets).empty());
+    EXPECT_TRUE(find_soonest(std::vector{result}, swing_targets).empty());
     EXPECT_TRUE(check_limits(std::vector{result}).empty());
 }
 

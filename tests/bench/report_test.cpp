@@ -57,6 +57,7 @@ Report report() {
     report.results.push_back(test::swing_result(SolverMethod::explicit_steps, 640, 5, 0, 0));
     report.results.back().diverged = true;
     report.results.back().metrics.clear();
+    report.targets = {{"swing", {{"stretch_error", 0.01}, {"position_rms", 1e-3}}}};
     evaluate(report);
     return report;
 }
@@ -76,6 +77,12 @@ TEST(PlotTest, IsWellFormedAndHoldsEverySeries) {
     EXPECT_EQ(occurrences(svg, "slope -"), 2u);
     EXPECT_THAT(svg, testing::AllOf(HasSubstr(">time, ms<"), HasSubstr(">error, m<"), HasSubstr(">1 %<")));
     EXPECT_THAT(svg, testing::Not(HasSubstr("nan")));
+    EXPECT_THAT(svg, testing::Not(HasSubstr("doubtful")));
+    plot.series[2].doubtful = {false, true, false, false};
+    const std::string marked = svg_text(plot);
+    EXPECT_EQ(occurrences(marked, "class=\"doubtful\""), 1u);
+    EXPECT_THAT(marked, HasSubstr(">hollow: time doubtful<"));
+    EXPECT_GT(element_count(marked), element_count(svg));
 }
 
 TEST(PlotTest, PutsPointsWhereTheLogarithmsAre) {
@@ -131,7 +138,7 @@ TEST(ReportTest, CsvHasTheSameColumnsInEveryRow) {
         at = end + 1;
     }
     ASSERT_EQ(rows.size(), 7u);
-    for (const std::string& row : rows) EXPECT_EQ(occurrences(row, ","), 15u) << row;
+    for (const std::string& row : rows) EXPECT_EQ(occurrences(row, ","), 18u) << row;
     EXPECT_THAT(rows[0], testing::EndsWith(",diverged,position_rms,stretch_error,stretch_rms"));
     EXPECT_THAT(rows[2], testing::AllOf(testing::StartsWith("swing/64/relax/20,swing,64,relax,20,1,20,"),
                                         testing::EndsWith(",0,0.05,0.05,0.05")));

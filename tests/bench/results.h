@@ -17,8 +17,8 @@ inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, doub
     result.name = "swing/64/" + std::string(named(method).name) + "/" + setting_name({method, substeps, iterations});
     result.key = result.name;
     result.passes = substeps * iterations;
-    result.device_ms = result.device_ms_low = result.device_ms_high = milliseconds;
-    result.wall_ms = 2 * milliseconds;
+    result.device = {milliseconds, milliseconds, 0};
+    result.wall = {2 * milliseconds, 2 * milliseconds, 0};
     result.metrics = {{"position_rms", position}, {"stretch_error", stretch}, {"stretch_rms", stretch}};
     result.seconds = 1;
     return result;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -75,7 +76,7 @@ UserScene two_cloths() {
 }
 
 TEST(SceneProblemTest, SweepsEveryMethodAndAutoWithNamesOfTheirOwn) {
-    const Problem problem = user_problem(two_cloths(), Device("cpu"), options(64), false);
+    const Problem problem = user_problem(two_cloths(), Device("cpu"), options(64), std::array{1e-3}, false);
     std::set<std::string> names;
     std::set<SolverMethod> seen;
     for (const Sweep& sweep : problem.sweeps)
@@ -91,7 +92,7 @@ TEST(SceneProblemTest, ErrorsAreOverTheParticlesOfAllCloths) {
     const UserScene user = two_cloths();
     const TemporaryFolder folder;
     References references(folder.path(), [](const std::string&) {}, {});
-    const Problem problem = user_problem(user, Device("cpu", Validation::count), options(64), true);
+    const Problem problem = user_problem(user, Device("cpu", Validation::count), options(64), {}, true);
     const ReferenceRun reference = refined_scene(Device("cpu"), user.scene, options(64));
     ASSERT_EQ(reference.states[0].position.size(), 9u * 7 + 4 * 3);
     Recording run{user.scene, {{0, {}, {}}}};

@@ -9,6 +9,7 @@
 #include <optional>
 #include <regex>
 
+#include "bench/bisection.h"
 #include "bench/measure.h"
 #include "bench/report.h"
 #include "bench/scene_problem.h"
@@ -30,24 +31,34 @@ struct PlannedSweep {
     Sweep sweep;
 };
 
-std::vector<PlannedSweep> planned(const std::vector<Problem>& problems, const std::string& filter) {
-    std::regex expression;
-    try {
-        expression = std::regex(filter);
+/// --filter
+class CaseFilter {
+  public:
+    explicit CaseFilter(const std::string& text) try : text_(text), expression_(text) {
     } catch (const std::regex_error& error) {
-        throw UsageError(fmt::format("--filter '{}': {}", filter, error.what()));
+        throw UsageError(fmt::format("--filter '{}': {}", text, error.what()));
     }
+    bool accepts(const Problem& problem, std::uint32_t size, const Setting& setting) const {
+        return std::regex_search(case_name(problem, size, setting), expression_);
+    }
+    std::vector<PlannedSweep> planned(const std::vector<Problem>& problems) const;
+
+  private:
+    std::string text_;
+    std::regex expression_;
+};
+
+std::vector<PlannedSweep> CaseFilter::planned(const std::vector<Problem>& problems) const {
     std::vector<PlannedSweep> plan;
     for (const Problem& problem : problems)
         for (const Sweep& sweep : problem.sweeps) {
             Sweep chosen{sweep.size, {}, sweep.priority};
             for (const Setting& setting : sweep.settings)
-                if (std::regex_search(case_name(problem, sweep.size, setting), expression))
-                    chosen.settings.push_back(setting);
+                if (accepts(problem, sweep.size, setting)) chosen.settings.push_back(setting);
             if (!chosen.settings.empty()) plan.push_back({&problem, chosen});
         }
     if (plan.empty())
-        throw UsageError(fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", filter));
+        throw UsageError(fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", text_));
     std::ranges::stable_sort(plan, {}, [](const PlannedSweep& p) { return p.sweep.priority; });
     return plan;
 }
@@ -83,8 +94,9 @@ class Forecast {
 
 class AccuracyRun {
   public:
-    AccuracyRun(const AccuracyRequest& request, const Device& device, std::vector<PlannedSweep> plan)
+    AccuracyRun(const AccuracyRequest& request, const Device& device, CaseFilter filter, std::vector<PlannedSweep> plan)
         : request_(request),
+          filter_(std::move(filter)),
           device_(device),
           plan_(std::move(plan)),
           store_(fs::path(request.folder) / "results.jsonl"),
@@ -101,6 +113,9 @@ class AccuracyRun {
     /// Throws Stopped.
     void run(AccuracySummary& summary) {
         for (const PlannedSweep& p : plan_) run_sweep(p, summary);
+        if (!request_.is_short)
+            for (const PlannedSweep& p : plan_)
+                for (const Target& target : p.problem->targets) bisect(p, target, summary);
         for (const PlannedSweep& p : plan_)
             if (p.problem->about && !results_.empty()) notes_.emplace(p.problem->name, p.problem->about(references_));
         summary.computed_reference_count = references_.computed_count();
@@ -128,22 +143,52 @@ class AccuracyRun {
     void run_sweep(const PlannedSweep& p, AccuracySummary& summary) {
         bool at_floor = false;
         for (const Setting& setting : p.sweep.settings) {
-            const double work = case_work(device_.info(), *p.problem, p.sweep.size, setting);
-            forecast_.left_out(work);
+            forecast_.left_out(case_work(device_.info(), *p.problem, p.sweep.size, setting));
             ++case_number_;
-            if (at_floor) continue;
-            const std::string key = case_key(device_.info(), *p.problem, p.sweep.size, setting);
-            if (std::optional<CaseResult> kept = store_.find(key)) {
-                ++summary.kept_count;
-                results_.push_back(std::move(*kept));
-            } else if (over_budget(forecast_.seconds(work))) {
-                ++summary.left_out_count;
-                continue;
-            } else {
-                measure(p, setting, work);
-                ++summary.measured_count;
+            if (!at_floor && run_setting(p, setting, summary)) at_floor = is_at_floor(*p.problem, results_.back());
+        }
+    }
+
+    /// Whether there is a result.
+    bool run_setting(const PlannedSweep& p, const Setting& setting, AccuracySummary& summary) {
+        const double work = case_work(device_.info(), *p.problem, p.sweep.size, setting);
+        const std::string key = case_key(device_.info(), *p.problem, p.sweep.size, setting);
+        if (std::optional<CaseResult> kept = store_.find(key)) {
+            ++summary.kept_count;
+            results_.push_back(std::move(*kept));
+        } else if (over_budget(forecast_.seconds(work))) {
+            ++summary.left_out_count;
+            return false;
+        } else {
+            measure(p, setting, work);
+            ++summary.measured_count;
+        }
+        return true;
+    }
+
+    /// A sweep's steps are wide, and who happens to have a setting just fine enough would win: the fewest substeps (or
+    /// iterations of one substep) that keep the target are looked for, among all settings of the sweep's family.
+    void bisect(const PlannedSweep& p, const Target& target, AccuracySummary& summary) {
+        if (p.sweep.settings.size() < 2) return;
+        Setting setting = p.sweep.settings[0];
+        const bool by_iterations = setting.substeps == p.sweep.settings[1].substeps;
+        const std::string family = family_name(setting.method, setting.substeps, setting.iterations);
+        while (true) {
+            std::vector<SweepPoint> points;
+            for (const CaseResult& result : results_) {
+                if (result.problem != p.problem->name || result.size != p.sweep.size || result.family() != family)
+                    continue;
+                if (cannot_tell(*p.problem, target, result)) return;
+                const auto found = result.metrics.find(target.metric);
+                points.push_back({by_iterations ? result.iterations : result.substeps,
+                                  found != result.metrics.end() && found->second <= target.limit});
             }
-            at_floor = is_at_floor(*p.problem, results_.back());
+            const std::optional<std::uint32_t> count = next_count(points);
+            if (!count) return;
+            (by_iterations ? setting.iterations : setting.substeps) = *count;
+            if (!filter_.accepts(*p.problem, p.sweep.size, setting)) return;
+            ++case_number_, ++case_count_;
+            if (!run_setting(p, setting, summary)) return;
         }
     }
 
@@ -163,6 +208,12 @@ class AccuracyRun {
                         result.seconds, duration(forecast_.seconds_left())));
     }
 
+    /// The reference is farther off than what is wanted.
+    static bool cannot_tell(const Problem& problem, const Target& target, const CaseResult& result) {
+        const auto own = result.metrics.find("reference_error");
+        return target.metric == problem.metric && own != result.metrics.end() && own->second > target.limit;
+    }
+
     static bool is_at_floor(const Problem& problem, const CaseResult& result) {
         const auto error = result.metrics.find(problem.metric), own = result.metrics.find("reference_error");
         const double floor = std::max(problem.floor, own == result.metrics.end() ? 0 : 1.5 * own->second);
@@ -180,6 +231,7 @@ class AccuracyRun {
     }
 
     const AccuracyRequest& request_;
+    CaseFilter filter_;
     Device device_;
     std::vector<PlannedSweep> plan_;
     ResultStore store_;
@@ -215,13 +267,7 @@ std::vector<Problem> problems_of(const AccuracyRequest& request, const std::opti
     options.most_substeps = request.reference_substeps;
     options.say = [run](const std::string& text) { (*run)->begin_reference(text); };
     options.progress = [run](double fraction) { (*run)->show_reference(fraction); };
-    return {user_problem(*user, device, options, request.is_short)};
-}
-
-std::vector<Target> targets_of(const AccuracyRequest& request) {
-    std::vector<Target> targets{{"stretch_error", 0.01}};
-    for (const double error : request.errors) targets.push_back({"position_rms", error});
-    return targets;
+    return {user_problem(*user, device, options, request.errors, request.is_short)};
 }
 
 }  // namespace
@@ -229,14 +275,15 @@ std::vector<Target> targets_of(const AccuracyRequest& request) {
 AccuracySummary run_accuracy(const AccuracyRequest& request) {
     std::optional<UserScene> user;
     if (!request.scene.empty()) user = read_user_scene(request.scene, request.overrides, request.frames);
-    if (!user) planned(all_problems(request.is_short), request.filter);  // a wrong filter needs no device
+    const CaseFilter filter(request.filter);
+    if (!user) filter.planned(all_problems(request.is_short));  // a filter that matches nothing needs no device
     const Device device(request.device, request.validate ? Validation::print : Validation::off);
     const auto current = std::make_shared<AccuracyRun*>();
     const std::vector<Problem> problems = problems_of(request, user, device, current);
-    std::vector<PlannedSweep> plan = planned(problems, request.filter);
+    std::vector<PlannedSweep> plan = filter.planned(problems);
     make_folder(request.folder);
     AccuracySummary summary;
-    AccuracyRun run(request, device, std::move(plan));
+    AccuracyRun run(request, device, filter, std::move(plan));
     *current = &run;
     try {
         run.run(summary);
@@ -254,7 +301,8 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     report.complete = summary.left_out_count == 0;
     report.results = run.results();
     report.notes = run.notes();
-    if (user) report.targets = targets_of(request);
+    for (const Problem& problem : problems)
+        if (problem.timed) report.targets[problem.name] = problem.targets;
     evaluate(report);
     write_files(request, report, problems);
     summary.text = report_text(report, problems);

@@ -27,6 +27,22 @@ std::string family_name(SolverMethod method, std::uint32_t substeps, std::uint32
 /// Errors and other numbers by name, SI units.
 using Metrics = std::map<std::string, double>;
 
+/// Over repetitions, ms per frame.
+struct Timing {
+    double median = 0, least = 0;
+    double spread = 0;  ///< greatest less least, over the median
+    bool operator==(const Timing&) const = default;
+};
+
+/// Of at least one repetition.
+Timing timing_of(std::vector<double> repetitions);
+
+/// A limit that a setting is wanted for.
+struct Target {
+    std::string metric;
+    double limit;
+};
+
 struct CaseResult {
     std::string name;     ///< "swing/64/relax/20": what --filter is matched with
     std::string key;      ///< hash of everything that decides the result
@@ -37,15 +53,17 @@ struct CaseResult {
     bool diverged = false;       ///< a position was no longer finite: no metrics
     double passes = 0;           ///< per frame: how often every particle is read and written
     double stiffness_share = 1;  ///< the least share of the wanted stretch stiffness that the solver applied
-    /// Per frame, ms, the simulation alone: median of all frames of all repetitions, and the least and
-    /// greatest repetition's median. 0: the device has no timestamps.
-    double device_ms = 0, device_ms_low = 0, device_ms_high = 0;
-    double wall_ms = 0;  ///< per frame, of the fastest repetition, submits and waits included
+    Timing device;               ///< per frame, the simulation alone; 0: the device has no timestamps
+    Timing wall;                 ///< per frame, submits and waits included
     Metrics metrics;
     double seconds = 0;  ///< the whole case took, a new reference included
 
     std::string family() const { return family_name(method, substeps, iterations); }
     bool operator==(const CaseResult&) const = default;
 };
+
+/// The time that a case goes by: the device's, or the wall's where the device has no timestamps or claims more than
+/// passed on the wall, frame by frame: on a loaded machine a device in software counts what others were given.
+const Timing& case_time(const CaseResult& result);
 
 }  // namespace drape::bench

@@ -83,7 +83,7 @@ Soonest soonest_of(const std::vector<const CaseResult*>& results, const Target& 
     for (const CaseResult* result : results) {
         const auto metric = result->metrics.find(target.metric);
         if (metric == result->metrics.end() || metric->second > target.limit) continue;
-        if (!best.name.empty() && case_milliseconds(*result) >= best.milliseconds) continue;
+        if (!best.name.empty() && result->passes >= best.passes) continue;
         best.name = result->name;
         best.milliseconds = case_milliseconds(*result);
         best.passes = result->passes;
@@ -95,7 +95,20 @@ Soonest soonest_of(const std::vector<const CaseResult*>& results, const Target& 
 
 }  // namespace
 
-double case_milliseconds(const CaseResult& result) { return result.device_ms > 0 ? result.device_ms : result.wall_ms; }
+std::set<std::string> doubtful_times(std::span<const CaseResult> results) {
+    constexpr double widest_spread = 0.3, faster = 0.8;
+    std::set<std::string> names;
+    for (const CaseResult& result : results) {
+        if (result.diverged) continue;
+        bool doubtful = case_time(result).spread > widest_spread;
+        for (const CaseResult& other : results)
+            doubtful |= !other.diverged && other.problem == result.problem && other.size == result.size &&
+                        other.family() == result.family() && other.passes > result.passes &&
+                        case_milliseconds(other) < faster * case_milliseconds(result);
+        if (doubtful) names.insert(result.name);
+    }
+    return names;
+}
 
 std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
     std::vector<LimitCheck> checks;
@@ -140,14 +153,15 @@ std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
     return ratios;
 }
 
-std::vector<Soonest> find_soonest(std::span<const CaseResult> results, std::span<const Target> targets) {
+std::vector<Soonest> find_soonest(std::span<const CaseResult> results,
+                                  const std::map<std::string, std::vector<Target>>& targets) {
     std::map<std::tuple<std::string, std::uint32_t>, Group> groups;
     for (const CaseResult& result : results)
-        if (!result.diverged && result.metrics.contains("stretch_error"))
+        if (!result.diverged && targets.contains(result.problem))
             groups[{result.problem, result.size}][result.family()].push_back(&result);
     std::vector<Soonest> all;
     for (const auto& [place, families] : groups)
-        for (const Target& target : targets) {
+        for (const Target& target : targets.at(std::get<0>(place))) {
             const std::size_t first = all.size();
             for (const auto& [family, members] : families) all.push_back(soonest_of(members, target));
             const auto relax = std::find_if(

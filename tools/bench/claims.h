@@ -2,7 +2,9 @@
 // equal error.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +26,8 @@ struct LimitCheck {
 /// m), and the limits of the closed-form rows. Only of cases that are among the results.
 std::vector<LimitCheck> check_limits(std::span<const CaseResult> results);
 
-/// The measured setting of a family that meets a limit soonest; never interpolated.
+/// The measured setting of a family that meets a limit with the fewest passes, which decide its time and do not mind
+/// what else the machine does; never interpolated.
 struct Soonest {
     std::string problem;
     std::uint32_t size = 0;
@@ -39,14 +42,10 @@ struct Soonest {
     double time_ratio = 0, passes_ratio = 0;
 };
 
-struct Target {
-    std::string metric;
-    double limit;
-};
-
-/// Of every family of every timed problem, for each target. "relax" is the best-tuned substepped relaxation; the
+/// Of every family of every problem that has targets, for each. "relax" is the best-tuned substepped relaxation; the
 /// slides' form is a family of its own.
-std::vector<Soonest> find_soonest(std::span<const CaseResult> results, std::span<const Target> targets);
+std::vector<Soonest> find_soonest(std::span<const CaseResult> results,
+                                  const std::map<std::string, std::vector<Target>>& targets);
 
 /// What `auto` took, over the soonest measured setting of any method that keeps its tolerance.
 struct AutoRatio {
@@ -64,7 +63,11 @@ struct AutoRatio {
 /// Of every scene that auto was measured on.
 std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results);
 
-/// Device time, or wall time where the device has no timestamps; ms per frame.
-double case_milliseconds(const CaseResult& result);
+/// ms per frame.
+inline double case_milliseconds(const CaseResult& result) { return case_time(result).median; }
+
+/// Names of the cases whose time is not to be trusted: its repetitions are 30 % apart, or another case of the same
+/// family took a fifth less for more passes.
+std::set<std::string> doubtful_times(std::span<const CaseResult> results);
 
 }  // namespace drape::bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "cloth/frame_inputs.h"
 #include "cloth/schedule.h"
@@ -19,10 +20,10 @@ namespace drape::bench {
 namespace {
 
 /// Raise when the same run would be measured differently, so that kept results are not mixed with new ones.
-constexpr int measuring_version = 1;
+constexpr int measuring_version = 2;
 
-constexpr int repetition_count = 3;
-constexpr double repetition_seconds = 1.0;   // about as long is measured at a time
+constexpr int repetition_count = 5;
+constexpr double repetition_seconds = 0.6;   // about as long is measured at a time
 constexpr std::uint32_t warm_up_frames = 2;  // compile shaders, fill caches
 
 using Clock = std::chrono::steady_clock;
@@ -70,19 +71,14 @@ double simulate_ms(const std::vector<StageTime>& timings) {
     return sum;
 }
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::ranges::sort(values);
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 struct RecordedRun {
     std::vector<Sample> samples;
     std::vector<double> device_ms;
     bool diverged = false;
     double wall_ms = 0;  ///< per frame
 };
+
+double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 RecordedRun record(const Device& device, const Problem& problem, const SceneDescription& scene,
                    const std::function<bool()>& stop) {
@@ -108,16 +104,26 @@ RecordedRun record(const Device& device, const Problem& problem, const SceneDesc
     return run;
 }
 
-/// Repetitions without statistics and readbacks, of as many frames as a repetition's time allows.
+/// A repetition's frames on the device: frames of a fixed setting do the same work; those of `auto` need not.
+double typical(const std::vector<double>& milliseconds, bool frames_differ) {
+    if (milliseconds.empty()) return 0;
+    return frames_differ ? sum_of(milliseconds) / static_cast<double>(milliseconds.size())
+                         : timing_of(milliseconds).median;
+}
+
+/// Repetitions without statistics and readbacks, of as many frames as a repetition's time allows; of `auto` all frames.
 void measure_time(const Device& device, const SceneDescription& scene, const std::function<bool()>& stop,
                   double estimate_ms, CaseResult& result) {
+    const bool frames_differ = scene.solver.method == SolverMethod::automatic;
+    const auto all_frames = static_cast<double>(std::max(scene.time.frame_count - 1, 5u));
     const double affordable = 1000 * repetition_seconds / std::max(estimate_ms, 1e-3);
-    const auto frames = static_cast<std::uint32_t>(
-        std::clamp(affordable, 5.0, static_cast<double>(std::max(scene.time.frame_count - 1, 5u))));
+    const auto frames =
+        static_cast<std::uint32_t>(frames_differ ? all_frames : std::clamp(affordable, 5.0, all_frames));
+    const bool is_long = frames * estimate_ms > 5000 * repetition_seconds;
     SimulationOptions options;
-    options.positions = options.statistics = false;
-    std::vector<double> all, medians, walls;
-    for (int repetition = 0; repetition < repetition_count; ++repetition) {
+    options.positions = options.statistics = options.keep_promises = false;
+    std::vector<double> on_device, on_wall;
+    for (int repetition = 0; repetition < (is_long ? 2 : repetition_count); ++repetition) {
         Simulation simulation(scene, options, device);
         std::vector<double> device_ms;
         Clock::time_point start{};
@@ -129,14 +135,11 @@ void measure_time(const Device& device, const SceneDescription& scene, const std
             },
             stop);
         if (!complete) throw Stopped{};
-        walls.push_back(1000 * seconds_since(start) / frames);
-        medians.push_back(median(device_ms));
-        all.insert(all.end(), device_ms.begin(), device_ms.end());
+        on_wall.push_back(1000 * seconds_since(start) / frames);
+        on_device.push_back(typical(device_ms, frames_differ));
     }
-    result.device_ms = median(all);
-    result.device_ms_low = std::ranges::min(medians);
-    result.device_ms_high = std::ranges::max(medians);
-    result.wall_ms = std::ranges::min(walls);
+    result.device = timing_of(on_device);
+    result.wall = timing_of(on_wall);
 }
 
 template <class T>
@@ -260,12 +263,8 @@ CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t 
 
     const SceneDescription scene = scene_of(problem, size, setting);
     RecordedRun run = record(device, problem, scene, stop);
-    result.device_ms = median(run.device_ms);
-    if (!run.device_ms.empty()) {
-        result.device_ms_low = std::ranges::min(run.device_ms);
-        result.device_ms_high = std::ranges::max(run.device_ms);
-    }
-    result.wall_ms = run.wall_ms;
+    result.device = timing_of({typical(run.device_ms, setting.method == SolverMethod::automatic)});
+    result.wall = timing_of({run.wall_ms});
     result.diverged = run.diverged;
     if (!run.diverged) {
         if (problem.timed) measure_time(device, scene, stop, run.wall_ms, result);

@@ -135,11 +135,15 @@ std::string marker(std::size_t kind, double x, double y) {
 std::string series_group(const PlotSeries& series, std::size_t index, const Axes& axes) {
     const char* colour = colours[index % colours.size()];
     std::string places, markers;
-    for (const std::array<double, 2>& point : series.points) {
+    for (std::size_t k = 0; k < series.points.size(); ++k) {
+        const std::array<double, 2>& point = series.points[k];
         if (!drawable(point)) continue;
         const double x = axes.x.place(point[0]), y = axes.y.place(point[1]);
         places += fmt::format("{:.1f},{:.1f} ", x, y);
-        markers += marker(index, x, y);
+        const bool doubtful = k < series.doubtful.size() && series.doubtful[k];
+        markers += doubtful ? fmt::format("<g class=\"doubtful\" fill=\"#ffffff\" stroke=\"{}\">{}</g>", colour,
+                                          marker(index, x, y))
+                            : marker(index, x, y);
     }
     return fmt::format(
         "<g class=\"series\" fill=\"{0}\"><title>{1}</title>\n"
@@ -187,6 +191,12 @@ std::string legend(const LogPlot& plot) {
             colours[k % colours.size()], right + 14, y, right + 42, marker(k, right + 28, y));
         result += text(right + 48, y + 4, plot.series[k].name, "fill=\"#202020\"");
     }
+    const bool any_doubtful = std::ranges::any_of(plot.series, [](const PlotSeries& series) {
+        return std::ranges::find(series.doubtful, true) != series.doubtful.end();
+    });
+    if (any_doubtful)
+        result += text(right + 14, top + 16 + 22 * static_cast<double>(plot.series.size()), "hollow: time doubtful",
+                       "fill=\"#505050\" font-size=\"11\"");
     return result;
 }
 

@@ -11,6 +11,7 @@ struct PlotSeries {
     std::string name;  ///< in the legend
     /// Joined in this order; one that is not positive and finite is left out.
     std::vector<std::array<double, 2>> points;
+    std::vector<bool> doubtful{};  ///< by point: drawn hollow; empty: none
 };
 
 /// A dashed horizontal line at a value worth comparing with.

@@ -46,6 +46,7 @@ struct Problem {
     double strain_damping = 0;       ///< explicit; it is for tangled cloth, and the references have none
     std::uint32_t record_every = 1;  ///< frames between samples; frame 0 and the last are always samples
     std::string identity{};          ///< what else decides a result, beside what the device is given
+    std::vector<Target> targets{};   ///< the fewest substeps that keep them are looked for by bisection
     bool of_user = false;            ///< a scene of the user's, measured against its own refined runs
     std::function<SceneDescription(std::uint32_t size, const Setting&)> scene{};
     std::function<Metrics(const Recording&, References&)> evaluate{};

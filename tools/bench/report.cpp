@@ -66,33 +66,46 @@ bool below_reference(const Problem& problem, const CaseResult& result) {
     return error && own && *error < *own;
 }
 
-std::string case_row(const Problem& problem, const CaseResult& result, const std::vector<Column>& columns) {
+std::string case_row(const Problem& problem, const CaseResult& result, const std::vector<Column>& columns,
+                     bool doubtful) {
     std::string text = fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}", result.name, number(result.passes),
-                                   result.device_ms, result.wall_ms);
+                                   result.device.median, result.wall.median);
     for (const Column& column : columns) {
         const std::optional<double> value = metric_of(result, column.metric);
         text += fmt::format("{:>13}", value                                          ? number(*value)
                                       : result.diverged && &column == columns.data() ? "diverged"
                                                                                      : "-");
     }
+    if (doubtful) text += "  time doubtful";
     if (below_reference(problem, result)) text += "  below the reference's own error";
     if (result.stiffness_share < 0.995) text += fmt::format("  softened to {:.2f}", result.stiffness_share);
     return text + "\n";
 }
 
-/// Sizes and settings of one problem, in the order they ran.
+/// Sizes and families in the order they ran first, settings of a family by their passes.
+void sort_by_family(std::vector<const CaseResult*>& results) {
+    std::map<std::pair<std::uint32_t, std::string>, std::size_t> places;
+    for (const CaseResult* result : results) places.try_emplace({result->size, result->family()}, places.size());
+    std::ranges::stable_sort(results, {}, [&](const CaseResult* result) {
+        return std::pair(places.at({result->size, result->family()}), result->passes);
+    });
+}
+
+/// Sizes and settings of one problem.
 std::string problem_table(const Problem& problem, const Report& report) {
     std::vector<const CaseResult*> results;
     for (const CaseResult& result : report.results)
         if (result.problem == problem.name) results.push_back(&result);
     if (results.empty()) return {};
+    sort_by_family(results);
     const std::vector<Column> columns = columns_of(problem, results);
     std::string text = fmt::format("\n{} ({}, {})\n", problem.title, problem.metric, problem.unit);
     if (const auto note = report.notes.find(problem.name); note != report.notes.end()) text += note->second;
     text += fmt::format("{:<34}{:>9}{:>11}{:>11}", "case", "passes", "device ms", "wall ms");
     for (const Column& column : columns) text += fmt::format("{:>13}", column.head);
     text += "\n";
-    for (const CaseResult* result : results) text += case_row(problem, *result, columns);
+    for (const CaseResult* result : results)
+        text += case_row(problem, *result, columns, report.doubtful.contains(result->name));
     return text;
 }
 
@@ -103,7 +116,7 @@ std::string cheapest_text(const Report& report, const Problem& problem) {
     for (const CaseResult& result : report.results)
         if (result.problem == problem.name)
             own_error = std::max(own_error, metric_of(result, "reference_error").value_or(0));
-    for (const Target& target : report.targets) {
+    for (const Target& target : problem.targets) {
         const Soonest* best = nullptr;
         for (const Soonest& s : report.soonest)
             if (s.problem == problem.name && s.metric == target.metric && s.limit == target.limit && !s.name.empty() &&
@@ -249,6 +262,7 @@ Json::Value json_list(const std::vector<T>& items) {
 }  // namespace
 
 void evaluate(Report& report) {
+    report.doubtful = doubtful_times(report.results);
     report.orders = fit_orders(order_claims(), report.results);
     report.limits = check_limits(report.results);
     report.soonest = find_soonest(report.results, report.targets);
@@ -299,13 +313,16 @@ std::string report_csv(const Report& report) {
         for (const auto& [name, value] : result.metrics) metrics.insert(name);
     std::string text =
         "case,problem,size,method,substeps,iterations,passes_per_frame,stiffness_share,"
-        "device_ms_per_frame,device_ms_low,device_ms_high,wall_ms_per_frame,diverged";
+        "device_ms_per_frame,device_ms_least,device_ms_spread,wall_ms_per_frame,wall_ms_least,wall_ms_spread,"
+        "time_doubtful,diverged";
     for (const std::string& name : metrics) text += "," + name;
     text += "\n";
     for (const CaseResult& r : report.results) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, named(r.method).name,
-                            r.substeps, r.iterations, r.passes, r.stiffness_share, r.device_ms, r.device_ms_low,
-                            r.device_ms_high, r.wall_ms, r.diverged ? 1 : 0);
+        text += fmt::format("{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, named(r.method).name, r.substeps,
+                            r.iterations, r.passes, r.stiffness_share);
+        for (const Timing& timing : {r.device, r.wall})
+            text += fmt::format(",{},{},{}", timing.median, timing.least, timing.spread);
+        text += fmt::format(",{},{}", report.doubtful.contains(r.name) ? 1 : 0, r.diverged ? 1 : 0);
         for (const std::string& name : metrics) {
             const auto metric = r.metrics.find(name);
             text += metric == r.metrics.end() ? "," : fmt::format(",{}", metric->second);

@@ -18,8 +18,9 @@ struct Report {
     bool is_short = false;
     bool complete = true;  ///< false: the budget of time left cases out
     std::vector<CaseResult> results{};
-    std::map<std::string, std::string> notes{};  ///< by problem: what it is compared with
-    std::vector<Target> targets{{"stretch_error", 0.01}, {"position_rms", 1e-3}};  ///< errors wanted soonest
+    std::map<std::string, std::string> notes{};            ///< by problem: what it is compared with
+    std::map<std::string, std::vector<Target>> targets{};  ///< by problem: errors wanted soonest
+    std::set<std::string> doubtful{};                      ///< cases whose time is not to be trusted
     std::vector<OrderFit> orders{};
     std::vector<LimitCheck> limits{};
     std::vector<Soonest> soonest{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "bench/report.h"
 
@@ -22,17 +23,26 @@ std::string file_name(const std::string& problem, const std::string& rest) {
     return name;
 }
 
-/// A series per family; points by growing x, one per x (of a size: the finest setting, which comes last).
+struct Point {
+    double value;
+    bool doubtful;
+};
+
+/// A series per family; points by growing x, one per x (of a size: the finest setting, which comes last). Cases whose
+/// time is `doubtful` are marked.
 std::vector<PlotSeries> series_of(const std::vector<const CaseResult*>& results, const std::string& metric,
-                                  Coordinate x) {
-    std::map<std::string, std::map<double, double>> families;
+                                  Coordinate x, const std::set<std::string>& doubtful = {}) {
+    std::map<std::string, std::map<double, Point>> families;
     for (const CaseResult* result : results)
         if (const auto found = result->metrics.find(metric); found != result->metrics.end())
-            families[result->family()][x(*result)] = found->second;
+            families[result->family()][x(*result)] = {found->second, doubtful.contains(result->name)};
     std::vector<PlotSeries> series;
     for (const auto& [family, points] : families) {
         series.push_back({family, {}});
-        for (const auto& [at, value] : points) series.back().points.push_back({at, value});
+        for (const auto& [at, point] : points) {
+            series.back().points.push_back({at, point.value});
+            series.back().doubtful.push_back(point.doubtful);
+        }
     }
     return series;
 }
@@ -55,26 +65,28 @@ void add_reference_level(const std::vector<const CaseResult*>& results, LogPlot&
 }
 
 void add_work_plots(const Problem& problem, std::uint32_t size, const std::vector<const CaseResult*>& results,
-                    Plots& plots) {
+                    const std::set<std::string>& doubtful, Plots& plots) {
     struct Error {
         const char *metric, *name, *label;
         double target;
     };
     const Error errors[] = {{"position_rms", "position", "RMS position error, m", 1e-3},
-                            {"stretch_error", "stretch", "RMS stretch error (strain, 1)", 0.01}};
+                            {"stretch_error", "stretch", "RMS stretch error, mean over frames, m/m", 0.01},
+                            {"worst_stretch_error", "worst_stretch", "RMS stretch error, worst frame, m/m", 0.01}};
     struct Work {
         const char *name, *label;
         Coordinate x;
         std::vector<double> slopes;
+        bool is_time;
     };
-    const Work works[] = {{"time", "simulation time per frame, ms", case_milliseconds, {-1, -2}},
-                          {"passes", "passes per frame", passes_of, {-1, -2}}};
+    const Work works[] = {{"time", "simulation time per frame, ms", case_milliseconds, {-1, -2}, true},
+                          {"passes", "passes over all particles per frame, count", passes_of, {-1, -2}, false}};
     for (const Error& error : errors)
         for (const Work& work : works) {
             LogPlot plot{fmt::format("{}, {} x {} links", problem.title, size, size),
                          work.label,
                          error.label,
-                         series_of(results, error.metric, work.x),
+                         series_of(results, error.metric, work.x, work.is_time ? doubtful : std::set<std::string>()),
                          work.slopes,
                          {{fmt::format("{:g}", error.target), error.target}}};
             if (problem.of_user) plot.title = problem.title;
@@ -88,8 +100,8 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
 void add_order_plot(const Problem& problem, const std::vector<const CaseResult*>& results, Plots& plots) {
     const bool by_size = std::ranges::any_of(results, [&](const CaseResult* r) { return r->size != results[0]->size; });
     const LogPlot plot{problem.title,
-                       by_size ? "links N" : "substeps per frame",
-                       fmt::format("{}{}", problem.metric, problem.unit == "1" ? "" : ", " + problem.unit),
+                       by_size ? "links N, count" : "substeps per frame, count",
+                       fmt::format("{}, {}", problem.metric, problem.unit),
                        series_of(results, problem.metric, by_size ? size_of : substeps_of),
                        {-1, -2},
                        {}};
@@ -113,7 +125,7 @@ std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report, 
             add_order_plot(problem, all, plots);
             continue;
         }
-        for (const auto& [size, results] : by_size) add_work_plots(problem, size, results, plots);
+        for (const auto& [size, results] : by_size) add_work_plots(problem, size, results, report.doubtful, plots);
     }
     return plots;
 }

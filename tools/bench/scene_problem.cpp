@@ -188,7 +188,8 @@ UserScene read_user_scene(const std::string& path, const std::vector<std::string
     return user;
 }
 
-Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options, bool is_short) {
+Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options,
+                     std::span<const double> errors, bool is_short) {
     const std::uint32_t links = largest_links(user.scene);
     Problem problem{.name = row_name(user.path),
                     .title = user.scene.name.empty() ? row_name(user.path) : user.scene.name,
@@ -198,6 +199,8 @@ Problem user_problem(const UserScene& user, const Device& device, const Refineme
                     .timed = true,
                     .strain_damping = user.scene.solver.strain_damping};
     problem.of_user = true;
+    problem.targets = {{"stretch_error", default_tolerance}, {"worst_stretch_error", default_tolerance}};
+    for (const double error : errors) problem.targets.push_back({problem.metric, error});
     problem.identity = fmt::format("{} {} {}", user.identity, options.wanted_error, options.most_substeps);
     problem.scene = [scene = user.scene](std::uint32_t, const Setting& setting) {
         SceneDescription result = scene;

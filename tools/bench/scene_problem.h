@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bench/problem.h"
 #include "bench/scene_reference.h"
@@ -33,6 +35,8 @@ inline constexpr double agreement_share = 0.01;
 ///   stretch_rms, stretch_rms_reference   strain, mean over all frames; the reference's only without cutters
 ///   tolerance, substeps_used
 /// `options` for the reference, which is made when the first setting is evaluated; `device` is copied.
-Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options, bool is_short);
+/// `errors` (m) are the targets, beside 1 % of stretch error.
+Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options,
+                     std::span<const double> errors, bool is_short);
 
 }  // namespace drape::bench

@@ -34,6 +34,7 @@ std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, b
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority) {
     std::vector<Sweep> sweeps;
     for (const Method& method : methods()) sweeps.push_back({links, sweep_settings(method, links, false), priority});
+    sweeps.push_back({links, {{SolverMethod::automatic, 1, 1}}, priority});
     std::vector<Setting> two_iterations;
     for (const std::uint32_t substeps : {8u, 20u, 40u}) two_iterations.push_back({SolverMethod::line, substeps, 2});
     sweeps.push_back({links, two_iterations, priority + 1});
@@ -45,6 +46,7 @@ std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_rel
 std::vector<Sweep> short_sweeps(std::uint32_t links, int priority) {
     std::vector<Sweep> sweeps;
     for (const Method& method : methods()) sweeps.push_back({links, sweep_settings(method, links, true), priority});
+    sweeps.push_back({links, {{SolverMethod::automatic, 1, 1}}, priority});
     sweeps.push_back({links, slides_settings({10, 40}), priority});
     return sweeps;
 }

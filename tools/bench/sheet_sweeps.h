@@ -20,7 +20,7 @@ std::vector<Setting> explicit_settings(std::uint32_t links, std::initializer_lis
 /// The method's own sweep (cloth/method.h) for `links` links along the cloth.
 std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, bool quick);
 
-/// Of every method, for `links` links over 1 m. Relaxation needs very many substeps for the position error
+/// Of every method and `auto`, for `links` links over 1 m. Relaxation needs very many substeps for the position error
 /// that the others reach: those cases take longest and have a priority of their own.
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority);
 /// The same in a few settings.

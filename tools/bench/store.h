@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bench/bench_case.h"
+#include "bench/line_file.h"
 
 namespace drape::bench {
 
@@ -15,7 +16,7 @@ class ResultStore {
     /// Reads FILE; a missing one is empty. Lines that are not whole results (the last one of a run that was
     /// killed) are left out, and results of other versions, devices and settings stay there under their own
     /// keys.
-    explicit ResultStore(std::filesystem::path file);
+    explicit ResultStore(const std::filesystem::path& file);
 
     std::optional<CaseResult> find(const std::string& key) const;
     /// Appends and syncs. Throws OutputError.
@@ -23,9 +24,8 @@ class ResultStore {
     std::size_t size() const { return results_.size(); }
 
   private:
-    std::filesystem::path file_;
-    std::map<std::string, CaseResult> results_;
-    bool ends_in_line_ = true;
+    std::map<std::string, CaseResult> results_;  // before the file, which fills it
+    LineFile file_;
 };
 
 /// One line of JSON, without the newline, and back; nothing when it is not one.
