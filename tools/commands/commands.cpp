@@ -5,11 +5,11 @@
 namespace drape::cli {
 
 using AddCommand = void(Program&);
-AddCommand add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy;
+AddCommand add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy, add_bench_auto;
 
 void add_commands(Program& program) {
     for (AddCommand* add :
-         {add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy})
+         {add_render, add_simulate, add_graph, add_check, add_schema, add_devices, add_bench_accuracy, add_bench_auto})
         add(program);
 }
 

@@ -1,0 +1,202 @@
+#include "bench/trial_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "bench/result_json.h"
+#include "output/json_text.h"
+
+namespace drape::bench {
+
+namespace {
+
+std::optional<double> number_of(const TrialResult& result, const std::string& name) {
+    const auto found = result.numbers.find(name);
+    return found == result.numbers.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool is_silent(const TrialResult& result) { return number_of(result, "missed_frames").value_or(0) > 0; }
+
+struct Value {
+    double value;
+    std::string name;  ///< of the scene
+};
+
+using Measure = std::function<std::optional<double>(const TrialResult&)>;
+
+/// Ascending, of the scenes that have it.
+std::vector<Value> values_of(std::span<const TrialResult> results, const Measure& measure) {
+    std::vector<Value> values;
+    for (const TrialResult& result : results)
+        if (const std::optional<double> value = measure(result)) values.push_back({*value, result.name});
+    std::ranges::sort(values, {}, &Value::value);
+    return values;
+}
+
+std::string distribution(const char* what, std::span<const TrialResult> results, const Measure& measure) {
+    const std::vector<Value> values = values_of(results, measure);
+    if (values.empty()) return {};
+    const auto at = [&](double share) {
+        return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+    };
+    return fmt::format("{:<46}{:>6}{:>11.3g}{:>11.3g}{:>11.3g}{:>11.3g}  {}\n", what, values.size(),
+                       values.front().value, at(0.5).value, at(0.9).value, values.back().value, values.back().name);
+}
+
+std::optional<double> ratio(const TrialResult& result, const char* over, const char* under) {
+    const std::optional<double> a = number_of(result, over), b = number_of(result, under);
+    return a && b && *b > 0 ? std::optional(*a / *b) : std::nullopt;
+}
+
+/// Only where the true error is one: above what the reference itself may be off.
+std::optional<double> estimate_ratio(const TrialResult& result) {
+    const std::optional<double> error = number_of(result, "error_at_end"), own = number_of(result, "reference_error");
+    return error && own && *error > 3 * *own ? ratio(result, "motion_estimate", "error_at_end") : std::nullopt;
+}
+
+std::string distributions(std::span<const TrialResult> results) {
+    const auto plain = [](const char* name) { return [name](const TrialResult& r) { return number_of(r, name); }; };
+    const auto share = [](const char* over, const char* under) {
+        return [=](const TrialResult& r) { return ratio(r, over, under); };
+    };
+    std::string text = fmt::format("\n{:<46}{:>6}{:>11}{:>11}{:>11}{:>11}\n", "over scenes", "count", "least", "median",
+                                   "90 %", "worst");
+    text += distribution("substeps per frame, mean of a scene", results, plain("substeps_mean"));
+    text += distribution("substeps per frame, most", results, plain("substeps_max"));
+    text += distribution("redone frames, share", results, share("redone_frames", "frames"));
+    text += distribution("worst RMS stretch error, m/m", results, plain("worst_stretch_error"));
+    text += distribution("worst spring, m/m", results, plain("worst_spring"));
+    text += distribution("wall time, s per frame", results, share("wall_s", "frames"));
+    text += distribution("RMS position error, m, mean over frames", results, plain("error"));
+    text += distribution("RMS position error over the cloth's size, worst", results, share("worst_error", "size"));
+    text += distribution("the reference's own error, m", results, plain("reference_error"));
+    text += distribution("estimated over true motion error", results, estimate_ratio);
+    text += distribution("time over the best fixed setting's", results, share("wall_s", "best_wall_s"));
+    return text;
+}
+
+std::string tag_table(std::span<const TrialResult> results) {
+    struct Row {
+        std::size_t scenes = 0, refused = 0, silent = 0;
+    };
+    std::map<std::string, Row> rows;
+    for (const TrialResult& result : results)
+        for (const std::string& tag : result.tags) {
+            Row& row = rows[tag];
+            ++row.scenes;
+            row.refused += result.outcome != TrialOutcome::kept ? 1 : 0;
+            row.silent += is_silent(result) ? 1 : 0;
+        }
+    std::string text = fmt::format("\n{:<20}{:>8}{:>10}{:>10}\n", "scenes with", "scenes", "refused", "silent");
+    for (const auto& [tag, row] : rows)
+        text += fmt::format("{:<20}{:>8}{:>10}{:>10}\n", tag, row.scenes, row.refused, row.silent);
+    return text;
+}
+
+double refused_share(std::span<const TrialResult> results) {
+    const auto refused =
+        std::ranges::count_if(results, [](const TrialResult& r) { return r.outcome != TrialOutcome::kept; });
+    return static_cast<double>(refused) / std::max<double>(static_cast<double>(results.size()), 1);
+}
+
+}  // namespace
+
+std::vector<std::string> tags_of(const SceneDescription& scene) {
+    std::vector<std::string> tags;
+    const auto add = [&tags](bool has, const char* tag) {
+        if (has) tags.emplace_back(tag);
+    };
+    const auto any_cloth = [&](auto is) { return std::ranges::any_of(scene.cloths, is); };
+    const auto any_pin = [&](auto is) {
+        return any_cloth([&](const Cloth& cloth) { return std::ranges::any_of(cloth.pins, is); });
+    };
+    const auto moves = [](const auto& each) { return each.path.moves(); };
+    const auto longest = [](const Cloth& cloth) { return std::max(cloth.grid[0], cloth.grid[1]); };
+    add(scene.wind.blows(), "wind");
+    add(scene.gravity == Vec3{0, 0, 0}, "weightless");
+    add(any_pin([](const Pin& pin) { return pin.release.has_value(); }), "release");
+    add(any_pin(moves), "moving pins");
+    add(any_cloth([](const Cloth& cloth) { return cloth.pins.empty(); }), "no pins");
+    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.rigid; }), "rigid");
+    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.bend > 0; }), "bending");
+    add(!scene.colliders.empty(), "colliders");
+    add(std::ranges::any_of(scene.colliders, moves), "moving colliders");
+    add(!scene.cutters.empty(), "cutters");
+    add(scene.cloths.size() > 1, "several cloths");
+    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) <= 8; }), "at most 8 a side");
+    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) >= 64; }), "at least 64 a side");
+    return tags;
+}
+
+std::string trial_line(const TrialResult& result) {
+    Json::Value value(Json::objectValue), numbers(Json::objectValue), tags(Json::arrayValue);
+    value["name"] = result.name;
+    value["key"] = result.key;
+    value["outcome"] = std::string(spelling(trial_outcome_spellings, result.outcome));
+    value["reason"] = result.reason;
+    value["method"] = result.method;
+    value["best"] = result.best;
+    for (const std::string& tag : result.tags) tags.append(tag);
+    value["tags"] = tags;
+    for (const auto& [name, number] : result.numbers)
+        if (std::isfinite(number)) numbers[name] = number;
+    value["numbers"] = numbers;
+    return json_line(value);
+}
+
+std::optional<TrialResult> parsed_trial(const std::string& line) {
+    try {
+        const Json::Value value = parsed_line(line);
+        if (!value.isObject() || !value["numbers"].isObject() || !value["tags"].isArray()) return std::nullopt;
+        TrialResult result;
+        for (const auto& [member, text] : {std::pair{"name", &result.name},
+                                           {"key", &result.key},
+                                           {"reason", &result.reason},
+                                           {"method", &result.method},
+                                           {"best", &result.best}}) {
+            if (!value[member].isString()) return std::nullopt;
+            *text = value[member].asString();
+        }
+        const auto outcome =
+            std::ranges::find(trial_outcome_spellings, value["outcome"].asString(), &Spelling<TrialOutcome>::name);
+        if (outcome == std::end(trial_outcome_spellings)) return std::nullopt;
+        result.outcome = outcome->value;
+        for (const Json::Value& tag : value["tags"]) result.tags.push_back(tag.asString());
+        for (const std::string& name : value["numbers"].getMemberNames())
+            result.numbers[name] = value["numbers"][name].asDouble();
+        return result;
+    } catch (const Json::Exception&) {
+        return std::nullopt;
+    }
+}
+
+bool trial_fails(std::span<const TrialResult> results) {
+    return refused_share(results) > 0.01 || std::ranges::any_of(results, is_silent);
+}
+
+std::string trial_text(std::span<const TrialResult> results) {
+    std::string text;
+    for (const TrialResult& result : results)
+        if (result.outcome != TrialOutcome::kept)
+            text += fmt::format("{} {}: {}\n", result.name, spelling(trial_outcome_spellings, result.outcome),
+                                result.reason);
+    for (const TrialResult& result : results)
+        if (is_silent(result))
+            text += fmt::format("{} silently missed in {:g} of {:g} frames: stretch error {:.3g} of {:g}\n",
+                                result.name, result.numbers.at("missed_frames"), result.numbers.at("frames"),
+                                result.numbers.at("worst_stretch_error"), result.numbers.at("tolerance"));
+    text += distributions(results) + tag_table(results);
+    const auto count = static_cast<double>(std::max<std::size_t>(results.size(), 1));
+    const auto silent = std::ranges::count_if(results, is_silent);
+    text +=
+        fmt::format("\n{} scenes: {:.1f} % kept, {:.1f} % refused, {:.1f} % with frames that were silently missed\n",
+                    results.size(), 100 * (1 - refused_share(results)), 100 * refused_share(results),
+                    100 * static_cast<double>(silent) / count);
+    return text;
+}
+
+}  // namespace drape::bench

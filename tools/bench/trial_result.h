@@ -1,0 +1,53 @@
+// What one scene of a trial of `auto` came to.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/bench_case.h"
+#include "drape/scene.h"
+
+namespace drape::bench {
+
+enum class TrialOutcome { kept, tolerance, diverged, failed };
+inline constexpr Spelling<TrialOutcome> trial_outcome_spellings[] = {{"kept", TrialOutcome::kept},
+                                                                     {"tolerance missed", TrialOutcome::tolerance},
+                                                                     {"diverged", TrialOutcome::diverged},
+                                                                     {"failed", TrialOutcome::failed}};
+
+/// Numbers by name (SI units); those that could not be told are missing:
+///   frames, seconds              finished frames after the first, and their simulated time
+///   size                         m, the largest cloth's longer side
+///   substeps_mean, substeps_max, redone_frames, attempts
+///   tolerance, worst_stretch_error, worst_spring, missed_frames (above the tolerance, though handed out)
+///   wall_s
+///   motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
+/// with a reference:
+///   reference_substeps, reference_error, compared_s (until the two references part), error, worst_error (RMS position,
+///   mean over the frames and worst), error_at_end (of what is compared)
+///   best_wall_s                  of the soonest fixed setting that keeps the same limits
+struct TrialResult {
+    std::string name;  ///< "b/1/17": generator, seed, index
+    std::string key;   ///< hash of everything that decides the result
+    TrialOutcome outcome = TrialOutcome::kept;
+    std::string reason;  ///< why it was not kept
+    std::string method;  ///< in use at the end
+    std::string best;    ///< "line/8": the soonest fixed setting that keeps the same limits; empty: none, or not asked
+    std::vector<std::string> tags;  ///< what the scene has: "wind", "release", ...
+    Metrics numbers;
+    bool operator==(const TrialResult&) const = default;
+};
+
+std::vector<std::string> tags_of(const SceneDescription& scene);
+
+/// One line of JSON, and back; nothing when it is not one.
+std::string trial_line(const TrialResult& result);
+std::optional<TrialResult> parsed_trial(const std::string& line);
+
+/// Whether more than 1 % were refused, or a frame was handed out that misses its limits.
+bool trial_fails(std::span<const TrialResult> results);
+std::string trial_text(std::span<const TrialResult> results);
+
+}  // namespace drape::bench

@@ -1,0 +1,352 @@
+#include "bench/wild_scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape::bench {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// SplitMix64 (Steele, Lea, Flood 2014). No call draws twice in its arguments: their order would be the compiler's.
+class Dice {
+  public:
+    Dice(std::uint64_t seed, std::uint32_t index) : state_(seed * 0x9E3779B97F4A7C15u + index) { next(), next(); }
+
+    double uniform(double low, double high) { return low + (high - low) * unit(); }
+    double log_uniform(double low, double high) { return low * std::pow(high / low, unit()); }
+    bool chance(double probability) { return unit() < probability; }
+    std::uint32_t below(std::uint32_t count) { return std::min(static_cast<std::uint32_t>(unit() * count), count - 1); }
+    std::uint64_t next() {
+        std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+        return z ^ (z >> 31);
+    }
+    /// Uniform over the sphere.
+    Vec3 direction() {
+        const double z = uniform(-1, 1), angle = uniform(0, 2 * pi), r = std::sqrt(1 - z * z);
+        return {r * std::cos(angle), r * std::sin(angle), z};
+    }
+    /// Of log-uniform length, in any direction.
+    Vec3 vector(double shortest, double longest) {
+        const double length = log_uniform(shortest, longest);
+        const Vec3 way = direction();
+        return {length * way[0], length * way[1], length * way[2]};
+    }
+    /// A unit vector that leans away from `way` by up to `most` of its length.
+    Vec3 leaning(const Vec3& way, double most) {
+        const double share = uniform(0, most);
+        const Vec3 aside = direction();
+        Vec3 sum = way;
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += share * aside[k];
+        const double length = std::hypot(sum[0], sum[1], sum[2]);
+        return {sum[0] / length, sum[1] / length, sum[2] / length};
+    }
+
+  private:
+    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+    std::uint64_t state_;
+};
+
+Vec3 along(const Vec3& from, double distance, const Vec3& direction) {
+    return {from[0] + distance * direction[0], from[1] + distance * direction[1], from[2] + distance * direction[2]};
+}
+double inner(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3 scaled(const Vec3& a, double factor) { return {factor * a[0], factor * a[1], factor * a[2]}; }
+Vec3 unit_of(const Vec3& a) { return scaled(a, 1 / std::sqrt(inner(a, a))); }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double duration(const SceneDescription& scene) { return (scene.time.frame_count - 1) / scene.time.fps; }
+
+/// Where particle-like point (s, t) in [0, 1]^2 of the flat cloth starts.
+Vec3 point_of(const Cloth& cloth, double s, double t) {
+    return along(along(cloth.placement.origin, s * cloth.size[0], cloth.placement.u), t * cloth.size[1],
+                 cloth.placement.v);
+}
+
+/// A grid of its own shape; cells up to four times as long as wide.
+void draw_shape(Cloth& cloth, Dice& dice) {
+    for (std::uint32_t& side : cloth.grid)
+        side = static_cast<std::uint32_t>(std::lround(dice.log_uniform(1.5001, 129.4999)));
+    const double cell = dice.log_uniform(0.2, 3) / (cloth.grid[0] - 1);
+    cloth.size = {cell * (cloth.grid[0] - 1), cell * dice.log_uniform(0.25, 4) * (cloth.grid[1] - 1)};
+    // Ribbons of many cells stay in a room.
+    const double shrink = std::min(1.0, 4 / std::max(cloth.size[0], cloth.size[1]));
+    for (double& side : cloth.size) side *= shrink;
+}
+
+void draw_fabric(Cloth& cloth, Dice& dice) {
+    cloth.areal_density = dice.log_uniform(0.02, 1);
+    cloth.stiffness.rigid = dice.chance(0.12);
+    cloth.stiffness.stretch = dice.log_uniform(50, 5e4);
+    cloth.stiffness.shear = cloth.stiffness.stretch * dice.log_uniform(0.01, 0.6);
+    cloth.stiffness.bend = dice.chance(0.5) ? 0 : dice.log_uniform(1e-7, 1e-2);
+    cloth.damping = dice.chance(0.5) ? 0 : dice.log_uniform(0.03, 6);
+    cloth.friction = dice.uniform(0, 1);
+    cloth.thickness = dice.uniform(0.001, 0.012);
+}
+
+void draw_place(Cloth& cloth, std::size_t number, Dice& dice) {
+    const Vec3 u = dice.direction();
+    Vec3 other = dice.direction();
+    while (std::abs(inner(u, other)) > 0.9) other = dice.direction();
+    // Three of ten hang straight down or lie flat.
+    const double kind = dice.uniform(0, 1);
+    if (kind < 0.15)
+        cloth.placement = {{}, {1, 0, 0}, {0, -1, 0}};
+    else if (kind < 0.3)
+        cloth.placement = {{}, {1, 0, 0}, {0, 0, 1}};
+    else
+        cloth.placement = {{}, u, unit_of(along(other, -inner(u, other), u))};
+    const Vec3 middle = {6.0 * static_cast<double>(number), dice.uniform(-0.5, 2), 0};
+    cloth.placement.origin =
+        along(along(middle, -0.5 * cloth.size[0], cloth.placement.u), -0.5 * cloth.size[1], cloth.placement.v);
+    if (dice.chance(0.3)) cloth.velocity = dice.vector(0.1, 5);
+}
+
+/// Through a few places and attitudes, at up to `speed` m/s.
+MotionPath draw_path(double seconds, double speed, Dice& dice) {
+    const std::uint32_t legs = 1 + dice.below(4);
+    const double begin = dice.chance(0.5) ? 0 : dice.uniform(0, 0.5 * seconds);
+    const double leg = (seconds - begin) / legs * dice.uniform(0.3, 1);
+    MotionPath path{{{begin, {}, {}}}};
+    for (std::uint32_t k = 1; k <= legs; ++k) {
+        MotionKey key = path.keys.back();
+        key.time = begin + k * leg;
+        // Catmull-Rom overshoots: the mean speed of a leg stays well below the largest.
+        const double shift = leg * dice.uniform(0, 0.6 * speed);
+        key.translate = along(key.translate, shift, dice.direction());
+        if (dice.chance(0.4))
+            for (double& angle : key.rotate) angle += dice.uniform(-120, 120) * leg;
+        path.keys.push_back(key);
+    }
+    return path;
+}
+
+/// By `share` of its length over `seconds`, then still.
+MotionPath pull(const Vec3& direction, double length, double share, double seconds) {
+    return {{{0, {}, {}}, {seconds, scaled(direction, share * length), {}}}};
+}
+
+void pin_taut(Cloth& cloth, double seconds, Dice& dice) {
+    const std::uint32_t right = cloth.grid[0] - 1, bottom = cloth.grid[1] - 1;
+    const bool sideways = dice.chance(0.5);
+    const double share = cloth.stiffness.rigid ? 0 : dice.log_uniform(0.002, 0.15),
+                 time = seconds * dice.uniform(0.2, 1);
+    Pin first, second;
+    first.particles = sideways ? IndexBox{{0, 0}, {0, bottom}} : IndexBox{{0, 0}, {right, 0}};
+    second.particles = sideways ? IndexBox{{right, 0}, {right, bottom}} : IndexBox{{0, bottom}, {right, bottom}};
+    if (share > 0)
+        second.path = pull(sideways ? cloth.placement.u : cloth.placement.v, cloth.size[sideways ? 0 : 1], share, time);
+    cloth.pins = {first, second};
+}
+
+void pin_points(Cloth& cloth, Dice& dice) {
+    for (std::uint32_t k = 1 + dice.below(3); k > 0; --k) {
+        const std::array<std::uint32_t, 2> at = {dice.below(cloth.grid[0]), dice.below(cloth.grid[1])};
+        if (std::ranges::none_of(cloth.pins, [&](const Pin& pin) { return pin.particles.first == at; })) {
+            cloth.pins.emplace_back();
+            cloth.pins.back().particles = {at, at};
+        }
+    }
+}
+
+void draw_pins(Cloth& cloth, double seconds, Dice& dice) {
+    const std::uint32_t right = cloth.grid[0] - 1, bottom = cloth.grid[1] - 1;
+    const auto add = [&](const IndexBox& box) {
+        cloth.pins.emplace_back();
+        cloth.pins.back().particles = box;
+    };
+    switch (dice.below(7)) {
+        case 0:
+            break;  // falls or flies
+        case 1:
+            add({{0, 0}, {right, 0}});
+            break;
+        case 2:
+            add({{0, 0}, {0, bottom}});
+            break;
+        case 3:
+            add({{0, 0}, {0, 0}}), add({{right, 0}, {right, 0}});
+            break;
+        case 4:
+            pin_points(cloth, dice);
+            break;
+        case 5:
+            pin_taut(cloth, seconds, dice);
+            break;
+        default:
+            for (const std::uint32_t column : {0u, right})
+                for (const std::uint32_t row : {0u, bottom}) add({{column, row}, {column, row}});
+    }
+    // One path for all pins: apart they would pull cloth to any length.
+    const bool pulled = std::ranges::any_of(cloth.pins, [](const Pin& pin) { return pin.path.moves(); });
+    if (!pulled && dice.chance(0.45)) {
+        const MotionPath path = draw_path(seconds, dice.log_uniform(0.2, 8), dice);
+        const Vec3 pivot = point_of(cloth, 0.5, 0.5);
+        for (Pin& pin : cloth.pins) pin.path = path, pin.pivot = pivot;
+    }
+    for (Pin& pin : cloth.pins)
+        if (dice.chance(0.25)) pin.release = dice.uniform(0.02, 1) * seconds;
+    cloth.velocity = cloth.pins.empty() ? cloth.velocity : Vec3{};
+}
+
+void draw_forces(SceneDescription& scene, Dice& dice) {
+    const double kind = dice.uniform(0, 1);
+    if (kind < 0.15)
+        scene.gravity = {0, 0, 0};
+    else if (kind < 0.25)
+        scene.gravity = dice.vector(1, 20);
+    if (!dice.chance(0.55)) return;
+    scene.wind.velocity = dice.vector(0.5, 60);
+    scene.wind.drag = dice.uniform(0.3, 2);
+    scene.wind.lift = dice.uniform(0, 1);
+    const double speed = std::sqrt(inner(scene.wind.velocity, scene.wind.velocity));
+    if (dice.chance(0.6))
+        scene.wind.gust = {speed * dice.uniform(0.1, 0.8), dice.uniform(0.1, 3),
+                           static_cast<std::uint32_t>(dice.next() >> 40)};
+}
+
+struct Ball {
+    Vec3 center;
+    double radius;
+};
+
+/// Around a collider of any kind but a plane, about its own centre.
+double bounding_radius(const ColliderShape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+    if (const auto* box = std::get_if<Box>(&shape)) return std::sqrt(inner(box->half_extents, box->half_extents));
+    if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) return std::ranges::max(ellipsoid->radii);
+    const auto& capsule = std::get<Capsule>(shape);
+    const Vec3 axis = along(capsule.to, -1, capsule.from);
+    return 0.5 * std::sqrt(inner(axis, axis)) + std::ranges::max(capsule.radii);
+}
+
+/// A shape about the origin.
+ColliderShape draw_solid(double size, Dice& dice) {
+    const auto side = [&] { return size * dice.log_uniform(0.25, 1); };
+    switch (dice.below(4)) {
+        case 0:
+            return Sphere{{}, side()};
+        case 1: {
+            const double x = side(), y = side(), z = side();
+            return Box{{}, {x, y, z}};
+        }
+        case 2: {
+            const double x = side(), y = side(), z = side();
+            return Ellipsoid{{}, {x, y, z}};
+        }
+        default: {
+            const double length = side();
+            const Vec3 half = scaled(dice.direction(), length);
+            const double from = 0.5 * side(), to = 0.5 * side();
+            return Capsule{scaled(half, -1), half, {from, to}};
+        }
+    }
+}
+
+void move_to(ColliderShape& shape, const Vec3& place) {
+    if (auto* sphere = std::get_if<Sphere>(&shape)) sphere->center = place;
+    if (auto* box = std::get_if<Box>(&shape)) box->center = place;
+    if (auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) ellipsoid->center = place;
+    if (auto* capsule = std::get_if<Capsule>(&shape)) {
+        capsule->from = along(capsule->from, 1, place);
+        capsule->to = along(capsule->to, 1, place);
+    }
+}
+
+bool clear_of(const std::vector<Cloth>& cloths, const Ball& ball) {
+    for (const Cloth& cloth : cloths)
+        for (int i = 0; i <= 16; ++i)
+            for (int j = 0; j <= 16; ++j) {
+                const Vec3 apart = along(point_of(cloth, i / 16.0, j / 16.0), -1, ball.center);
+                // The points are up to a 32nd of the sides from everything between them.
+                const double room = ball.radius + 0.02 + cloth.thickness + (cloth.size[0] + cloth.size[1]) / 32;
+                if (inner(apart, apart) < room * room) return false;
+            }
+    return true;
+}
+
+void add_plane(SceneDescription& scene, Dice& dice) {
+    const Vec3 up = dice.chance(0.7) ? Vec3{0, 1, 0} : dice.leaning({0, 1, 0}, 0.6);
+    double lowest = 1e300;
+    for (const Cloth& cloth : scene.cloths)
+        for (const double s : {0.0, 1.0})
+            for (const double t : {0.0, 1.0}) lowest = std::min(lowest, inner(up, point_of(cloth, s, t)));
+    Collider plane{Plane{up, lowest - dice.uniform(0.05, 0.6)}};
+    plane.friction = dice.uniform(0, 1);
+    scene.colliders.push_back(plane);
+}
+
+/// Beside a cloth, mostly where gravity takes it.
+void add_solid(SceneDescription& scene, Dice& dice) {
+    const Cloth& cloth = scene.cloths[dice.below(static_cast<std::uint32_t>(scene.cloths.size()))];
+    Collider solid{draw_solid(dice.log_uniform(0.1, 0.6) * std::max(cloth.size[0], cloth.size[1]), dice)};
+    const bool falls = inner(scene.gravity, scene.gravity) > 0 && dice.chance(0.7);
+    const Vec3 way = falls ? dice.leaning(unit_of(scene.gravity), 0.5) : dice.direction();
+    const double s = dice.uniform(0, 1), t = dice.uniform(0, 1);
+    Ball ball{point_of(cloth, s, t), bounding_radius(solid.shape)};
+    const double step = 0.1 * ball.radius + 0.02;
+    for (int k = 0; k < 400 && !clear_of(scene.cloths, ball); ++k) ball.center = along(ball.center, step, way);
+    move_to(solid.shape, ball.center);
+    solid.friction = dice.uniform(0, 1);
+    if (dice.chance(0.5))
+        for (double& angle : solid.rotate) angle = dice.uniform(-180, 180);
+    if (dice.chance(0.4)) solid.path = draw_path(duration(scene), dice.log_uniform(0.1, 3), dice);
+    scene.colliders.push_back(solid);
+}
+
+/// A blade through a cloth, at rest or swept along.
+void add_cutter(SceneDescription& scene, Dice& dice) {
+    const Cloth& cloth = scene.cloths[dice.below(static_cast<std::uint32_t>(scene.cloths.size()))];
+    const double s = dice.uniform(0.1, 0.9), t = dice.uniform(0.1, 0.9);
+    const Vec3 middle = point_of(cloth, s, t), normal = unit_of(cross(cloth.placement.u, cloth.placement.v));
+    const double reach = dice.uniform(0.1, 0.6) * std::max(cloth.size[0], cloth.size[1]),
+                 turn = dice.uniform(0, 2 * pi);
+    const Vec3 edge = along(scaled(cloth.placement.u, std::cos(turn)), std::sin(turn), cloth.placement.v);
+    Cutter cutter;
+    cutter.triangle = {along(along(middle, -reach, edge), -0.4 * reach, normal),
+                       along(along(middle, reach, edge), -0.4 * reach, normal), along(middle, reach, normal)};
+    cutter.begin = dice.uniform(0, 0.8) * duration(scene);
+    cutter.end = cutter.begin + dice.uniform(0.05, 0.6) * duration(scene);
+    if (dice.chance(0.6)) cutter.path = draw_path(duration(scene), dice.log_uniform(0.2, 3), dice);
+    scene.cutters.push_back(cutter);
+}
+
+}  // namespace
+
+SceneDescription wild_scene(std::uint64_t seed, std::uint32_t index) {
+    Dice dice(seed, index);
+    SceneDescription scene;
+    scene.name = fmt::format("wild_{}_{}", seed, index);
+    scene.time.fps = dice.chance(0.75) ? 60 : dice.chance(0.5) ? 30 : 120;
+    scene.time.frame_count = 30 + dice.below(61);
+    draw_forces(scene, dice);
+    const double many = dice.uniform(0, 1);
+    const std::size_t cloth_count = many < 0.7 ? 1 : many < 0.9 ? 2 : 3;
+    for (std::size_t number = 0; number < cloth_count; ++number) {
+        Cloth cloth;
+        cloth.name = fmt::format("cloth{}", number);
+        draw_shape(cloth, dice);
+        draw_fabric(cloth, dice);
+        draw_place(cloth, number, dice);
+        draw_pins(cloth, duration(scene), dice);
+        scene.cloths.push_back(cloth);
+    }
+    if (dice.chance(0.5))
+        for (std::uint32_t k = 1 + dice.below(4); k > 0; --k)
+            dice.chance(0.25) ? add_plane(scene, dice) : add_solid(scene, dice);
+    if (dice.chance(0.15))
+        for (std::uint32_t k = 1 + dice.below(2); k > 0; --k) add_cutter(scene, dice);
+    scene.solver.method = SolverMethod::automatic;
+    return scene;
+}
+
+}  // namespace drape::bench
