@@ -104,6 +104,23 @@ TEST(BenchAccuracy, AUsersSceneIsMeasuredAgainstItsOwnRefinedRuns) {
     EXPECT_EQ(second.out.substr(second.out.find('\n')), first.out.substr(first.out.find('\n')));
 }
 
+TEST(BenchAccuracy, FewestSubstepsAreLookedForAndNoneTwice) {
+    const SceneFolder folder(small_scene(7));
+    const std::vector<std::string> arguments = {
+        "bench",    "accuracy",   folder.scene(),         "--error", "1e-2", "--filter", "(line|relax)/",
+        "--folder", folder.out(), "--reference-substeps", "64"};
+    const Outcome outcome = drape(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string csv = read_text(folder.out() + "/accuracy.csv");
+    std::set<std::string> names;
+    std::size_t row_count = 0;
+    for (std::size_t at = csv.find('\n') + 1; at < csv.size(); at = csv.find('\n', at) + 1, ++row_count)
+        names.insert(csv.substr(at, csv.find(',', at) - at));
+    EXPECT_EQ(names.size(), row_count);
+    EXPECT_TRUE(names.contains("scene/7/line/2")) << "the sweep begins with 4";
+    EXPECT_FALSE(drape(arguments).code);
+}
+
 TEST(BenchAuto, JudgesScenesAndGoesOnWhereItEnded) {
     const TemporaryFolder folder;
     std::vector<std::string> arguments = {"bench",      "auto", "--first",        "8", "--count", "1",

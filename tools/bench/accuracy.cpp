@@ -167,17 +167,20 @@ class AccuracyRun {
     }
 
     /// A sweep's steps are wide, and who happens to have a setting just fine enough would win: the fewest substeps (or
-    /// iterations of one substep) that keep the target are looked for, among all settings of the sweep's family.
+    /// iterations of one substep) that keep the target are looked for, among all settings like the sweep's.
     void bisect(const PlannedSweep& p, const Target& target, AccuracySummary& summary) {
         if (p.sweep.settings.size() < 2) return;
         Setting setting = p.sweep.settings[0];
         const bool by_iterations = setting.substeps == p.sweep.settings[1].substeps;
-        const std::string family = family_name(setting.method, setting.substeps, setting.iterations);
+        const auto is_like = [&](const CaseResult& result) {
+            return result.problem == p.problem->name && result.size == p.sweep.size &&
+                   result.method == setting.method &&
+                   (by_iterations ? result.substeps == setting.substeps : result.iterations == setting.iterations);
+        };
         while (true) {
             std::vector<SweepPoint> points;
             for (const CaseResult& result : results_) {
-                if (result.problem != p.problem->name || result.size != p.sweep.size || result.family() != family)
-                    continue;
+                if (!is_like(result)) continue;
                 if (cannot_tell(*p.problem, target, result)) return;
                 const auto found = result.metrics.find(target.metric);
                 points.push_back({by_iterations ? result.iterations : result.substeps,

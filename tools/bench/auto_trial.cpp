@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "bench/line_file.h"
@@ -26,12 +24,6 @@ namespace fs = std::filesystem;
 
 const SceneGenerator generators[] = {
     {"a", full_random_scene}, {"b", [](std::uint32_t seed, std::uint32_t index) { return wild_scene(seed, index); }}};
-
-/// Of the program itself: what auto does is in it, and changes without a new version.
-std::string program_hash() {
-    std::ifstream file("/proc/self/exe", std::ios::binary);
-    return xxh3_128_hex(std::string(std::istreambuf_iterator<char>(file), {}));
-}
 
 class Trial {
   public:
@@ -68,9 +60,9 @@ class Trial {
 
     std::string key_of(std::uint32_t index) const {
         const DeviceInfo& device = device_.info();
-        return run_key(std::vector<std::string>{program_hash_, device.uuid_text(), device.driver, device.driver_version,
-                                                name_of(index), fmt::format("{}", request_.tolerance),
-                                                request_.reference ? "reference" : ""});
+        return run_key(std::vector<std::string>{
+            program_hash(), device.uuid_text(), device.driver, device.driver_version, name_of(index),
+            fmt::format("{}", request_.tolerance), request_.reference ? "reference" : ""});
     }
 
     void run_scene(std::uint32_t index, const std::string& key) {
@@ -103,7 +95,6 @@ class Trial {
 
     const TrialRequest& request_;
     const Device& device_;
-    std::string program_hash_ = program_hash();
     std::map<std::string, TrialResult> known_;
     std::vector<TrialResult> results_;
     LineFile file_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 
 #include "cloth/frame_inputs.h"
@@ -180,6 +182,14 @@ SimulationModel model_of(const DeviceInfo& device, const Problem& problem, std::
 
 }  // namespace
 
+const std::string& program_hash() {
+    static const std::string hash = [] {
+        std::ifstream file("/proc/self/exe", std::ios::binary);
+        return xxh3_128_hex(std::string(std::istreambuf_iterator<char>(file), {}));
+    }();
+    return hash;
+}
+
 std::string shaders_hash() {
     std::vector<std::string> parts;
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
@@ -224,6 +234,7 @@ std::string case_key(const DeviceInfo& device, const Problem& problem, std::uint
     parts.push_back(fmt::format("{} frames, {}/s, every {}", model.scene.time.frame_count, model.scene.time.fps,
                                 problem.record_every));
     parts.push_back(shaders_hash());
+    if (setting.method == SolverMethod::automatic) parts.push_back(program_hash());
     return run_key(parts);
 }
 

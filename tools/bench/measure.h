@@ -12,6 +12,8 @@ namespace drape::bench {
 /// Thrown when `stop` said so.
 struct Stopped {};
 
+/// Of the program itself: what `auto` decides is in it, and changes without a new version.
+const std::string& program_hash();
 /// Of all shader modules.
 std::string shaders_hash();
 

@@ -24,23 +24,23 @@ std::string file_name(const std::string& problem, const std::string& rest) {
 }
 
 struct Point {
-    double value;
+    double x, value;
     bool doubtful;
 };
 
-/// A series per family; points by growing x, one per x (of a size: the finest setting, which comes last). Cases whose
-/// time is `doubtful` are marked.
+/// A series per family, one point per `order` and joined in it (of a size: the finest setting, which comes last). Cases
+/// whose time is `doubtful` are marked.
 std::vector<PlotSeries> series_of(const std::vector<const CaseResult*>& results, const std::string& metric,
-                                  Coordinate x, const std::set<std::string>& doubtful = {}) {
+                                  Coordinate x, Coordinate order, const std::set<std::string>& doubtful = {}) {
     std::map<std::string, std::map<double, Point>> families;
     for (const CaseResult* result : results)
         if (const auto found = result->metrics.find(metric); found != result->metrics.end())
-            families[result->family()][x(*result)] = {found->second, doubtful.contains(result->name)};
+            families[result->family()][order(*result)] = {x(*result), found->second, doubtful.contains(result->name)};
     std::vector<PlotSeries> series;
     for (const auto& [family, points] : families) {
         series.push_back({family, {}});
-        for (const auto& [at, point] : points) {
-            series.back().points.push_back({at, point.value});
+        for (const auto& [place, point] : points) {
+            series.back().points.push_back({point.x, point.value});
             series.back().doubtful.push_back(point.doubtful);
         }
     }
@@ -83,12 +83,13 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
                           {"passes", "passes over all particles per frame, count", passes_of, {-1, -2}, false}};
     for (const Error& error : errors)
         for (const Work& work : works) {
-            LogPlot plot{fmt::format("{}, {} x {} links", problem.title, size, size),
-                         work.label,
-                         error.label,
-                         series_of(results, error.metric, work.x, work.is_time ? doubtful : std::set<std::string>()),
-                         work.slopes,
-                         {{fmt::format("{:g}", error.target), error.target}}};
+            LogPlot plot{
+                fmt::format("{}, {} x {} links", problem.title, size, size),
+                work.label,
+                error.label,
+                series_of(results, error.metric, work.x, passes_of, work.is_time ? doubtful : std::set<std::string>()),
+                work.slopes,
+                {{fmt::format("{:g}", error.target), error.target}}};
             if (problem.of_user) plot.title = problem.title;
             if (problem.of_user && error.metric == problem.metric) add_reference_level(results, plot);
             if (problem.name == "strip") plot.title = fmt::format("{}, {} links long", problem.title, size);
@@ -99,12 +100,13 @@ void add_work_plots(const Problem& problem, std::uint32_t size, const std::vecto
 
 void add_order_plot(const Problem& problem, const std::vector<const CaseResult*>& results, Plots& plots) {
     const bool by_size = std::ranges::any_of(results, [&](const CaseResult* r) { return r->size != results[0]->size; });
-    const LogPlot plot{problem.title,
-                       by_size ? "links N, count" : "substeps per frame, count",
-                       fmt::format("{}, {}", problem.metric, problem.unit),
-                       series_of(results, problem.metric, by_size ? size_of : substeps_of),
-                       {-1, -2},
-                       {}};
+    const LogPlot plot{
+        problem.title,
+        by_size ? "links N, count" : "substeps per frame, count",
+        fmt::format("{}, {}", problem.metric, problem.unit),
+        series_of(results, problem.metric, by_size ? size_of : substeps_of, by_size ? size_of : substeps_of),
+        {-1, -2},
+        {}};
     if (worth_drawing(plot)) plots.emplace_back(file_name(problem.name, by_size ? "size" : "substeps"), plot);
 }
 
