@@ -6,6 +6,7 @@
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
+#include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { BendPush push; };
@@ -33,16 +34,19 @@ void main() {
     vec4 position_first = imageLoad(position, first);
     vec4 position_middle = imageLoad(position, middle);
     vec4 position_third = imageLoad(position, third);
-    vec3 moved_first = imageLoad(displacement_in, first).xyz;
-    vec3 moved_middle = imageLoad(displacement_in, middle).xyz;
-    vec3 moved_third = imageLoad(displacement_in, third).xyz;
+    vec4 moved_first = imageLoad(displacement_in, first);
+    vec4 moved_middle = imageLoad(displacement_in, middle);
+    vec4 moved_third = imageLoad(displacement_in, third);
+    float weight_first = dragged_weight(position_first.w, moved_first.w);
+    float weight_middle = dragged_weight(position_middle.w, moved_middle.w);
+    float weight_third = dragged_weight(position_third.w, moved_third.w);
     vec3 difference =
-        second_difference(spring_edge(position_middle.xyz, position_first.xyz, moved_middle, moved_first),
-                          spring_edge(position_middle.xyz, position_third.xyz, moved_middle, moved_third));
-    vec3 correction = project_bend(difference, bend_weight(position_first.w, position_middle.w, position_third.w),
+        second_difference(spring_edge(position_middle.xyz, position_first.xyz, moved_middle.xyz, moved_first.xyz),
+                          spring_edge(position_middle.xyz, position_third.xyz, moved_middle.xyz, moved_third.xyz));
+    vec3 correction = project_bend(difference, bend_weight(weight_first, weight_middle, weight_third),
                                    bend_share(share_of(first), share_of(middle)), push.compliance);
-    precise float weight_middle = -2.0f * position_middle.w;
-    imageStore(displacement_out, first, vec4(moved_by(moved_first, correction, position_first.w), 0.0f));
-    imageStore(displacement_out, middle, vec4(moved_by(moved_middle, correction, weight_middle), 0.0f));
-    imageStore(displacement_out, third, vec4(moved_by(moved_third, correction, position_third.w), 0.0f));
+    precise float coefficient = -2.0f * weight_middle;
+    imageStore(displacement_out, first, vec4(moved_by(moved_first.xyz, correction, weight_first), moved_first.w));
+    imageStore(displacement_out, middle, vec4(moved_by(moved_middle.xyz, correction, coefficient), moved_middle.w));
+    imageStore(displacement_out, third, vec4(moved_by(moved_third.xyz, correction, weight_third), moved_third.w));
 }

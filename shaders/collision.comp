@@ -16,7 +16,8 @@ void main() {
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec4 start = imageLoad(position, texel);
     if (start.w == 0.0f) return;
-    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    vec4 moved = imageLoad(displacement_in, texel);
+    vec3 displacement = moved.xyz;
     bool touched = false;
     // Out of one collider may be into another: repeat until nothing is touched any more.
     for (int round = 0; round < round_count; ++round) {
@@ -25,5 +26,5 @@ void main() {
         touched = touched || contact.depth > 0.0f;
         if (!(contact.depth > push.contact.z)) break;
     }
-    if (touched) imageStore(displacement_out, texel, vec4(displacement, 0.0f));
+    if (touched) imageStore(displacement_out, texel, vec4(displacement, moved.w));
 }

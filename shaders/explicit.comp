@@ -150,8 +150,8 @@ void main() {
         pull = gather_bend(pull, center, ivec2(0, 1), 1, push.bend.y);
         pull = gather_twist(pull, center);
     }
-    vec3 force = force_on(texel);
-    vec3 increment = explicit_increment(displacement, push.gravity_step.xyz, force, pull, position.w, push.force_step,
-                                        push.damping_loss);
-    step_displacement(texel, displacement, increment);
+    vec4 force = force_on(texel);
+    vec3 increment = explicit_increment(displacement, push.gravity_step.xyz, force.xyz, pull, position.w,
+                                        push.force_step, push.damping_loss);
+    step_displacement(texel, displacement, increment, drag_loss(force.w, position.w, push.force_step));
 }

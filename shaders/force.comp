@@ -18,8 +18,8 @@ void main() {
     vec3 displacement = imageLoad(displacement_in, texel).xyz;
     if (advance) advance_position(texel, position, displacement);
     if (position.w == 0.0f) return;
-    vec3 force = force_on(texel);
+    vec4 force = force_on(texel);
     vec3 increment =
-        verlet_increment(displacement, push.gravity_step.xyz, force, position.w, push.force_step, push.damping_loss);
-    step_displacement(texel, displacement, increment);
+        verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w, push.force_step, push.damping_loss);
+    step_displacement(texel, displacement, increment, drag_loss(force.w, position.w, push.force_step));
 }

@@ -7,6 +7,7 @@
 #pragma variants SECOND_ORDER MASKED TENSION
 #include "shared/line_types.h"
 #include "include/line.h"
+#include "include/verlet.h"
 
 layout(local_size_x = line_group_width) in;
 layout(push_constant) uniform Push { LinePush push; };
@@ -26,12 +27,14 @@ layout(set = 0, binding = 7, r32ui) uniform uimage2D control;
 #endif
 
 struct LineParticle {
-    vec4 position;
+    vec4 position;  // w: as its springs feel it, with the wind's drag
     vec3 displacement;
+    float loss;  // to drag, kept beside the displacement
 };
 
 LineParticle load_particle(ivec2 at) {
-    return LineParticle(imageLoad(position, at), imageLoad(displacement_in, at).xyz);
+    vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
+    return LineParticle(vec4(start.xyz, dragged_weight(start.w, moved.w)), moved.xyz, moved.w);
 }
 
 LineSpring spring_between(LineParticle first, LineParticle second) {
@@ -101,7 +104,7 @@ LinePlace eliminate_line(int line, float compliance, float followed) {
 }
 
 void move_particle(ivec2 at, LineParticle particle, vec3 correction) {
-    imageStore(displacement_out, at, vec4(moved_by(particle.displacement, correction, particle.position.w), 0.0f));
+    imageStore(displacement_out, at, vec4(moved_by(particle.displacement, correction, particle.position.w), particle.loss));
 }
 
 /// From the end of the line back; a particle is written once both its springs are known.

@@ -30,15 +30,18 @@ void main() {
     imageStore(displacement_before_out, texel, vec4(displacement, 0.0f));
     imageStore(velocity_excess_out, texel, vec4(excess, 0.0f));
     if (position.w == 0.0f) return;
-    vec3 force = force_on(texel);
+    vec4 force = force_on(texel);
     vec3 increment;
+    float loss;
     if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
-        vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force, position.w, push.force_step.y);
+        vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force.xyz, position.w, push.force_step.y);
         increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
                                    push.loss.y);
+        loss = drag_loss(bdf2_drag(force.w), position.w, push.force_step.y);
     } else {
-        vec3 forced = forced_step(push.gravity_step.xyz, force, position.w, push.force_step.x);
+        vec3 forced = forced_step(push.gravity_step.xyz, force.xyz, position.w, push.force_step.x);
         increment = euler_increment(displacement, excess, forced, push.loss.x);
+        loss = drag_loss(force.w, position.w, push.force_step.x);
     }
-    step_displacement(texel, displacement, increment);
+    step_displacement(texel, displacement, increment, loss);
 }

@@ -6,6 +6,7 @@
 #pragma variants MASKED TENSION
 #include "shared/simulation_types.h"
 #include "include/spring.h"
+#include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SpringPush push; };
@@ -27,8 +28,10 @@ void main() {
     ivec2 second = first + push.offset;
     vec4 position_first = imageLoad(position, first);
     vec4 position_second = imageLoad(position, second);
-    vec3 displacement_first = imageLoad(displacement_in, first).xyz;
-    vec3 displacement_second = imageLoad(displacement_in, second).xyz;
+    vec4 displacement_first = imageLoad(displacement_in, first);
+    vec4 displacement_second = imageLoad(displacement_in, second);
+    float weight_first = dragged_weight(position_first.w, displacement_first.w);
+    float weight_second = dragged_weight(position_second.w, displacement_second.w);
 #ifdef MASKED
     float share = imageLoad(spring_share_image, first)[push.channel];
 #else
@@ -38,13 +41,13 @@ void main() {
 #ifdef TENSION
     if (push.first_iteration == 0) tension = imageLoad(tension_in, first).x;
 #endif
-    vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first, displacement_second);
-    precise float weight_sum = position_first.w + position_second.w;
+    vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
+    precise float weight_sum = weight_first + weight_second;
     SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compliance, tension);
-    vec3 moved_first = moved_by(displacement_first, result.correction, -position_first.w);
-    vec3 moved_second = moved_by(displacement_second, result.correction, position_second.w);
-    imageStore(displacement_out, first, vec4(moved_first, 0.0f));
-    imageStore(displacement_out, second, vec4(moved_second, 0.0f));
+    vec3 moved_first = moved_by(displacement_first.xyz, result.correction, -weight_first);
+    vec3 moved_second = moved_by(displacement_second.xyz, result.correction, weight_second);
+    imageStore(displacement_out, first, vec4(moved_first, displacement_first.w));
+    imageStore(displacement_out, second, vec4(moved_second, displacement_second.w));
 #ifdef TENSION
     imageStore(tension_out, first, vec4(result.tension, 0.0f, 0.0f, 0.0f));
 #endif

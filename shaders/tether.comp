@@ -29,8 +29,8 @@ void main() {
     vec4 start = imageLoad(position, texel);
     if (start.w == 0.0f) return;
     ParticleTethers mine = tethers[texel.y * push.grid.x + texel.x];
-    vec3 before = imageLoad(displacement_in, texel).xyz;
-    vec3 moved = tethered(start.xyz, before, mine.anchor_a, mine.length_a);
+    vec4 before = imageLoad(displacement_in, texel);
+    vec3 moved = tethered(start.xyz, before.xyz, mine.anchor_a, mine.length_a);
     moved = tethered(start.xyz, moved, mine.anchor_b, mine.length_b);
-    if (moved != before) imageStore(displacement_out, texel, vec4(moved, 0.0f));
+    if (moved != before.xyz) imageStore(displacement_out, texel, vec4(moved, before.w));
 }

@@ -6,6 +6,7 @@
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
+#include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { TwistPush push; };
@@ -32,16 +33,20 @@ void main() {
     vec4 position_10 = imageLoad(position, upper_right);
     vec4 position_01 = imageLoad(position, lower_left);
     vec4 position_11 = imageLoad(position, lower_right);
-    vec3 moved_00 = imageLoad(displacement_in, upper_left).xyz;
-    vec3 moved_10 = imageLoad(displacement_in, upper_right).xyz;
-    vec3 moved_01 = imageLoad(displacement_in, lower_left).xyz;
-    vec3 moved_11 = imageLoad(displacement_in, lower_right).xyz;
-    vec3 difference = twist_difference(spring_edge(position_00.xyz, position_10.xyz, moved_00, moved_10),
-                                       spring_edge(position_01.xyz, position_11.xyz, moved_01, moved_11));
-    float weight = twist_weight(position_00.w, position_10.w, position_01.w, position_11.w);
+    vec4 moved_00 = imageLoad(displacement_in, upper_left);
+    vec4 moved_10 = imageLoad(displacement_in, upper_right);
+    vec4 moved_01 = imageLoad(displacement_in, lower_left);
+    vec4 moved_11 = imageLoad(displacement_in, lower_right);
+    float weight_00 = dragged_weight(position_00.w, moved_00.w);
+    float weight_10 = dragged_weight(position_10.w, moved_10.w);
+    float weight_01 = dragged_weight(position_01.w, moved_01.w);
+    float weight_11 = dragged_weight(position_11.w, moved_11.w);
+    vec3 difference = twist_difference(spring_edge(position_00.xyz, position_10.xyz, moved_00.xyz, moved_10.xyz),
+                                       spring_edge(position_01.xyz, position_11.xyz, moved_01.xyz, moved_11.xyz));
+    float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     vec3 correction = project_bend(difference, weight, share, push.compliance);
-    imageStore(displacement_out, upper_left, vec4(moved_by(moved_00, correction, position_00.w), 0.0f));
-    imageStore(displacement_out, upper_right, vec4(moved_by(moved_10, correction, -position_10.w), 0.0f));
-    imageStore(displacement_out, lower_left, vec4(moved_by(moved_01, correction, -position_01.w), 0.0f));
-    imageStore(displacement_out, lower_right, vec4(moved_by(moved_11, correction, position_11.w), 0.0f));
+    imageStore(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));
+    imageStore(displacement_out, upper_right, vec4(moved_by(moved_10.xyz, correction, -weight_10), moved_10.w));
+    imageStore(displacement_out, lower_left, vec4(moved_by(moved_01.xyz, correction, -weight_01), moved_01.w));
+    imageStore(displacement_out, lower_right, vec4(moved_by(moved_11.xyz, correction, weight_11), moved_11.w));
 }

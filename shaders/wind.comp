@@ -1,4 +1,4 @@
-// Force of the wind: each particle gathers a third of the force on each of its up to six triangles.
+// Force of the wind: each particle gathers a third of the force, and of the drag, on each of its up to six triangles.
 // MASKED: the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +22,7 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec3 wind_velocity = wind[push.substep].xyz;
-    vec3 sum = empty_sum();
+    WindForce sum = WindForce(empty_sum(), 0.0f);
     for (int k = 0; k < triangles_around_particle; ++k) {
         ivec4 around = triangle_around(k);
         ivec2 cell = texel + around.xy;
@@ -40,7 +40,7 @@ void main() {
             corners[corner] = now;
         }
         sum = add_wind_share(sum, corners[0], corners[1], corners[2], moved[0], moved[1], moved[2], push.inverse_step,
-                             wind_velocity, push.drag_coefficient, push.lift_coefficient);
+                             wind_velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
     }
-    imageStore(wind_force, texel, vec4(sum, 0.0f));
+    imageStore(wind_force, texel, vec4(sum.force, sum.drag));
 }

@@ -28,8 +28,13 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     };
     residual = {grid.size(), {rest_length(0), rest_length(1)}};
     const Wind& w = scene.wind;
-    wind = {grid.size(), 0, static_cast<float>(1.0 / h), static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
-            static_cast<float>(0.5 * w.air_density * w.lift)};
+    wind = {grid.size(),
+            0,
+            static_cast<float>(1.0 / h),
+            static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
+            static_cast<float>(0.5 * w.air_density * w.lift),
+            static_cast<float>(spacing[0] * spacing[1]),
+            0};
     // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
     const Vec3& o = cloth.placement.origin;
     const double extent = std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);

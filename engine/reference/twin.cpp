@@ -44,6 +44,28 @@ TwinCloth::TwinCloth(const SimulationModel& model, std::size_t cloth) : topology
     }
 }
 
+vec4 TwinCloth::force_on(std::size_t particle) const {
+    const std::vector<vec4>& wind = (*this)[Field::wind_force];
+    return wind.empty() ? vec4{0, 0, 0, 0} : wind[particle];
+}
+
+void TwinCloth::step_displacement(std::size_t particle, vec3 displacement, vec3 increment, float loss) {
+    std::vector<vec4>& remainder = (*this)[Field::displacement_remainder];
+    const CompensatedSum stepped =
+        compensated_add(displacement, dragged_increment(increment, loss), xyz(remainder[particle]));
+    (*this)[Field::displacement][particle] = texel(stepped.value, loss);
+    remainder[particle] = texel(stepped.remainder);
+}
+
+float TwinCloth::dragged_weight_of(std::size_t particle) const {
+    return dragged_weight((*this)[Field::position][particle].w, (*this)[Field::displacement][particle].w);
+}
+
+void TwinCloth::move_to(std::size_t particle, vec3 displacement) {
+    vec4& moved = (*this)[Field::displacement][particle];
+    moved = texel(displacement, moved.w);
+}
+
 std::span<const std::byte> TwinCloth::bytes(Field field) const {
     const auto place = static_cast<std::size_t>(field);
     if (!vectors[place].empty()) return std::as_bytes(std::span(vectors[place]));
@@ -123,7 +145,7 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
-            vec3 sum = empty_sum();
+            WindForce sum{empty_sum(), 0.0f};
             for_triangles_around(state.topology.grid(), {x, y}, [&](ivec2 cell, int which) {
                 std::size_t corner[3];
                 for (int k = 0; k < 3; ++k) {
@@ -133,9 +155,9 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
                 sum = add_wind_share(
                     sum, now(corner[0]), now(corner[1]), now(corner[2]), xyz(state[Field::displacement][corner[0]]),
                     xyz(state[Field::displacement][corner[1]]), xyz(state[Field::displacement][corner[2]]),
-                    push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient);
+                    push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
             });
-            state[Field::wind_force][at(model.grid, {x, y})] = texel(sum);
+            state[Field::wind_force][at(model.grid, {x, y})] = texel(sum.force, sum.drag);
         }
 }
 
@@ -152,13 +174,10 @@ void Twin::force(TwinCloth& state, const Step& step) {
             state[Field::position_remainder][i] = texel(advanced.remainder);
         }
         if (position.w == 0.0f) continue;
-        const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
-        const vec3 increment = verlet_increment(displacement, xyz(push.gravity_step), applied, position.w,
+        const vec4 applied = state.force_on(i);
+        const vec3 increment = verlet_increment(displacement, xyz(push.gravity_step), xyz(applied), position.w,
                                                 push.force_step, push.damping_loss);
-        const CompensatedSum predicted =
-            compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
-        state[Field::displacement][i] = texel(predicted.value);
-        state[Field::displacement_remainder][i] = texel(predicted.remainder);
+        state.step_displacement(i, displacement, increment, drag_loss(applied.w, position.w, push.force_step));
     }
 }
 
@@ -185,16 +204,15 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             const float share = state.topology.masked() ? component(state.topology.spring_shares()[first], push.channel)
                                                         : border_share(owner, push.offset, push.grid);
             const float tension = carried ? tensions[first] : 0.0f;
-            const float weight_first = state[Field::position][first].w,
-                        weight_second = state[Field::position][second].w;
+            const float weight_first = state.dragged_weight_of(first), weight_second = state.dragged_weight_of(second);
             const vec3 moved_first = xyz(state[Field::displacement][first]),
                        moved_second = xyz(state[Field::displacement][second]);
             const vec3 edge = spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
                                           moved_first, moved_second);
             const SpringResult result =
                 project_spring(edge, weight_first + weight_second, push.rest_length, share, push.compliance, tension);
-            state[Field::displacement][first] = texel(moved_by(moved_first, result.correction, -weight_first));
-            state[Field::displacement][second] = texel(moved_by(moved_second, result.correction, weight_second));
+            state.move_to(first, moved_by(moved_first, result.correction, -weight_first));
+            state.move_to(second, moved_by(moved_second, result.correction, weight_second));
             if (!tensions.empty()) tensions[first] = result.tension;
         }
 }
@@ -216,7 +234,7 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
             }
             if (!(deepest > push.contact.z)) break;
         }
-        state[Field::displacement][i] = texel(displacement);
+        state.move_to(i, displacement);
     }
 }
 
@@ -235,7 +253,7 @@ void Twin::tether(TwinCloth& state) {
         };
         apply(tethers[i].anchor_a, tethers[i].length_a);
         apply(tethers[i].anchor_b, tethers[i].length_b);
-        state[Field::displacement][i] = texel(moved);
+        state.move_to(i, moved);
     }
 }
 

@@ -31,6 +31,14 @@ struct TwinCloth {
     const std::vector<glsl::uint>& integers(Field field) const {
         return integer_fields[static_cast<std::size_t>(field)];
     }
+    /// N; w: drag, N/m.
+    glsl::vec4 force_on(std::size_t particle) const;
+    /// Writes displacement + increment, less the share `loss` that drag takes, and what rounding lost of the sum.
+    void step_displacement(std::size_t particle, glsl::vec3 displacement, glsl::vec3 increment, float loss);
+    /// Inverse mass that springs and bending feel.
+    float dragged_weight_of(std::size_t particle) const;
+    /// A displacement that keeps what the prediction noted beside it.
+    void move_to(std::size_t particle, glsl::vec3 displacement);
     /// Whatever the field holds.
     std::span<const std::byte> bytes(Field field) const;
 

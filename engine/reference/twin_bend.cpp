@@ -25,15 +25,15 @@ void Twin::bend(TwinCloth& state, const Step& step) {
             for (std::size_t k = 0; k < 3; ++k) {
                 start[k] = xyz(state[Field::position][i[k]]);
                 moved[k] = xyz(state[Field::displacement][i[k]]);
-                weight[k] = state[Field::position][i[k]].w;
+                weight[k] = state.dragged_weight_of(i[k]);
             }
             const vec3 difference = second_difference(spring_edge(start[1], start[0], moved[1], moved[0]),
                                                       spring_edge(start[1], start[2], moved[1], moved[2]));
             const vec3 correction = project_bend(difference, bend_weight(weight[0], weight[1], weight[2]),
                                                  bend_share(share(first), share(middle)), push.compliance);
-            state[Field::displacement][i[0]] = texel(moved_by(moved[0], correction, weight[0]));
-            state[Field::displacement][i[1]] = texel(moved_by(moved[1], correction, -2.0f * weight[1]));
-            state[Field::displacement][i[2]] = texel(moved_by(moved[2], correction, weight[2]));
+            state.move_to(i[0], moved_by(moved[0], correction, weight[0]));
+            state.move_to(i[1], moved_by(moved[1], correction, -2.0f * weight[1]));
+            state.move_to(i[2], moved_by(moved[2], correction, weight[2]));
         }
 }
 
@@ -52,17 +52,17 @@ void Twin::twist(TwinCloth& state, const Step& step) {
             for (std::size_t k = 0; k < 4; ++k) {
                 start[k] = xyz(state[Field::position][i[k]]);
                 moved[k] = xyz(state[Field::displacement][i[k]]);
-                weight[k] = state[Field::position][i[k]].w;
+                weight[k] = state.dragged_weight_of(i[k]);
             }
             const float share = topology.masked() ? twist_share(shares[i[0]], shares[i[1]], shares[i[2]]) : 1.0f;
             const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
                                                      spring_edge(start[2], start[3], moved[2], moved[3]));
             const vec3 correction = project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]),
                                                  share, push.compliance);
-            state[Field::displacement][i[0]] = texel(moved_by(moved[0], correction, weight[0]));
-            state[Field::displacement][i[1]] = texel(moved_by(moved[1], correction, -weight[1]));
-            state[Field::displacement][i[2]] = texel(moved_by(moved[2], correction, -weight[2]));
-            state[Field::displacement][i[3]] = texel(moved_by(moved[3], correction, weight[3]));
+            state.move_to(i[0], moved_by(moved[0], correction, weight[0]));
+            state.move_to(i[1], moved_by(moved[1], correction, -weight[1]));
+            state.move_to(i[2], moved_by(moved[2], correction, -weight[2]));
+            state.move_to(i[3], moved_by(moved[3], correction, weight[3]));
         }
 }
 

@@ -102,14 +102,15 @@ void Twin::explicit_step(TwinCloth& state, const Step& step) {
                 state[Field::position_remainder][i] = texel(advanced.remainder);
             }
             if (position.w == 0.0f) continue;
-            const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
+            const vec4 applied = state.force_on(i);
             const vec3 increment =
-                explicit_increment(displacement, xyz(push.gravity_step), applied,
+                explicit_increment(displacement, xyz(push.gravity_step), xyz(applied),
                                    before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
                                    push.force_step, push.damping_loss);
-            const CompensatedSum stepped =
-                compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
-            displacement_out[i] = texel(stepped.value);
+            const float loss = drag_loss(applied.w, position.w, push.force_step);
+            const CompensatedSum stepped = compensated_add(displacement, dragged_increment(increment, loss),
+                                                           xyz(state[Field::displacement_remainder][i]));
+            displacement_out[i] = texel(stepped.value, loss);
             state[Field::displacement_remainder][i] = texel(stepped.remainder);
         }
     std::swap(state[Field::position], state[Field::position_spare]);

@@ -36,20 +36,20 @@ void Twin::predict(TwinCloth& state, const Step& step) {
         state[Field::displacement_before][i] = texel(displacement);
         state[Field::velocity_excess][i] = texel(excess);
         if (position.w == 0.0f) continue;
-        const vec3 applied = state[Field::wind_force].empty() ? vec3{0, 0, 0} : xyz(state[Field::wind_force][i]);
+        const vec4 applied = state.force_on(i);
         vec3 increment;
+        float loss;
         if (is_bdf2) {
-            const vec3 forced = forced_step(xyz(push.gravity_step_bdf2), applied, position.w, push.force_step.y);
+            const vec3 forced = forced_step(xyz(push.gravity_step_bdf2), xyz(applied), position.w, push.force_step.y);
             increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x,
                                        push.weight.y, push.loss.y);
+            loss = drag_loss(bdf2_drag(applied.w), position.w, push.force_step.y);
         } else {
-            const vec3 forced = forced_step(xyz(push.gravity_step), applied, position.w, push.force_step.x);
+            const vec3 forced = forced_step(xyz(push.gravity_step), xyz(applied), position.w, push.force_step.x);
             increment = euler_increment(displacement, excess, forced, push.loss.x);
+            loss = drag_loss(applied.w, position.w, push.force_step.x);
         }
-        const CompensatedSum predicted =
-            compensated_add(displacement, increment, xyz(state[Field::displacement_remainder][i]));
-        state[Field::displacement][i] = texel(predicted.value);
-        state[Field::displacement_remainder][i] = texel(predicted.remainder);
+        state.step_displacement(i, displacement, increment, loss);
     }
 }
 
@@ -69,7 +69,7 @@ struct LineView {
     }
     std::size_t spring_count() const { return particles.size() - 1; }
     std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
-    float weight(std::size_t particle) const { return state[Field::position][index(particle)].w; }
+    float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
     LineSpring spring(std::size_t e) const {
         const std::size_t first = index(e), second = index(e + 1);
         return line_spring(spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
@@ -130,8 +130,7 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                 line_correction(is_first ? none : springs[p - 1].normal, is_first ? 0.0f : change[p - 1],
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             const std::size_t i = line.index(p);
-            state[Field::displacement][i] =
-                texel(moved_by(xyz(state[Field::displacement][i]), correction, state[Field::position][i].w));
+            state.move_to(i, moved_by(xyz(state[Field::displacement][i]), correction, line.weight(p)));
             if (!is_last && !model.rigid && !stored.empty())
                 stored[i] = changed_tension(tensions[p], change[p], line.share(p), compliance) * followed;
         }

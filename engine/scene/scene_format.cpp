@@ -67,7 +67,8 @@ const Object<Gust> gust{
 const Object<Wind> wind{
     "wind",
     "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
-    "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles.",
+    "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles. A counts to twice its "
+    "value at rest.",
     {
         {"velocity", &Wind::velocity, vec3, "m/s, steady wind."},
         {"gust", &Wind::gust, gust, "Extra wind along the velocity's direction, as a function of time."},

@@ -35,6 +35,14 @@ SHARED vec3 euler_increment(vec3 displacement, vec3 excess, vec3 forced, float l
     return increment;
 }
 
+/// The drag k (N/m) of a BDF2 step, from that of a Verlet step: its force acts at the step's end, where the velocity is
+/// (3 d' - d)/(2 h), and the wind's force was taken at d/h, so it changes by -2 k 3/2 (d' - d); a Verlet step takes
+/// half of its change of velocity, at the middle.
+SHARED float bdf2_drag(float drag) {
+    precise float bdf2 = 3.0f * drag;
+    return bdf2;
+}
+
 /// What a cloth's substeps know of each other; one integer per texel of the control image.
 struct LineControl {
     uint order;           // of this substep: 1 backward Euler, 2 BDF2; 0 before the first

@@ -20,18 +20,19 @@ void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     imageStore(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
 }
 
-/// d += increment.
-void step_displacement(ivec2 texel, vec3 displacement, vec3 increment) {
-    CompensatedSum stepped = compensated_add(displacement, increment, imageLoad(displacement_remainder_in, texel).xyz);
-    imageStore(displacement_out, texel, vec4(stepped.value, 0.0f));
+/// d += increment, less what the wind's drag takes away: the share `loss`.
+void step_displacement(ivec2 texel, vec3 displacement, vec3 increment, float loss) {
+    CompensatedSum stepped = compensated_add(displacement, dragged_increment(increment, loss),
+                                             imageLoad(displacement_remainder_in, texel).xyz);
+    imageStore(displacement_out, texel, vec4(stepped.value, loss));
     imageStore(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }
 
-/// N, on the particle of a texel.
-vec3 force_on(ivec2 texel) {
+/// On the particle of a texel: N; w: its drag, N/m.
+vec4 force_on(ivec2 texel) {
 #ifdef WIND
-    return imageLoad(wind_force, texel).xyz;
+    return imageLoad(wind_force, texel);
 #else
-    return vec3(0.0f, 0.0f, 0.0f);
+    return vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #endif
 }

@@ -27,4 +27,24 @@ SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, f
     return increment;
 }
 
+/// Share q of a step that the wind's drag takes away. The wind's force follows the step's own change of velocity, F' =
+/// F - k (d' - d), so that no wind is too strong for a step: d' - d = increment/(1 + x) = increment (1 - q), x = w k
+/// phi h^2/m. `drag`: k, N/m (wind.h); `force_step`: phi h^2/m.
+SHARED float drag_loss(float drag, float inverse_mass, float force_step) {
+    precise float loss = 1.0f - 1.0f / (1.0f + drag * (inverse_mass * force_step));
+    return loss;
+}
+
+SHARED vec3 dragged_increment(vec3 increment, float loss) {
+    precise vec3 dragged = increment - increment * loss;
+    return dragged;
+}
+
+/// Inverse mass that springs and bending feel within such a step: drag resists what they do as it resists the
+/// prediction, so the cloth that they hold at rest in the wind feels all of its force.
+SHARED float dragged_weight(float inverse_mass, float loss) {
+    precise float weight = inverse_mass - inverse_mass * loss;
+    return weight;
+}
+
 #endif

@@ -4,16 +4,28 @@
 
 #include "include/vector.h"
 
+/// What the wind does to a triangle, or to a particle: all that its triangles give it.
+struct WindForce {
+    vec3 force;  // N
+    float drag;  // of a triangle kg/s; of a particle N per metre that the substep's displacement changes
+};
+
 /// Force (N) on a triangle of corners p0 p1 p2 (m) moving with mean velocity `velocity` (m/s) in wind `wind`:
 /// F = rho A / 2 [(Cd - Cl)(v.n) v + Cl |v|^2 n], v = wind - velocity, n the unit normal turned so that
 /// n.v > 0. A degenerate triangle (no area, no normal) feels nothing. Coefficients: rho (Cd - Cl)/2, rho Cl/2.
-SHARED vec3 triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 wind, float drag_coefficient,
-                                float lift_coefficient) {
+/// Drag c = rho A/2 (|Cd - Cl| f + Cl |v| min(|v|/f, 2)), f = v.n: where the wind blows straight on the triangle it is
+/// half of -dF/dv, which makes a step of v' = v + h F/(m + h c) exact there for every h; elsewhere it is more than half
+/// of every eigenvalue of -dF/dv (for Cd <= 3 Cl) and than |F|/|v|. The factor of 2 is for grazing wind, whose lift
+/// turns over with the triangle: with 1 light cloth of Cl > Cd gathers speed without end. A counts to `area_limit`:
+/// cloth too soft for its wind would else offer it ever more area and stretch without end.
+SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 wind, float drag_coefficient,
+                                     float lift_coefficient, float area_limit) {
     precise vec3 doubled = ordered_cross(p1 - p0, p2 - p0);
     precise float doubled_squared = ordered_dot(doubled, doubled);
-    if (!(doubled_squared > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+    if (!(doubled_squared > 0.0f)) return WindForce(vec3(0.0f, 0.0f, 0.0f), 0.0f);
     precise float doubled_area = sqrt(doubled_squared);
-    precise float area = 0.5f * doubled_area;
+    precise float half_doubled = 0.5f * doubled_area;
+    precise float area = half_doubled > area_limit ? area_limit : half_doubled;
     precise vec3 relative = wind - velocity;
     precise vec3 unit = doubled / doubled_area;
     precise float along = ordered_dot(relative, unit);
@@ -21,7 +33,10 @@ SHARED vec3 triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 w
     precise float facing = along < 0.0f ? -along : along;
     precise float squared = ordered_dot(relative, relative);
     precise vec3 force = (relative * (drag_coefficient * facing) + normal * (lift_coefficient * squared)) * area;
-    return force;
+    precise float speed = sqrt(squared);
+    precise float resisting = 2.0f * facing <= speed ? 2.0f * speed : squared / facing;
+    precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * area;
+    return WindForce(force, drag);
 }
 
 /// What a sum over triangles starts from: -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
@@ -29,12 +44,14 @@ SHARED vec3 triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 w
 SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 
 /// `sum` plus one corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
-SHARED vec3 add_wind_share(vec3 sum, vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step,
-                           vec3 wind, float drag_coefficient, float lift_coefficient) {
+SHARED WindForce add_wind_share(WindForce sum, vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step,
+                                vec3 wind, float drag_coefficient, float lift_coefficient, float area_limit) {
     precise vec3 velocity = (d0 + d1 + d2) * inverse_step / 3.0f;
-    vec3 force = triangle_wind_force(p0, p1, p2, velocity, wind, drag_coefficient, lift_coefficient);
-    precise vec3 total = sum + force / 3.0f;
-    return total;
+    WindForce on_triangle =
+        triangle_wind_force(p0, p1, p2, velocity, wind, drag_coefficient, lift_coefficient, area_limit);
+    precise vec3 force = sum.force + on_triangle.force / 3.0f;
+    precise float drag = sum.drag + on_triangle.drag * inverse_step / 3.0f;
+    return WindForce(force, drag);
 }
 
 /// `sum` plus a triangle's area vector (twice its area times its normal).

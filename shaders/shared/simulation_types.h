@@ -68,6 +68,8 @@ struct WindPush {
     float inverse_step;      // 1 / h
     float drag_coefficient;  // air_density (Cd - Cl) / 2
     float lift_coefficient;  // air_density Cl / 2
+    float area_limit;        // m^2: what a triangle offers the wind at most, twice its area at rest
+    float unused;
 };
 
 struct CollisionPush {
