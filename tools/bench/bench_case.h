@@ -51,7 +51,7 @@ struct CaseResult {
     SolverMethod method = SolverMethod::automatic;
     std::uint32_t substeps = 0, iterations = 0;
     bool diverged = false;       ///< a position was no longer finite: no metrics
-    double passes = 0;           ///< per frame: how often every particle is read and written
+    double passes = 0;           ///< per frame: how often every particle is read and written; 0: of auto, which varies
     double stiffness_share = 1;  ///< the least share of the wanted stretch stiffness that the solver applied
     Timing device;               ///< per frame, the simulation alone; 0: the device has no timestamps
     Timing wall;                 ///< per frame, submits and waits included

@@ -172,7 +172,7 @@ std::vector<Soonest> find_soonest(std::span<const CaseResult> results,
             for (std::size_t k = first; k < all.size(); ++k) {
                 if (all[k].name.empty()) continue;
                 all[k].time_ratio = all[k].milliseconds > 0 ? milliseconds / all[k].milliseconds : 0;
-                all[k].passes_ratio = passes / all[k].passes;
+                all[k].passes_ratio = all[k].passes > 0 ? passes / all[k].passes : 0;
             }
         }
     return all;

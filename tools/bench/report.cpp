@@ -35,16 +35,16 @@ std::string order_subject(const OrderClaim& claim) {
 
 std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.3g}", value); }
 
+std::string passes_text(double passes) { return passes > 0 ? number(passes) : "-"; }
+
 struct Column {
     const char *head, *metric;
 };
 
 /// Beside the problem's own error; one that no case has is left out.
-constexpr Column motion_columns[] = {{"its worst", "worst_position"},
-                                     {"center", "center_error"},
-                                     {"strain", "stretch_rms"},
-                                     {"stretch err", "stretch_error"},
-                                     {"worst frame", "worst_stretch_error"},
+constexpr Column motion_columns[] = {{"its worst", "worst_position"},  {"center", "center_error"},
+                                     {"strain", "stretch_rms"},        {"true strain", "stretch_rms_reference"},
+                                     {"stretch err", "stretch_error"}, {"worst frame", "worst_stretch_error"},
                                      {"worst spring", "worst_spring"}};
 
 std::vector<Column> columns_of(const Problem& problem, const std::vector<const CaseResult*>& results) {
@@ -68,7 +68,7 @@ bool below_reference(const Problem& problem, const CaseResult& result) {
 
 std::string case_row(const Problem& problem, const CaseResult& result, const std::vector<Column>& columns,
                      bool doubtful) {
-    std::string text = fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}", result.name, number(result.passes),
+    std::string text = fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}", result.name, passes_text(result.passes),
                                    result.device.median, result.wall.median);
     for (const Column& column : columns) {
         const std::optional<double> value = metric_of(result, column.metric);
@@ -123,7 +123,7 @@ std::string cheapest_text(const Report& report, const Problem& problem) {
                 (!best || s.milliseconds < best->milliseconds))
                 best = &s;
         const bool is_position = target.metric == problem.metric;
-        text += fmt::format("  {:<14}{:>8}{:<3}", target.metric, number(target.limit), is_position ? " m" : "");
+        text += fmt::format("  {:<20}{:>8}{:<3}", target.metric, number(target.limit), is_position ? " m" : "");
         if (is_position && target.limit < own_error)
             text += fmt::format("cannot be told: the reference's own error is {}\n", number(own_error));
         else if (!best)
@@ -169,9 +169,9 @@ std::string soonest_text(const Report& report) {
             continue;
         }
         const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}x", value) : std::string("-"); };
-        text += fmt::format("  {:<32}{:<26}{:>10.3f} ms{:>8} passes{:>12}{:>9}{:>9}\n", s.family,
-                            s.name.substr(s.name.find('/') + 1), s.milliseconds, number(s.passes), number(s.measured),
-                            ratio(s.time_ratio), ratio(s.passes_ratio));
+        text += fmt::format("  {:<32}{:<26}{:>10.3f} ms{:>9} passes{:>12}{:>9}{:>9}\n", s.family,
+                            s.name.substr(s.name.find('/') + 1), s.milliseconds, passes_text(s.passes),
+                            number(s.measured), ratio(s.time_ratio), ratio(s.passes_ratio));
     }
     return text;
 }
