@@ -1,10 +1,9 @@
-// Solves the springs of one direction line by line: one invocation per line, Thomas algorithm. The lines of a direction
-// share no particle, so the displacement is updated in place. SECOND_ORDER: the control says whether this substep is
-// BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts). TENSION: the springs'
-// tension is stored, as in the spring passes.
+// Solves the springs of one direction line by line: one invocation per line, Thomas algorithm, in three walks along it.
+// The lines of a direction share no particle, so the displacement is updated in place. SECOND_ORDER: the control says
+// whether this substep is BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER MASKED TENSION
+#pragma variants SECOND_ORDER MASKED
 #include "shared/line_types.h"
 #include "include/line.h"
 #include "include/verlet.h"
@@ -14,33 +13,25 @@ layout(push_constant) uniform Push { LinePush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
-layout(set = 0, binding = 3, std430) buffer Scratch { vec2 scratch[]; };
-#ifdef MASKED
-layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_share_image;
-#endif
-#ifdef TENSION
+// Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
+// leaves the spring after it.
+layout(set = 0, binding = 3, std430) buffer Scratch { vec4 scratch[]; };
+// Of spring e of a line: eliminated.
+layout(set = 0, binding = 4, std430) buffer Rows { vec2 rows[]; };
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 layout(set = 0, binding = 6, r32f) uniform writeonly image2D tension_out;
+#ifdef MASKED
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 #ifdef SECOND_ORDER
-layout(set = 0, binding = 7, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
 #endif
 
 struct LineParticle {
+    ivec2 at;
     vec4 position;  // w: as its springs feel it, with the wind's drag
     vec3 displacement;
-    float loss;  // to drag, kept beside the displacement
 };
-
-LineParticle load_particle(ivec2 at) {
-    vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
-    return LineParticle(vec4(start.xyz, dragged_weight(start.w, moved.w)), moved.xyz, moved.w);
-}
-
-LineSpring spring_between(LineParticle first, LineParticle second) {
-    return line_spring(spring_edge(first.position.xyz, second.position.xyz, first.displacement, second.displacement),
-                       push.rest_length);
-}
 
 float share_of(ivec2 first) {
     if (first.x == push.seam) return 0.0f;
@@ -51,87 +42,134 @@ float share_of(ivec2 first) {
 #endif
 }
 
-/// Tension in the solve's own units: an extension by the compliance in use.
-float tension_of(ivec2 first, float followed) {
-#ifdef TENSION
-    precise float tension = imageLoad(tension_in, first).x / followed;
-    if (push.first_iteration == 0) return tension;
-#endif
-    return 0.0f;
+int place(int line, int index) { return index * push.line_count + line; }
+
+LineParticle load_particle(ivec2 at) {
+    vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
+    return LineParticle(at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved.xyz);
 }
 
-/// A place on a line: two neighbours. At the elimination's end the last two.
-struct LinePlace {
-    ivec2 at_first, at_second;
-    LineParticle first, second;
-    float largest_excess;
-};
+/// Where the first system puts a particle.
+LineParticle moved_particle(ivec2 at, vec3 delta) {
+    LineParticle particle = load_particle(at);
+    return LineParticle(at, particle.position, moved_by(particle.displacement, delta, 1.0f));
+}
 
-LinePlace eliminate_line(int line, float compliance, float followed) {
-    LinePlace place;
-    place.at_first = line_start(line, push.step);
-    place.at_second = next_on_line(place.at_first, push.step, push.grid.x);
-    place.first = load_particle(place.at_first);
-    place.second = load_particle(place.at_second);
-    place.largest_excess = 0.0f;
-    LineSpring spring = spring_between(place.first, place.second);
-    vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
+LineSpring spring_between(LineParticle first, LineParticle second) {
+    return line_spring(spring_edge(first.position.xyz, second.position.xyz, first.displacement, second.displacement),
+                       push.rest_length);
+}
+
+float tension_of(ivec2 first, float followed) {
+    return tension_in_use(imageLoad(tension_in, first).x, followed);
+}
+
+float tension_per_length_of(LineParticle first, LineParticle second, float followed) {
+    precise vec3 start_edge = second.position.xyz - first.position.xyz;
+    return tension_per_length(tension_of(first.at, followed), start_edge, push.rest_length);
+}
+
+/// The first system, from the line's start on.
+void eliminate_particles(int line, float compliance, float followed) {
+    LineParticle particle = load_particle(line_start(line, push.step));
+    vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
+    float stiffness_before = 0.0f;
+    int last = push.particle_count - 1;
+    for (int p = 0; p <= last; ++p) {
+        LineParticle next = particle;
+        vec3 edge = vec3(0.0f, 0.0f, 0.0f);
+        float stiffness = 0.0f;
+        if (p < last) {
+            next = load_particle(next_on_line(particle.at, push.step, push.grid.x));
+            edge = spring_edge(particle.position.xyz, next.position.xyz, particle.displacement, next.displacement);
+            stiffness = geometric_stiffness(tension_per_length_of(particle, next, followed), share_of(particle.at),
+                                            compliance);
+        }
+        eliminated =
+            eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
+        scratch[place(line, p)] = eliminated;
+        particle = next;
+        edge_before = edge;
+        stiffness_before = stiffness;
+    }
+}
+
+/// What the first system changes of particle p, from what it changes of the particle after it.
+vec3 delta_of(int line, int p, vec3 delta_after) {
+    if (push.first_iteration == 0) return vec3(0.0f, 0.0f, 0.0f);
+    return substitute_particle(scratch[place(line, p)], delta_after);
+}
+
+float tension_between(LineParticle first, LineParticle second, LineSpring spring, float followed) {
+    if (push.first_iteration == 0) return tension_of(first.at, followed);
+    return filtered_tension(tension_per_length_of(first, second, followed), spring);
+}
+
+/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C| that it meets.
+float eliminate_springs(int line, float compliance, float followed) {
+    float largest_excess = 0.0f;
+    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f);
     vec2 eliminated = vec2(0.0f, 0.0f);
     int last = push.particle_count - 2;
-    for (int e = 0; e <= last; ++e) {
-        ivec2 at_third = next_on_line(place.at_second, push.step, push.grid.x);
-        LineParticle third = place.second;
-        LineSpring after = LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f);
-        if (e < last) {
-            third = load_particle(at_third);
-            after = spring_between(place.second, third);
+    ivec2 back = -push.step;
+    vec3 delta = delta_of(line, last + 1, vec3(0.0f, 0.0f, 0.0f));
+    LineParticle second = moved_particle(line_end(line, push.step, push.particle_count, push.grid.x), delta);
+    scratch[place(line, last + 1)] = vec4(delta, 0.0f);
+    delta = delta_of(line, last, delta);
+    LineParticle first = moved_particle(next_on_line(second.at, back, push.grid.x), delta);
+    LineSpring spring = spring_between(first, second);
+    for (int e = last; e >= 0; --e) {
+        LineParticle before = first;
+        LineSpring spring_before = LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
+        vec3 delta_before = delta;
+        if (e > 0) {
+            delta_before = delta_of(line, e - 1, delta);
+            before = moved_particle(next_on_line(first.at, back, push.grid.x), delta_before);
+            spring_before = spring_between(before, first);
         }
-        float share = share_of(place.at_first);
-        place.largest_excess = larger_excess(place.largest_excess, spring, share);
-        eliminated =
-            eliminate_spring(eliminated, normal_before, spring, after.normal, place.first.position.w,
-                             place.second.position.w, share, compliance, tension_of(place.at_first, followed));
-        scratch[e * push.line_count + line] = eliminated;
-        if (e == last) break;
-        normal_before = spring.normal;
-        spring = after;
-        place.first = place.second;
-        place.second = third;
-        place.at_first = place.at_second;
-        place.at_second = at_third;
-    }
-    return place;
-}
-
-void move_particle(ivec2 at, LineParticle particle, vec3 correction) {
-    imageStore(displacement_out, at, vec4(moved_by(particle.displacement, correction, particle.position.w), particle.loss));
-}
-
-/// From the end of the line back; a particle is written once both its springs are known.
-void substitute_line(int line, LinePlace place, float compliance, float followed) {
-    float change_after = 0.0f;
-    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f);
-    for (int e = push.particle_count - 2; e >= 0; --e) {
-        LineSpring spring = spring_between(place.first, place.second);
-        float change = substitute_spring(scratch[e * push.line_count + line], change_after);
-        move_particle(place.at_second, place.second,
-                      line_correction(spring.normal, change, normal_after, change_after));
-#ifdef TENSION
-        precise float tension =
-            changed_tension(tension_of(place.at_first, followed), change, share_of(place.at_first), compliance) *
-            followed;
-        imageStore(tension_out, place.at_first, vec4(tension, 0.0f, 0.0f, 0.0f));
-#endif
-        change_after = change;
+        float share = share_of(first.at), tension = tension_between(first, second, spring, followed);
+        largest_excess = larger_excess(largest_excess, spring, share);
+        eliminated = eliminate_spring(eliminated, spring_before.normal, spring, normal_after, first.position.w,
+                                      second.position.w, share, compliance, tension);
+        rows[place(line, e)] = eliminated;
+        scratch[place(line, e)] = vec4(delta, tension);
+        delta = delta_before;
         normal_after = spring.normal;
-        place.second = place.first;
-        place.at_second = place.at_first;
-        if (e == 0) break;
-        place.at_first = next_on_line(place.at_first, -push.step, push.grid.x);
-        place.first = load_particle(place.at_first);
+        spring = spring_before;
+        second = first;
+        first = before;
     }
-    move_particle(place.at_second, place.second,
-                  line_correction(vec3(0.0f, 0.0f, 0.0f), 0.0f, normal_after, change_after));
+    return largest_excess;
+}
+
+void store_particle(LineParticle particle, vec3 delta, vec3 correction) {
+    vec4 before = imageLoad(displacement_in, particle.at);  // w: lost to drag, kept beside the displacement
+    imageStore(displacement_out, particle.at,
+               vec4(moved_by_both(before.xyz, delta, correction, particle.position.w), before.w));
+}
+
+/// From the line's start on: substitutes in the second system; a particle is written once both its springs are known.
+void substitute_springs(int line, float compliance, float followed) {
+    float change_before = 0.0f;
+    vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
+    vec4 filtered = scratch[place(line, 0)];
+    LineParticle first = moved_particle(line_start(line, push.step), filtered.xyz);
+    for (int e = 0; e < push.particle_count - 1; ++e) {
+        vec4 filtered_after = scratch[place(line, e + 1)];
+        LineParticle second = moved_particle(next_on_line(first.at, push.step, push.grid.x), filtered_after.xyz);
+        vec3 normal = spring_between(first, second).normal;
+        float change = substitute_spring(rows[place(line, e)], change_before);
+        store_particle(first, filtered.xyz, line_correction(normal_before, change_before, normal, change));
+        float tension = changed_tension(filtered.w, change, share_of(first.at), compliance);
+        imageStore(tension_out, first.at, vec4(stored_tension(tension, followed), 0.0f, 0.0f, 0.0f));
+        change_before = change;
+        normal_before = normal;
+        filtered = filtered_after;
+        first = second;
+    }
+    store_particle(first, filtered.xyz,
+                   line_correction(normal_before, change_before, vec3(0.0f, 0.0f, 0.0f), 0.0f));
 }
 
 void main() {
@@ -144,10 +182,11 @@ void main() {
         followed = push.followed_bdf2;
     }
 #endif
-    LinePlace end = eliminate_line(line, compliance, followed);
-    substitute_line(line, end, compliance, followed);
+    if (push.first_iteration != 0) eliminate_particles(line, compliance, followed);
+    float largest_excess = eliminate_springs(line, compliance, followed);
+    substitute_springs(line, compliance, followed);
 #ifdef SECOND_ORDER
     imageAtomicMax(control, ivec2(control_violation, 0),
-                   floatBitsToUint(line_violation(end.largest_excess, push.rest_length)));
+                   floatBitsToUint(line_violation(largest_excess, push.rest_length)));
 #endif
 }

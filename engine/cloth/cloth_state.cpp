@@ -28,6 +28,7 @@ bool masked(Context c) { return c.topology.masked(); }
 bool adaptive(Context c) { return c.model.adaptive(); }
 bool gathers(Context c) { return c.cloth.plan.spare_state; }
 bool second_order(Context c) { return c.cloth.plan.second_order; }
+bool line_solved(Context c) { return c.cloth.plan.line_scratch; }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -36,6 +37,7 @@ bool tense(Context c) {
 }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
 
 constexpr std::uint64_t size_count = glsl::iteration_size_count;
@@ -59,9 +61,9 @@ const std::vector<FieldRow>& rows() {
         {Field::position_spare, "position spare", image, vector, frame, gathers, particles},
         {Field::displacement_spare, "displacement spare", image, vector, frame, gathers, particles},
         // An invocation reads what it wrote itself, so it is not the frame's: nothing in it outlives a pass.
-        {Field::line_scratch, "line scratch", buffer, layout_of<glsl::vec2>(), device,
-         [](Context c) { return c.cloth.plan.line_spring_count > 0; },
-         [](Context c) { return FieldExtent{c.cloth.plan.line_spring_count}; }},
+        // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
+        {Field::line_scratch, "line scratch", buffer, vector, device, line_solved, particle_list},
+        {Field::line_rows, "line rows", buffer, layout_of<glsl::vec2>(), device, line_solved, particle_list},
         {Field::displacement_before, "displacement before", image, vector, state, second_order, particles},
         {Field::velocity_excess, "velocity excess", image, vector, state, second_order, particles},
         {Field::line_control, "line control", image, integer, state, second_order,

@@ -23,18 +23,19 @@ enum class Field : std::uint8_t {
     displacement_remainder,
     position_spare,  ///< where a method that gathers writes the next state, which then is the state
     displacement_spare,
-    line_scratch,         ///< eliminated rows, within a pass
-    displacement_before,  ///< second order: displacement of the substep before the last, m
-    velocity_excess,      ///< of that substep, h times its end's velocity - displacement, m
-    line_control,         ///< LineControl (shaders/include/bdf2.h), an integer per texel
-    wind_force,           ///< N
-    normal,               ///< unit normal of the front
-    spring_share,         ///< share per direction, by first particle
-    mass_share,           ///< 1 = an inner particle's
-    cells,                ///< triangles that exist, bits 1 and 2, one texel per cell
-    tension_row,          ///< per direction (tension_of), by first particle, m: extension that would balance the
-    tension_column,       ///< tension applied in the substep; compliant and iterated springs, and stretch where the
-    tension_shear_down_right,  ///< stretch error is wanted
+    line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)
+    line_rows,                 ///< likewise by spring
+    displacement_before,       ///< second order: displacement of the substep before the last, m
+    velocity_excess,           ///< of that substep, h times its end's velocity - displacement, m
+    line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
+    wind_force,                ///< N
+    normal,                    ///< unit normal of the front
+    spring_share,              ///< share per direction, by first particle
+    mass_share,                ///< 1 = an inner particle's
+    cells,                     ///< triangles that exist, bits 1 and 2, one texel per cell
+    tension_row,               ///< per direction (tension_of), by first particle, m: extension that would balance the
+    tension_column,            ///< tension applied in the substep; carried to the next one (line) or the next iteration
+    tension_shear_down_right,  ///< (relax), and of stretch springs where the stretch error is wanted
     tension_shear_down_left,
     residuals,         ///< stretch error by workgroup
     iterations,        ///< sizes of the next iteration's dispatches, and iterations run (residual_types.h)

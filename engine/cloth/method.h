@@ -38,8 +38,8 @@ struct MethodPlan {
     // Fields that the steps need beside position and displacement with their remainders.
     bool spare_state = false;              ///< particles gather what springs do: a step reads one state, writes another
     bool second_order = false;             ///< displacement before, velocity excess, line control
-    std::size_t line_spring_count = 0;     ///< springs of the largest direction, room of the line scratch
-    PerDirection<bool> carries_tension{};  ///< by direction: from iteration to iteration, compliant and iterated
+    bool line_scratch = false;             ///< lines are solved: line scratch and rows
+    PerDirection<bool> carries_tension{};  ///< by direction: from iteration to iteration or from substep to substep
     /// Tension is not kept by the steps: it is computed with these where it is wanted.
     std::optional<glsl::TensionPush> gathered_tension;
 

@@ -100,12 +100,8 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
                 continue;
             const glsl::LinePush push = line_constants(direction, cloth, settings);
             plan.iterated.push_back({StepKind::line, push});
-            plan.carries_tension[direction] = !cloth.rigid && (settings.iterations > 1 || !settings.skip);
-            plan.line_spring_count =
-                std::max(plan.line_spring_count,
-                         static_cast<std::size_t>(push.line_count) * static_cast<std::size_t>(push.particle_count - 1));
+            plan.carries_tension[direction] = plan.line_scratch = true;
         }
-    note_tension(cloth, plan);
 }
 
 }  // namespace
@@ -129,12 +125,13 @@ MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings)
 }
 
 double line_substeps(const Hang& hang, double frame, double tolerance) {
-    const double share = std::min(1.0, tolerance / default_tolerance);
-    if (hang.by_an_edge)
-        return frame * std::sqrt(hang.gravity * hang.length) / (1.3 * hang.edge_spacing * std::sqrt(share));
-    const double few_links = std::min(1.0, std::sqrt(64 * hang.spacing / hang.length));
-    const double limit = 0.45 * few_links * std::sqrt(std::sqrt(share));
-    return frame * std::sqrt(hang.gravity * hang.length) / (hang.spacing * limit);
+    const double root = std::sqrt(std::min(1.0, tolerance / default_tolerance));
+    const double waves = frame * std::sqrt(hang.acceleration * hang.length);  // m times a frame's substeps
+    // Four at 60 Hz for a metre: 5e-4 m off after half a second's swing.
+    const double resolving = frame * std::sqrt(hang.acceleration / hang.length) / 0.013;
+    if (hang.by_an_edge) return std::max(resolving, waves / (3.3 * root * hang.edge_spacing));
+    const double few_links = std::min(1.0, std::pow(64 * hang.spacing / hang.length, 0.25));
+    return std::max(resolving, waves / (0.35 * few_links * root * hang.spacing));
 }
 
 }  // namespace drape

@@ -81,11 +81,11 @@ struct ByteList {
 
 std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     // A binding names every member: one that is added does not compile until it is added here.
-    const auto& [prediction, once, iterated, start, spare_state, second_order, line_spring_count, carries_tension,
+    const auto& [prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension,
                  gathered_tension, used_stiffness, used_bend, skipped, compromises] = plan;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
-    add(prediction, once, iterated, start, spare_state, second_order, line_spring_count, carries_tension,
+    add(prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension,
         gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend);
     static_cast<void>(skipped), static_cast<void>(compromises);  // words
     return list.bytes;

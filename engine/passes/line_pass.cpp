@@ -42,11 +42,8 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     glsl::LinePush push = step.push<glsl::LinePush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
-    const bool stores_tension =
-        state[tension_of(direction)].valid() && (model.plan.carries_tension[direction] || (step.last && !model.rigid));
-    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-        "line.comp",
-        {{"second_order", model.plan.second_order}, {"masked", state.masked()}, {"tension", stores_tension}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("line.comp", {{"second_order", model.plan.second_order}, {"masked", state.masked()}}));
     const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),
@@ -54,9 +51,10 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
             update_in_place(setup, state[Field::line_scratch], "scratch");
+            update_in_place(setup, state[Field::line_rows], "rows");
+            update(setup, state[tension_of(direction)], "tension");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
-            if (stores_tension) update(setup, state[tension_of(direction)], "tension");
             if (model.plan.second_order) update_in_place(setup, state[Field::line_control], "control");
             dispatch.declare(setup);
         },

@@ -12,7 +12,8 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 /// the scene has wind.
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
-/// Reads position, reads and writes displacement; stiffness, tension and control where the cloth has them.
+/// Reads position, reads and writes displacement and the direction's tension; reads spring shares and updates the
+/// control where the cloth has them.
 void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

@@ -61,46 +61,80 @@ struct LineView {
     const LinePush& push;
     const TwinCloth& state;
     std::vector<ivec2> particles;
+    std::vector<vec3> moved;       ///< displacements as the first system leaves them
+    std::vector<vec3> delta;       ///< what it changed
+    std::vector<float> tension{};  ///< likewise, by spring: extensions by the compliance in use
 
     LineView(const ClothModel& cloth, const LinePush& pass, const TwinCloth& images, int line)
         : model(cloth), push(pass), state(images), particles{line_start(line, pass.step)} {
         for (int p = 1; p < push.particle_count; ++p)
             particles.push_back(next_on_line(particles.back(), push.step, push.grid.x));
+        for (std::size_t p = 0; p < particles.size(); ++p) moved.push_back(displacement(p));
+        delta.resize(particles.size());
     }
     std::size_t spring_count() const { return particles.size() - 1; }
     std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
     float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
-    LineSpring spring(std::size_t e) const {
-        const std::size_t first = index(e), second = index(e + 1);
-        return line_spring(spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
-                                       xyz(state[Field::displacement][first]), xyz(state[Field::displacement][second])),
-                           push.rest_length);
-    }
+    vec3 displacement(std::size_t particle) const { return xyz(state[Field::displacement][index(particle)]); }
+    vec3 start(std::size_t particle) const { return xyz(state[Field::position][index(particle)]); }
+    vec3 edge(std::size_t e) const { return spring_edge(start(e), start(e + 1), moved[e], moved[e + 1]); }
+    LineSpring spring(std::size_t e) const { return line_spring(edge(e), push.rest_length); }
     float share(std::size_t e) const {
         if (particles[e].x == push.seam) return 0.0f;
         return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
                                        : border_share(particles[e], push.step, push.grid);
     }
+    float last_tension(std::size_t e, float followed) const {
+        return tension_in_use(state.tension(static_cast<std::size_t>(push.channel))[index(e)], followed);
+    }
 };
 
-/// Changes of the multipliers of a line's springs of the given tensions; `largest` hears of the worst of them.
+/// The first system: lets the tension of the last substep resist, and follows it to where the particles are now.
+void filter(LineView& line, float compliance, float followed) {
+    std::vector<float> per_length;
+    for (std::size_t e = 0; e < line.spring_count(); ++e)
+        per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
+                                                line.push.rest_length));
+    std::vector<vec4> eliminated;
+    vec4 previous{0, 0, 0, 0};
+    vec3 edge_before{0, 0, 0};
+    float stiffness_before = 0;
+    for (std::size_t p = 0; p < line.particles.size(); ++p) {
+        const bool has_spring = p < line.spring_count();
+        const vec3 edge = has_spring ? line.edge(p) : vec3{0, 0, 0};
+        const float stiffness = has_spring ? geometric_stiffness(per_length[p], line.share(p), compliance) : 0.0f;
+        previous = eliminate_particle(previous, edge_before, stiffness_before, edge, stiffness, line.weight(p));
+        eliminated.push_back(previous);
+        edge_before = edge;
+        stiffness_before = stiffness;
+    }
+    vec3 delta{0, 0, 0};
+    for (std::size_t p = line.particles.size(); p-- > 0;) {
+        line.delta[p] = delta = substitute_particle(eliminated[p], delta);
+        line.moved[p] = moved_by(line.moved[p], delta, 1.0f);
+    }
+    for (std::size_t e = 0; e < line.spring_count(); ++e)
+        line.tension.push_back(filtered_tension(per_length[e], line.spring(e)));
+}
+
+/// The second system: changes of the multipliers; `largest` hears of the worst spring.
 std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
-                         const std::vector<float>& tensions, float& largest) {
-    std::vector<vec2> eliminated;
+                         float& largest) {
+    std::vector<vec2> eliminated(springs.size());
     vec2 previous{0, 0};
-    vec3 before{0, 0, 0};
-    for (std::size_t e = 0; e < springs.size(); ++e) {
-        const vec3 after = e + 1 < springs.size() ? springs[e + 1].normal : vec3{0, 0, 0};
+    vec3 after{0, 0, 0};
+    for (std::size_t e = springs.size(); e-- > 0;) {
+        const vec3 before = e > 0 ? springs[e - 1].normal : vec3{0, 0, 0};
         const float share = line.share(e);
         largest = larger_excess(largest, springs[e], share);
         previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), share,
-                                    compliance, tensions[e]);
-        eliminated.push_back(previous);
-        before = springs[e].normal;
+                                    compliance, line.tension[e]);
+        eliminated[e] = previous;
+        after = springs[e].normal;
     }
     std::vector<float> change(springs.size());
-    float next = 0;
-    for (std::size_t e = springs.size(); e-- > 0;) next = change[e] = substitute_spring(eliminated[e], next);
+    float last = 0;
+    for (std::size_t e = 0; e < springs.size(); ++e) last = change[e] = substitute_spring(eliminated[e], last);
     return change;
 }
 
@@ -112,17 +146,17 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
     std::vector<float>& stored = state.tension(static_cast<std::size_t>(push.channel));
-    const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
     float largest = 0;
     for (int k = 0; k < push.line_count; ++k) {
-        const LineView line(model, push, state, k);
+        LineView line(model, push, state, k);
+        if (step.iteration == 0)
+            filter(line, compliance, followed);
+        else
+            for (std::size_t e = 0; e < line.spring_count(); ++e)
+                line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
-        std::vector<float> tensions;
-        for (std::size_t e = 0; e < line.spring_count(); ++e) {
-            springs.push_back(line.spring(e));
-            tensions.push_back(carried ? stored[line.index(e)] / followed : 0.0f);
-        }
-        const std::vector<float> change = solve(line, springs, compliance, tensions, largest);
+        for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
+        const std::vector<float> change = solve(line, springs, compliance, largest);
         const vec3 none{0, 0, 0};
         for (std::size_t p = 0; p < line.particles.size(); ++p) {
             const bool is_first = p == 0, is_last = p == springs.size();
@@ -130,9 +164,10 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                 line_correction(is_first ? none : springs[p - 1].normal, is_first ? 0.0f : change[p - 1],
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             const std::size_t i = line.index(p);
-            state.move_to(i, moved_by(xyz(state[Field::displacement][i]), correction, line.weight(p)));
-            if (!is_last && !model.rigid && !stored.empty())
-                stored[i] = changed_tension(tensions[p], change[p], line.share(p), compliance) * followed;
+            state.move_to(i, moved_by_both(line.displacement(p), line.delta[p], correction, line.weight(p)));
+            if (!is_last)
+                stored[i] =
+                    stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
         }
     }
     if (!model.plan.second_order) return;

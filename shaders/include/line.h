@@ -1,6 +1,12 @@
-// Line solve: the springs of one whole line of particles (a row, a column, a diagonal) projected together. One Newton
-// step of XPBD (Macklin et al. 2016, eq. 18 as a system) is tridiagonal along a line; the Thomas algorithm solves it.
-// Unknown: the change of the multiplier of every spring e, between the particles e and e + 1 of the line.
+// Line solve: the springs of one whole line of particles (a row, a column, a diagonal) projected together, their
+// tension implicit (docs/solvers.md, "Implicit tension"), in two tridiagonal systems, each solved by the Thomas
+// algorithm:
+// 1. The tension T that the springs carried through the last substep resists sideways motion with the geometric
+//    stiffness g = T/length (Tournier et al. 2015, "Stable Constrained Dynamics"): (1 + w sum g) delta = -w sum g x,
+//    unknown the change of every particle's displacement.
+// 2. Where that puts the particles, one Newton step of XPBD (Macklin et al. 2016, eq. 18 as a system), unknown the
+// change
+//    of the multiplier of every spring e, between the particles e and e + 1 of the line.
 #ifndef DRAPE_LINE_H
 #define DRAPE_LINE_H
 
@@ -9,6 +15,13 @@
 /// First particle (column, row) of a line: rows start in column 0, all others in row 0.
 SHARED ivec2 line_start(int line, ivec2 step) { return step.y == 0 ? ivec2(0, line) : ivec2(line, 0); }
 
+/// Last of a line's `count` particles.
+SHARED ivec2 line_end(int line, ivec2 step, int count, int columns) {
+    ivec2 start = line_start(line, step);
+    int x = start.x + step.x * ((count - 1) % columns);
+    return ivec2(x < 0 ? x + columns : x >= columns ? x - columns : x, start.y + step.y * (count - 1));
+}
+
 /// The particle `step` further along a line; columns wrap around, so that the diagonals are as many closed lines as the
 /// grid has columns and every particle lies on exactly one. The spring across the seam does not exist.
 SHARED ivec2 next_on_line(ivec2 particle, ivec2 step, int columns) {
@@ -16,20 +29,75 @@ SHARED ivec2 next_on_line(ivec2 particle, ivec2 step, int columns) {
     return ivec2(x < 0 ? columns - 1 : x == columns ? 0 : x, particle.y + step.y);
 }
 
-/// What the system needs of a spring: its unit edge and how far it is too long, m. The normal is zero where there is no
-/// direction: such a spring pulls on nothing.
+/// What the second system needs of a spring: its unit edge, its length and how far it is too long, m. The normal is
+/// zero where there is no direction: such a spring pulls on nothing.
 struct LineSpring {
     vec3 normal;
+    float current;
     float excess;
 };
 
 SHARED LineSpring line_spring(vec3 edge, float rest_length) {
     precise float length_squared = ordered_dot(edge, edge);
-    if (!(length_squared > 0.0f)) return LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f);
+    if (!(length_squared > 0.0f)) return LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
     precise float current = sqrt(length_squared);
     precise vec3 normal = edge / current;
     precise float excess = current - rest_length;
-    return LineSpring(normal, excess);
+    return LineSpring(normal, current, excess);
+}
+
+/// Tension in the solve's own units, an extension by the compliance in use (m), from how it is stored: an extension by
+/// the compliance that the scene asks for, which no order and no length of a substep changes. `followed`: of that
+/// compliance over the one in use.
+SHARED float tension_in_use(float stored, float followed) {
+    precise float tension = stored / followed;
+    return tension;
+}
+
+SHARED float stored_tension(float tension, float followed) {
+    precise float stored = tension * followed;
+    return stored;
+}
+
+/// Tension of the last substep (`tension`: as an extension by the compliance in use, m) per length of the spring where
+/// the substep starts. Springs that push carry nothing over, and the bound by L makes collapsed starts safe.
+SHARED float tension_per_length(float tension, vec3 start_edge, float rest_length) {
+    if (!(tension > 0.0f)) return 0.0f;
+    precise float current = sqrt(ordered_dot(start_edge, start_edge));
+    precise float per_length = tension / (current > rest_length ? current : rest_length);
+    return per_length;
+}
+
+/// g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
+SHARED float geometric_stiffness(float tension_per_length, float share, float compliance) {
+    precise float stiffness = (share * tension_per_length) / compliance;
+    return stiffness;
+}
+
+/// Forward elimination of particle i of the first system, between the springs `before` and `after` it,
+///   (1 + w (g_(i-1) + g_i)) delta_i - w g_(i-1) delta_(i-1) - w g_i delta_(i+1) = w (g_i e_i - g_(i-1) e_(i-1)).
+/// `previous` and the result: xyz d and w u of delta_i = d + u delta_(i+1), 0 <= u < 1. g is zero beyond the ends.
+SHARED vec4 eliminate_particle(vec4 previous, vec3 edge_before, float stiffness_before, vec3 edge_after,
+                               float stiffness_after, float weight) {
+    precise float before = weight * stiffness_before;
+    precise float after = weight * stiffness_after;
+    precise float pivot = 1.0f + (after + before * (1.0f - previous.w));
+    precise vec3 pull = edge_after * after - (edge_before - vec3(previous.x, previous.y, previous.z)) * before;
+    precise vec3 reduced = pull / pivot;
+    precise float upper = after / pivot;
+    return vec4(reduced.x, reduced.y, reduced.z, upper);
+}
+
+/// Back substitution: delta of a particle from that of the particle after it.
+SHARED vec3 substitute_particle(vec4 eliminated, vec3 delta_after) {
+    precise vec3 delta = vec3(eliminated.x, eliminated.y, eliminated.z) + delta_after * eliminated.w;
+    return delta;
+}
+
+/// Tension (m) that the first system leaves a spring with: its direction turned, and its length grew.
+SHARED float filtered_tension(float tension_per_length, LineSpring spring) {
+    precise float tension = tension_per_length * spring.current;
+    return tension;
 }
 
 /// Whether a spring takes part in its line's system: it exists and has a direction.
@@ -50,12 +118,13 @@ SHARED float line_violation(float largest_excess, float rest_length) {
     return violation;
 }
 
-/// Forward elimination of row e of the system
+/// Elimination of row e of the second system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
 ///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1),
-/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0). `previous` and the result are (c', d') of
-/// x_e = d' - c' x_(e+1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`:
-/// T = -alpha lambda/s as in project_spring, m.
+/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0). It starts at the line's end, where the first
+/// system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' - a' x_(e-1).
+/// `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T = -alpha lambda/s as
+/// in project_spring, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
                              float weight_first, float weight_second, float share, float compliance, float tension) {
     if (!pulls(spring, share)) return vec2(0.0f, 0.0f);
@@ -63,15 +132,15 @@ SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring sprin
     precise float after = -(share * weight_second) * ordered_dot(spring.normal, normal_after);
     precise float diagonal = share * (weight_first + weight_second) + compliance;
     precise float right = -(share * (spring.excess - tension));
-    precise float pivot = diagonal - before * previous.x;
-    precise float upper = after / pivot;
-    precise float reduced = (right - before * previous.y) / pivot;
-    return vec2(upper, reduced);
+    precise float pivot = diagonal - after * previous.x;
+    precise float lower = before / pivot;
+    precise float reduced = (right - after * previous.y) / pivot;
+    return vec2(lower, reduced);
 }
 
-/// Back substitution: the change of a spring's multiplier from that of the spring after it.
-SHARED float substitute_spring(vec2 eliminated, float change_after) {
-    precise float change = eliminated.y - eliminated.x * change_after;
+/// Forward substitution: the change of a spring's multiplier from that of the spring before it.
+SHARED float substitute_spring(vec2 eliminated, float change_before) {
+    precise float change = eliminated.y - eliminated.x * change_before;
     return change;
 }
 
@@ -81,9 +150,15 @@ SHARED vec3 line_correction(vec3 normal_before, float change_before, vec3 normal
     return correction;
 }
 
-/// Tension (m) of a spring whose multiplier changed.
+/// Displacement after both systems: what they change is added up before it meets the displacement's rounding.
+SHARED vec3 moved_by_both(vec3 displacement, vec3 delta, vec3 correction, float weight) {
+    precise vec3 moved = displacement + (delta + correction * weight);
+    return moved;
+}
+
+/// Tension (m) of a spring whose multiplier changed; 0 where there is none.
 SHARED float changed_tension(float tension, float change, float share, float compliance) {
-    if (!(share > 0.0f)) return tension;
+    if (!(share > 0.0f)) return 0.0f;
     precise float updated = tension - (compliance / share) * change;
     return updated;
 }

@@ -24,7 +24,7 @@ struct LinePush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)
     float followed;         // compliance asked for over the one above, 1 = nothing softened
     float followed_bdf2;
-    int first_iteration;  // 1: the tension starts at zero
+    int first_iteration;  // 1: the tension is the last substep's: both systems; 0: the last iteration's: the second
     int unused;
 };
 
@@ -41,9 +41,9 @@ struct PredictPush {
 /// Texels of the line solver's control image (LineControl in include/bdf2.h).
 const int control_order = 0, control_previous_order = 1, control_violation = 2, control_hold = 3,
           control_texel_count = 4;
-/// A spring that a substep meets wrong by more than its own length before its line is solved tells that BDF2
-/// extrapolates nonsense here; the next substeps are then backward Euler. Measured on a sheet of 64^2 held at two
-/// corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to
+/// A spring that a substep meets wrong by more than its own length, after the carried tension has had its say, tells
+/// that BDF2 extrapolates nonsense here; the next substeps are then backward Euler. Measured on a sheet of 64^2 held at
+/// two corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to
 /// 30 J); where it holds (20 substeps) 5 % of the substeps switch, and half the limit would switch 20 %, without gain.
 const float line_violation_limit = 1.0f;
 const uint line_hold_count = 8u;

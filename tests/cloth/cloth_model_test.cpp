@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cloth/method_line.h"
 #include "cloth/schedule.h"
 #include "support/method_steps.h"
 #include "support/sheets.h"
@@ -121,18 +122,19 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
     SceneDescription scene = test::sheet(33, 33, 1, 1, 20);
     scene.solver.method = SolverMethod::line;
     EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
-    scene.cloths[0].stiffness.stretch = 1e9;
+    scene.cloths[0].stiffness.stretch = 1e11;
     for (const bool collides : {false, true}) {
         if (collides) scene.colliders.push_back({Sphere{}});
         scene.solver.substeps = 20;
         const ClothModel model(scene, 0);
         ASSERT_EQ(model.plan.compromises.size(), 1u);
         EXPECT_EQ(model.plan.compromises[0].what, "sheet/stiffness");
-        // Of compliance 1e-3 in units of (4/9) h^2/m, or of h^2/m.
-        const double factor = collides ? 1 : 2.25, used = 1e3 * factor * model.inner_mass * 1200 * 1200;
+        // Of the least compliance in units of (4/9) h^2/m, or of h^2/m.
+        const double factor = collides ? 1 : 2.25,
+                     used = factor / least_line_compliance * model.inner_mass * 1200 * 1200;
         EXPECT_NEAR(model.plan.used_stiffness[0], used, 1e-6 * used);
         const glsl::LinePush push = test::pushes<glsl::LinePush>(model.plan)[2];
-        EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, 1e-3f);
+        EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, float(least_line_compliance));
         // So many substeps soften nothing, and one less does.
         scene.solver.substeps = model.plan.compromises[0].enough_substeps;
         EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
@@ -141,6 +143,16 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
     }
     scene.cloths[0].stiffness.rigid = true;
     EXPECT_EQ(ClothModel(scene, 0).plan.compromises[0].enough_substeps, 0u);
+}
+
+TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
+    SceneDescription scene = test::sheet(9, 9, 1, 1, 4);
+    scene.solver.method = SolverMethod::line;
+    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, true, true}));
+    scene.cloths[0].stiffness = {true, 0, 0, 0};
+    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, true, true}));
+    scene.cloths[0].stiffness = {false, 500, 0, 0};
+    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, false, false}));
 }
 
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {

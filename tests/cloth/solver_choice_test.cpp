@@ -55,12 +55,17 @@ TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
         return double(of(choose_solver(automatic(links, tolerance), DeviceKind::cpu), method).substeps);
     };
     // All three: in proportion to the links; relaxation and explicit steps by the root of the tolerance.
-    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
-        EXPECT_NEAR(substeps(256, 1e-4, method) / substeps(64, 1e-4, method), 4, 0.2);
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
+        const double tolerance = method == SolverMethod::line ? 1e-5 : 1e-4;  // more substeps than the motion needs
+        EXPECT_NEAR(substeps(256, tolerance, method) / substeps(64, tolerance, method), 4, 0.2);
+    }
     for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
         EXPECT_NEAR(substeps(128, 1e-5, method) / substeps(128, 1e-3, method), 10, 0.3);
-    // Measured on the hanging and swinging sheet of 64 links (README): 1 % from about 20 relaxed substeps on.
+    // Measured on the hanging and swinging sheet (README): 1 % from about 20 relaxed substeps on at 64 links; lines
+    // from a held edge need what the motion needs.
     EXPECT_NEAR(substeps(64, 0.01, SolverMethod::relax), 25, 6);
+    for (const std::uint32_t links : {64u, 256u, 512u})
+        EXPECT_NEAR(substeps(links, 0.01, SolverMethod::line), links == 512 ? 8 : 4, 1);
 }
 
 TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
@@ -71,12 +76,10 @@ TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
     const auto substeps = [](const SceneDescription& scene, SolverMethod method) {
         return of(choose_solver(scene, DeviceKind::cpu), method).substeps;
     };
-    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
         EXPECT_GT(substeps(colliding, method), substeps(calm, method));
-    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
         EXPECT_GT(substeps(windy, method), substeps(calm, method));
-    // Lines from a held edge carry the cloth whatever blows at it.
-    EXPECT_EQ(substeps(windy, SolverMethod::line), substeps(calm, SolverMethod::line));
+    }
 }
 
 TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {

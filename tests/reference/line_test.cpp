@@ -53,6 +53,17 @@ TEST_P(LineSwing, ConvergesInSecondOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Damping, LineSwing, testing::Values(0.0, 2.0));
 
+TEST(LineTest, ASwingNeedsNoMoreSubstepsForMoreLinks) {
+    // h sqrt(g L)/l = 0.8 and 3.3; the limit of transverse waves, were the tension not implicit, is 0.67.
+    const double times[] = {0.5};
+    const SceneDescription scene = test::swing(64, 100, 30);
+    const ReferenceRun reference = run_symplectic(SpringNetwork(scene, 0), times, {.cfl = 0.24});
+    const double coarse = swing_error(scene, 4, reference), one = swing_error(scene, 1, reference);
+    std::printf("[ measured ] swing 64^2, RMS error after 0.5 s: %.2e m at 4 substeps, %.2e m at 1\n", coarse, one);
+    EXPECT_LE(coarse, 6e-4);
+    EXPECT_LE(one, 1e-2);
+}
+
 TEST(LineTest, AnUndampedSwingKeepsItsEnergyForTenSeconds) {
     SceneDescription scene = test::swing(16, 100, 30);
     scene.solver.method = SolverMethod::line;
@@ -147,7 +158,7 @@ TEST(LineTest, RigidClothPulledTooLongStretchesEvenly) {
         }
         std::printf("[ measured ] rigid cloth pulled 0.1 %% too long, %s: off the even stretch by %.2e m\n",
                     has_shear ? "with diagonals" : "rows alone", worst);
-        EXPECT_LE(worst, 1e-5);
+        EXPECT_LE(worst, 1e-6);
     }
 }
 
@@ -192,7 +203,7 @@ TEST(LineStress, ATwoCornerDrapeKeepsItsLengths) {
     Twin twin(model);
     const double strain = late_strain(model, twin);
     std::printf("[ measured ] two-corner drape: RMS strain %.4f\n", strain);
-    EXPECT_LE(strain, 0.01);
+    EXPECT_LE(strain, 0.008);
 }
 
 TEST(LineStress, ATenthOfTheSpringsCut) {
@@ -229,14 +240,14 @@ TEST(LineStress, WorstStartsComeToTheirLengths) {
         std::printf("[ measured ] start %s: RMS strain %.4f\n", name, strain);
         EXPECT_LE(strain, limit);
     };
-    run("in one point", collapsed, 0.3);
-    run("crumpled", crumpled, 0.03);
+    run("in one point", collapsed, 0.15);
+    run("crumpled", crumpled, 0.02);
     run("noisy", noisy, 0.02);
 }
 
 TEST(LineStress, TethersHoldADrapeThatTheSweepCannotFollow) {
     SceneDescription scene = two_corner_drape();
-    scene.solver.substeps = 5;  // 0.16 per cell along the sheet
+    scene.solver.substeps = 1;  // 0.03 per cell along the sheet
     const auto strain = [&] {
         SimulationModel model(scene);
         Twin twin(model);
@@ -259,8 +270,9 @@ TEST_P(LineSwing, TethersOfAnEdgeCostNoAccuracy) {
     EXPECT_LE(swing_error(scene, 20, reference), 1e-4);
 }
 
-TEST(LineStress, BackwardEulerTakesOverWhereTheSweepCannotFollow) {
-    // 0.16 substeps per cell along the sheet: BDF2 alone reaches 190 J here, backward Euler alone 20 J.
+TEST(LineStress, ADrapeOnLongSubstepsGainsNoEnergy) {
+    // 0.16 substeps per cell along the sheet. Without the carried tension the solve reaches 30 J with the control that
+    // takes to backward Euler, and 190 J without it.
     SceneDescription scene = test::sheet(65, 65, 1, 1, 10);
     scene.solver.method = SolverMethod::line;
     Cloth& cloth = scene.cloths[0];
@@ -274,8 +286,8 @@ TEST(LineStress, BackwardEulerTakesOverWhereTheSweepCannotFollow) {
         twin.run_frame(frame);
         largest = std::max(largest, test::energy_of(model, 0, twin.cloth(0)).total());
     }
-    std::printf("[ measured ] drape 64^2 at 10 substeps: largest energy %.1f J\n", largest);
-    EXPECT_LE(largest, 60);
+    std::printf("[ measured ] drape 64^2 at 10 substeps: largest energy %.2f J\n", largest);
+    EXPECT_LE(largest, 2);
 }
 
 }  // namespace
