@@ -1,11 +1,15 @@
 // Solves the springs of one direction line by line: one invocation per line, Thomas algorithm, in three walks along it.
 // The lines of a direction share no particle, so the displacement is updated in place. SECOND_ORDER: the control says
 // whether this substep is BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts).
+// BENT: the line bends.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER MASKED
+#pragma variants SECOND_ORDER MASKED BENT
 #include "shared/line_types.h"
 #include "include/line.h"
+#ifdef BENT
+#include "include/bent_line.h"
+#endif
 #include "include/verlet.h"
 
 layout(local_size_x = line_group_width) in;
@@ -16,7 +20,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out
 // Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
 // leaves the spring after it.
 layout(set = 0, binding = 3, std430) buffer Scratch { vec4 scratch[]; };
-// Of spring e of a line: eliminated.
+// Of spring e of a line: eliminated; before, of particle e of a line that bends.
 layout(set = 0, binding = 4, std430) buffer Rows { vec2 rows[]; };
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 layout(set = 0, binding = 6, r32f) uniform writeonly image2D tension_out;
@@ -55,9 +59,12 @@ LineParticle moved_particle(ivec2 at, vec3 delta) {
     return LineParticle(at, particle.position, moved_by(particle.displacement, delta, 1.0f));
 }
 
+vec3 edge_between(LineParticle first, LineParticle second) {
+    return spring_edge(first.position.xyz, second.position.xyz, first.displacement, second.displacement);
+}
+
 LineSpring spring_between(LineParticle first, LineParticle second) {
-    return line_spring(spring_edge(first.position.xyz, second.position.xyz, first.displacement, second.displacement),
-                       push.rest_length);
+    return line_spring(edge_between(first, second), push.rest_length);
 }
 
 float tension_of(ivec2 first, float followed) {
@@ -69,8 +76,45 @@ float tension_per_length_of(LineParticle first, LineParticle second, float follo
     return tension_per_length(tension_of(first.at, followed), start_edge, push.rest_length);
 }
 
+#ifdef BENT
+void store_bent(int line, int p, BentParticle particle) {
+    scratch[place(line, p)] = vec4(particle.turn, particle.by_turn);
+    rows[place(line, p)] = vec2(particle.by_shift, 0.0f);
+}
+
 /// The first system, from the line's start on.
-void eliminate_particles(int line, float compliance, float followed) {
+void eliminate_particles(int line, float compliance, float followed, float bend) {
+    LineParticle particle = load_particle(line_start(line, push.step));
+    LineParticle next = load_particle(next_on_line(particle.at, push.step, push.grid.x));
+    vec3 edge = edge_between(particle, next);
+    float share = share_of(particle.at);
+    BentLine bent = unbent_line();
+    int last = push.particle_count - 1;
+    for (int p = 0; p < last; ++p) {
+        float stiffness =
+            geometric_stiffness(tension_per_length_of(particle, next, followed), share, compliance);
+        LineParticle after = next;
+        vec3 edge_after = vec3(0.0f, 0.0f, 0.0f);
+        float share_after = 0.0f;
+        if (p + 1 < last) {
+            after = load_particle(next_on_line(next.at, push.step, push.grid.x));
+            edge_after = edge_between(next, after);
+            share_after = share_of(next.at);
+        }
+        BentParticle eliminated = eliminate_bent(bent, edge, stiffness, edge_after,
+                                                 element_bend(bend, share, share_after), particle.position.w);
+        store_bent(line, p, eliminated);
+        bent = eliminated.line;
+        edge = edge_after;
+        share = share_after;
+        particle = next;
+        next = after;
+    }
+    store_bent(line, last, eliminate_last_bent(bent, particle.position.w));
+}
+#else
+/// The first system, from the line's start on.
+void eliminate_particles(int line, float compliance, float followed, float bend) {
     LineParticle particle = load_particle(line_start(line, push.step));
     vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
@@ -82,7 +126,7 @@ void eliminate_particles(int line, float compliance, float followed) {
         float stiffness = 0.0f;
         if (p < last) {
             next = load_particle(next_on_line(particle.at, push.step, push.grid.x));
-            edge = spring_edge(particle.position.xyz, next.position.xyz, particle.displacement, next.displacement);
+            edge = edge_between(particle, next);
             stiffness = geometric_stiffness(tension_per_length_of(particle, next, followed), share_of(particle.at),
                                             compliance);
         }
@@ -95,10 +139,18 @@ void eliminate_particles(int line, float compliance, float followed) {
     }
 }
 
-/// What the first system changes of particle p, from what it changes of the particle after it.
-vec3 delta_of(int line, int p, vec3 delta_after) {
+#endif
+
+/// What the first system changes of particle p, from what it changes of the particle after it; `turn`: how the edge after
+/// that one turns, then its own.
+vec3 delta_of(int line, int p, vec3 delta_after, inout vec3 turn) {
     if (push.first_iteration == 0) return vec3(0.0f, 0.0f, 0.0f);
+#ifdef BENT
+    turn = substitute_turn(scratch[place(line, p)], rows[place(line, p)].x, turn, delta_after);
+    return bent_delta(delta_after, turn);
+#else
     return substitute_particle(scratch[place(line, p)], delta_after);
+#endif
 }
 
 float tension_between(LineParticle first, LineParticle second, LineSpring spring, float followed) {
@@ -113,10 +165,11 @@ float eliminate_springs(int line, float compliance, float followed) {
     vec2 eliminated = vec2(0.0f, 0.0f);
     int last = push.particle_count - 2;
     ivec2 back = -push.step;
-    vec3 delta = delta_of(line, last + 1, vec3(0.0f, 0.0f, 0.0f));
+    vec3 turn = vec3(0.0f, 0.0f, 0.0f);
+    vec3 delta = delta_of(line, last + 1, vec3(0.0f, 0.0f, 0.0f), turn);
     LineParticle second = moved_particle(line_end(line, push.step, push.particle_count, push.grid.x), delta);
     scratch[place(line, last + 1)] = vec4(delta, 0.0f);
-    delta = delta_of(line, last, delta);
+    delta = delta_of(line, last, delta, turn);
     LineParticle first = moved_particle(next_on_line(second.at, back, push.grid.x), delta);
     LineSpring spring = spring_between(first, second);
     for (int e = last; e >= 0; --e) {
@@ -124,7 +177,7 @@ float eliminate_springs(int line, float compliance, float followed) {
         LineSpring spring_before = LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
         vec3 delta_before = delta;
         if (e > 0) {
-            delta_before = delta_of(line, e - 1, delta);
+            delta_before = delta_of(line, e - 1, delta, turn);
             before = moved_particle(next_on_line(first.at, back, push.grid.x), delta_before);
             spring_before = spring_between(before, first);
         }
@@ -175,14 +228,15 @@ void substitute_springs(int line, float compliance, float followed) {
 void main() {
     int line = int(gl_GlobalInvocationID.x);
     if (line >= push.line_count) return;
-    float compliance = push.compliance, followed = push.followed;
+    float compliance = push.compliance, followed = push.followed, bend = push.bend;
 #ifdef SECOND_ORDER
     if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
         compliance = push.compliance_bdf2;
         followed = push.followed_bdf2;
+        bend = push.bend_bdf2;
     }
 #endif
-    if (push.first_iteration != 0) eliminate_particles(line, compliance, followed);
+    if (push.first_iteration != 0) eliminate_particles(line, compliance, followed, bend);
     float largest_excess = eliminate_springs(line, compliance, followed);
     substitute_springs(line, compliance, followed);
 #ifdef SECOND_ORDER

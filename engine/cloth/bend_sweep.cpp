@@ -18,42 +18,65 @@ constexpr double bend_sweep_compliance = 3;
 /// on a saddle: 2.2 at m/(t h^2) = 30, 2.4 at 10.
 constexpr double twist_sweep_compliance = 2;
 
+double wanted_compliance(double constant, const ClothGeometry& cloth, const MethodSettings& settings) {
+    return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
+}
+
+/// The compliance of an element that is softened to `share` of its constant, less what the sweep adds.
+float sweep_compliance(double wanted, double share, double sweep) {
+    return static_cast<float>(std::max(wanted / share - sweep, 1e-20));
+}
+
+void add_twists(const ClothGeometry& cloth, float compliance, MethodPlan& plan) {
+    for (const TwistPass& pass : twist_passes(cloth.grid.size()))
+        if (!pass.empty())
+            plan.once.push_back({StepKind::twist, glsl::TwistPush{pass.element_count, pass.first, compliance}});
+}
+
+double substeps_for(double share, const MethodSettings& settings) {
+    return std::ceil(settings.substeps / std::sqrt(share));
+}
+
 }  // namespace
 
-void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, double compliance_factor,
-                    MethodPlan& plan) {
+void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
     plan.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
-    const double h = settings.substep_length;
-    const auto wanted_compliance = [&](double constant) {
-        return compliance_factor * (cloth.inner_mass / (constant * h * h));
-    };
-    const double twist = wanted_compliance(cloth.stiffness_constant.twist);
+    const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     double share = std::min(1.0, twist / twist_sweep_compliance);
     for (const double constant : cloth.stiffness_constant.bend)
-        if (constant > 0) share = std::min(share, wanted_compliance(constant) / bend_sweep_compliance);
+        if (constant > 0) share = std::min(share, wanted_compliance(constant, cloth, settings) / bend_sweep_compliance);
     // All elements are softened alike, so that the cloth stays as stiff in every direction.
-    const auto compliance = [share](double wanted, double sweep) {
-        return static_cast<float>(std::max(wanted / share - sweep, 1e-20));
-    };
     for (const BendPass& pass : bend_passes(cloth.grid.size())) {
         const auto axis = static_cast<std::size_t>(pass.axis);
         const double constant = cloth.stiffness_constant.bend[axis];
         if (constant == 0 || pass.empty()) continue;
+        const double wanted = wanted_compliance(constant, cloth, settings);
         plan.once.push_back(
-            {StepKind::bend,
-             glsl::BendPush{cloth.grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour, pass.axis,
-                            compliance(wanted_compliance(constant), bend_sweep_compliance)}});
+            {StepKind::bend, glsl::BendPush{cloth.grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour,
+                                            pass.axis, sweep_compliance(wanted, share, bend_sweep_compliance)}});
     }
-    for (const TwistPass& pass : twist_passes(cloth.grid.size()))
-        if (!pass.empty())
-            plan.once.push_back({StepKind::twist, glsl::TwistPush{pass.element_count, pass.first,
-                                                                  compliance(twist, twist_sweep_compliance)}});
+    add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
     if (share == 1) return;
     plan.used_bend *= share;
     note_compromise(cloth, settings, "bending",
                     fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m", plan.used_bend, cloth.bend),
-                    std::ceil(settings.substeps / std::sqrt(share)), plan);
+                    substeps_for(share, settings), plan);
+}
+
+void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, double compliance_factor,
+                     MethodPlan& plan) {
+    plan.used_bend = cloth.bend;
+    if (cloth.bend == 0) return;
+    const double twist = compliance_factor * wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
+    const double share = std::min(1.0, twist / twist_sweep_compliance);
+    add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
+    if (share == 1) return;
+    note_compromise(cloth, settings, "twist",
+                    fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m where the cloth twists; "
+                                "rows and columns bend in full",
+                                share * cloth.bend, cloth.bend),
+                    substeps_for(share, settings), plan);
 }
 
 }  // namespace drape

@@ -24,19 +24,30 @@ double compliance_factor(const ClothGeometry& cloth, const MethodSettings& setti
     return settings.collides ? 1.0 : 2.25 / bdf2_damping(cloth, settings);
 }
 
+/// Constant (N/m) of the bending elements along lines of a direction; 0 on diagonals.
+double line_bend(std::size_t direction, const ClothGeometry& cloth) {
+    return direction < bend_axes.size() ? cloth.stiffness_constant.bend[direction] : 0;
+}
+
 double euler_compliance(double constant, const ClothGeometry& cloth, const MethodSettings& settings) {
     return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
 }
+
+/// Of springs that there are not, in lines that only bend: they pull on nothing.
+constexpr double slack_compliance = 1e20;
 
 /// All lines of one direction.
 glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth, const MethodSettings& settings) {
     const glsl::ivec2 grid = cloth.grid.size(), step = spring_directions[direction].offset;
     const bool is_row = step.y == 0;
-    const double euler = euler_compliance(cloth.stiffness_constant.spring[direction], cloth, settings);
-    const double own = compliance_factor(cloth, settings) * euler;
+    const double constant = cloth.stiffness_constant.spring[direction];
+    const double euler = constant > 0 ? euler_compliance(constant, cloth, settings) : slack_compliance;
+    const double factor = compliance_factor(cloth, settings), own = factor * euler;
     const auto limited = [](double compliance) { return std::max(compliance, least_line_compliance); };
     const auto followed = [&](double compliance) { return static_cast<float>(compliance / limited(compliance)); };
     const int seam = is_row || step.x == 0 ? -1 : step.x > 0 ? grid.x - 1 : 0;
+    const double bend = line_bend(direction, cloth);
+    const double relative_bend = bend > 0 ? 1 / euler_compliance(bend, cloth, settings) : 0;
     return {grid,
             step,
             is_row ? grid.y : grid.x,
@@ -49,7 +60,8 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
             followed(euler),
             followed(own),
             1,
-            0};
+            static_cast<float>(relative_bend),
+            static_cast<float>(relative_bend / factor)};
 }
 
 /// Stiffness (N/m) that a line's spring has, given the least compliance.
@@ -96,8 +108,8 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
     // Diagonals first: they disturb rows and columns, which carry the load and have the last word.
     for (const SpringFamily family : {SpringFamily::shear, SpringFamily::stretch})
         for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
-            if (spring_directions[direction].family != family || cloth.stiffness_constant.spring[direction] == 0)
-                continue;
+            const bool pulls = cloth.stiffness_constant.spring[direction] > 0, bends = line_bend(direction, cloth) > 0;
+            if (spring_directions[direction].family != family || (!pulls && !bends)) continue;
             const glsl::LinePush push = line_constants(direction, cloth, settings);
             plan.iterated.push_back({StepKind::line, push});
             plan.carries_tension[direction] = plan.line_scratch = true;
@@ -109,7 +121,7 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
 MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings) {
     MethodPlan plan;
     add_prediction(cloth, settings, plan);
-    add_bend_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
+    add_twist_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
     add_lines(cloth, settings, plan);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});

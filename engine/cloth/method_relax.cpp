@@ -46,7 +46,7 @@ MethodPlan plan_relax(const ClothGeometry& cloth, const MethodSettings& settings
     plan.start = verlet_start(cloth, settings);
     plan.used_stiffness = cloth.stiffness_constant.spring;
     if (cloth.rigid) plan.used_stiffness.fill(std::numeric_limits<double>::infinity());
-    add_bend_sweep(cloth, settings, 1, plan);
+    add_bend_sweep(cloth, settings, plan);
     add_springs(cloth, settings, plan);
     return plan;
 }

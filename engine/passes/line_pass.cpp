@@ -42,8 +42,8 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     glsl::LinePush push = step.push<glsl::LinePush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("line.comp", {{"second_order", model.plan.second_order}, {"masked", state.masked()}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
+        "line.comp", {{"second_order", model.plan.second_order}, {"masked", state.masked()}, {"bent", push.bend > 0}}));
     const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),

@@ -12,6 +12,7 @@ namespace drape::glsl {
 
 #include "include/bdf2.h"
 #include "include/bend.h"
+#include "include/bent_line.h"
 #include "include/colliders.h"
 #include "include/cut.h"
 #include "include/explicit.h"

@@ -62,8 +62,8 @@ inline double cantilever_frequency(double gamma) {
 }
 
 /// A strip clamped level at one end, of the rigidity that makes gamma = w L^3/B: `segments` cells from the
-/// clamp to the free end, 1000 frames/s, substeps as the method needs them. Two held columns clamp the middle
-/// of their cell, so the free length is half a cell more than the free columns.
+/// clamp to the free end, 1000 frames/s, substeps as the method needs them (line: 60 frames/s, 8 substeps). Two held
+/// columns clamp the middle of their cell, so the free length is half a cell more than the free columns.
 inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverMethod method) {
     constexpr double density = 0.2, stretch = 500, length = cantilever_length;
     const double cell = length / (segments + 0.5), mass = density * cell * cell;
@@ -76,6 +76,10 @@ inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverM
     const auto substeps = static_cast<std::uint32_t>(std::ceil(steps_per_second / 1000));
     SceneDescription scene = sheet(segments + 2, 2, cell * (segments + 1), cell, substeps);
     scene.time.fps = 1000;
+    if (method == SolverMethod::line) {
+        scene.time.fps = 60;
+        scene.solver.substeps = 8;
+    }
     scene.solver.method = method;
     Cloth& cloth = scene.cloths[0];
     cloth.areal_density = density;
@@ -90,7 +94,7 @@ inline SceneDescription hanging_cantilever(std::uint32_t segments, double gamma,
     SceneDescription scene = cantilever(segments, gamma, method);
     const double slowest = cantilever_frequency(gamma);
     scene.cloths[0].damping = 1.4 * slowest;
-    scene.time.frame_count = static_cast<std::uint32_t>(1000 * 20 / slowest) + 1;
+    scene.time.frame_count = static_cast<std::uint32_t>(scene.time.fps * 20 / slowest) + 1;
     return scene;
 }
 

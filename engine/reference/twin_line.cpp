@@ -89,12 +89,8 @@ struct LineView {
     }
 };
 
-/// The first system: lets the tension of the last substep resist, and follows it to where the particles are now.
-void filter(LineView& line, float compliance, float followed) {
-    std::vector<float> per_length;
-    for (std::size_t e = 0; e < line.spring_count(); ++e)
-        per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
-                                                line.push.rest_length));
+/// The first system of a line: changes of its particles' displacements.
+std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<vec4> eliminated;
     vec4 previous{0, 0, 0, 0};
     vec3 edge_before{0, 0, 0};
@@ -102,17 +98,52 @@ void filter(LineView& line, float compliance, float followed) {
     for (std::size_t p = 0; p < line.particles.size(); ++p) {
         const bool has_spring = p < line.spring_count();
         const vec3 edge = has_spring ? line.edge(p) : vec3{0, 0, 0};
-        const float stiffness = has_spring ? geometric_stiffness(per_length[p], line.share(p), compliance) : 0.0f;
-        previous = eliminate_particle(previous, edge_before, stiffness_before, edge, stiffness, line.weight(p));
+        previous = eliminate_particle(previous, edge_before, stiffness_before, edge, has_spring ? stiffness[p] : 0.0f,
+                                      line.weight(p));
         eliminated.push_back(previous);
         edge_before = edge;
-        stiffness_before = stiffness;
+        stiffness_before = has_spring ? stiffness[p] : 0.0f;
     }
-    vec3 delta{0, 0, 0};
-    for (std::size_t p = line.particles.size(); p-- > 0;) {
-        line.delta[p] = delta = substitute_particle(eliminated[p], delta);
-        line.moved[p] = moved_by(line.moved[p], delta, 1.0f);
+    std::vector<vec3> delta(eliminated.size());
+    vec3 after{0, 0, 0};
+    for (std::size_t p = eliminated.size(); p-- > 0;) after = delta[p] = substitute_particle(eliminated[p], after);
+    return delta;
+}
+
+/// The same of a line that bends.
+std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
+    std::vector<BentParticle> eliminated;
+    BentLine bent = unbent_line();
+    const std::size_t last = line.spring_count();
+    for (std::size_t p = 0; p < last; ++p) {
+        const bool has_element = p + 1 < last;
+        eliminated.push_back(
+            eliminate_bent(bent, line.edge(p), stiffness[p], has_element ? line.edge(p + 1) : vec3{0, 0, 0},
+                           element_bend(bend, line.share(p), has_element ? line.share(p + 1) : 0.0f), line.weight(p)));
+        bent = eliminated.back().line;
     }
+    eliminated.push_back(eliminate_last_bent(bent, line.weight(last)));
+    std::vector<vec3> delta(eliminated.size());
+    vec3 after{0, 0, 0}, turn{0, 0, 0};
+    for (std::size_t p = eliminated.size(); p-- > 0;) {
+        const BentParticle& particle = eliminated[p];
+        turn = substitute_turn(texel(particle.turn, particle.by_turn), particle.by_shift, turn, after);
+        after = delta[p] = bent_delta(after, turn);
+    }
+    return delta;
+}
+
+/// Lets the tension of the last substep and the bending resist, and follows the tension to where the particles are now.
+void filter(LineView& line, float compliance, float followed, bool bends, float bend) {
+    std::vector<float> per_length, stiffness;
+    for (std::size_t e = 0; e < line.spring_count(); ++e) {
+        per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
+                                                line.push.rest_length));
+        stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), compliance));
+    }
+    line.delta = bends ? bent_deltas(line, stiffness, bend) : tension_deltas(line, stiffness);
+    for (std::size_t p = 0; p < line.particles.size(); ++p)
+        line.moved[p] = moved_by(line.moved[p], line.delta[p], 1.0f);
     for (std::size_t e = 0; e < line.spring_count(); ++e)
         line.tension.push_back(filtered_tension(per_length[e], line.spring(e)));
 }
@@ -150,7 +181,7 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     for (int k = 0; k < push.line_count; ++k) {
         LineView line(model, push, state, k);
         if (step.iteration == 0)
-            filter(line, compliance, followed);
+            filter(line, compliance, followed, push.bend > 0.0f, is_bdf2 ? push.bend_bdf2 : push.bend);
         else
             for (std::size_t e = 0; e < line.spring_count(); ++e)
                 line.tension.push_back(line.last_tension(e, followed));

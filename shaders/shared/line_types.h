@@ -25,7 +25,8 @@ struct LinePush {
     float followed;         // compliance asked for over the one above, 1 = nothing softened
     float followed_bdf2;
     int first_iteration;  // 1: the tension is the last substep's: both systems; 0: the last iteration's: the second
-    int unused;
+    float bend;           // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
+    float bend_bdf2;      // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
 };
 
 /// Prediction of the line solver in second order (include/bdf2.h).

@@ -94,6 +94,25 @@ TEST(TwinLineTest, BendingHolesAndNoWind) {
     compare(scene);
 }
 
+TEST(TwinLineTest, StiffBendingInTwoIterations) {
+    SceneDescription scene = free_lines();
+    scene.solver.iterations = 2;
+    scene.cloths[0].stiffness.bend = 1e-2;
+    compare(scene);
+}
+
+TEST(TwinLineTest, BendingWithColliders) {
+    SceneDescription scene = everything_in_lines();
+    scene.cloths[0].stiffness.bend = 1e-3;
+    compare(scene);
+}
+
+TEST(TwinLineTest, BendingAlone) {
+    SceneDescription scene = free_lines();
+    scene.cloths[0].stiffness = {false, 0, 0, 1e-4};
+    compare(scene);
+}
+
 TEST(TwinLineTest, RigidSpringsAndPinsAtBothEnds) {
     SceneDescription scene = free_lines();
     scene.cloths[0].stiffness.rigid = true;
@@ -122,6 +141,8 @@ TEST_P(TwinLineGrid, EveryShapeOfGrid) {
     scene.solver.method = SolverMethod::line;
     scene.cloths[0].velocity = {0.5, 0, 1};
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0)};
+    compare(scene);
+    scene.cloths[0].stiffness.bend = 1e-3;
     compare(scene);
 }
 

@@ -12,10 +12,8 @@ namespace drape {
 namespace {
 
 /// H/W once the strip hangs still.
-double fall_over_reach(std::uint32_t segments, double gamma, SolverMethod method) {
-    const SceneDescription scene = model_scenes::hanging_cantilever(segments, gamma, method);
+double fall_over_reach(const SceneDescription& scene) {
     const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
     EXPECT_EQ(model.cloths[0].plan.used_bend, scene.cloths[0].stiffness.bend);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame < scene.time.frame_count; ++frame) twin.run_frame(frame);
@@ -30,7 +28,9 @@ TEST_P(Cantilever, HangsAsTheElastica) {
     const double gamma = expected.first;
     double ratio[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        ratio[k] = fall_over_reach(16u << k, gamma, method);
+        const SceneDescription scene = model_scenes::hanging_cantilever(16u << k, gamma, method);
+        EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
+        ratio[k] = fall_over_reach(scene);
         std::printf("[ measured ] %s, Gamma %g, %u segments: H/W %.6f, %+.3f %% of the elastica's\n",
                     method == SolverMethod::relax ? "relax" : "explicit", gamma, 16u << k, ratio[k],
                     100 * (ratio[k] / expected.second - 1));
@@ -48,6 +48,25 @@ INSTANTIATE_TEST_SUITE_P(Gamma, Cantilever,
                          testing::Combine(testing::Values(SolverMethod::explicit_steps, SolverMethod::relax),
                                           testing::Values(std::pair{1.0, 0.124562}, std::pair{10.0, 1.066802},
                                                           std::pair{100.0, 5.888105})));
+
+class LineCantilever : public testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(LineCantilever, HangsAsTheElasticaOnAFewSubsteps) {
+    // m/(b h^2) is 2e-3 at Gamma 1 and 4 substeps: 3 is what a sweep over coloured elements can follow.
+    const auto [gamma, expected] = GetParam();
+    for (const std::uint32_t substeps : {4u, 8u, 20u}) {
+        SceneDescription scene = model_scenes::hanging_cantilever(32, gamma, SolverMethod::line);
+        scene.solver.substeps = substeps;
+        const double ratio = fall_over_reach(scene);
+        std::printf("[ measured ] line, Gamma %g, %u substeps: H/W %.6f, %+.3f %% of the elastica's\n", gamma, substeps,
+                    ratio, 100 * (ratio / expected - 1));
+        EXPECT_NEAR(ratio / expected, 1, substeps == 4 ? 0.03 : 0.02);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gamma, LineCantilever,
+                         testing::Values(std::pair{1.0, 0.124562}, std::pair{10.0, 1.066802},
+                                         std::pair{100.0, 5.888105}));
 
 }  // namespace
 }  // namespace drape

@@ -306,6 +306,7 @@ Problem cantilever_strip(double gamma, bool is_short) {
     } else {
         add(SolverMethod::explicit_steps, {16, 32, 64});
         add(SolverMethod::relax, {16, 32});
+        problem.sweeps.push_back({32, substep_settings(SolverMethod::line, {4, 8, 20}), 4});
     }
     return problem;
 }
