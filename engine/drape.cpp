@@ -111,7 +111,7 @@ class Sink {
     }
 
     void add(const FinishedFrame& frame) {
-        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(scene_, frame.statistics)};
+        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(scene_, frame)};
         statistics_.add(frame.frame, written.values);
         for (const Writer& writer : writers_)
             if (!writer.format->draws || !kept_.contains(frame.frame)) writer.files->add(written);

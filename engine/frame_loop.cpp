@@ -25,10 +25,28 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
 }  // namespace
 
 FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
-    : device_(device), model_(model), options_(options), solver_(device, model_), slots_(device) {
+    : device_(device),
+      model_(model),
+      options_(options),
+      solver_(device, model_),
+      state_substeps_(model.scene.solver.substeps),
+      slots_(device) {
+    if (model_.closed_loop())
+        control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, probe_length(model_));
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);
+}
+
+std::vector<FrameKind> FrameLoop::kinds() const {
+    using enum FrameKind;
+    std::vector<FrameKind> all{initial, simulate, simulate_and_output};
+    const bool cuts = !model_.scene.cutters.empty(), closed = model_.closed_loop();
+    if (cuts) all.push_back(initial_cut);
+    if (cuts && !closed) all.insert(all.end(), {simulate_cut, simulate_and_output_cut});
+    if (closed) all.push_back(output);
+    if (cuts && closed) all.insert(all.end(), {output_cut, search_cut});
+    return all;
 }
 
 void FrameLoop::build_graphs() {
@@ -40,22 +58,39 @@ void FrameLoop::build_graphs() {
                                                RasterOptions{.cut = cut});
         draws_cut_ = cut;
     }
-    for (std::size_t kind = 0; kind < kind_count(); ++kind) build(static_cast<FrameKind>(kind));
+    for (const FrameKind kind : kinds()) frames_[static_cast<std::size_t>(kind)] = build(kind, model_);
 }
 
 void FrameLoop::allocate_and_record() {
+    rungs_.clear();
+    if (model_.closed_loop()) build_attempts();
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
-    for (std::size_t kind = 0; kind < kind_count(); ++kind)
-        plans.emplace_back(&frames_[kind].graph, &frames_[kind].plan);
+    for (const FrameKind kind : kinds()) {
+        const Frame& frame = frames_[static_cast<std::size_t>(kind)];
+        plans.emplace_back(&frame.graph, &frame.plan);
+    }
+    if (model_.closed_loop())
+        for (const Frame& frame : attempts_) plans.emplace_back(&frame.graph, &frame.plan);
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     record();
 }
 
 void FrameLoop::record() {
-    for (std::size_t kind = 0; kind < kind_count(); ++kind)
-        frames_[kind].recorded = std::make_unique<graph::RecordedPlan>(frames_[kind].graph, frames_[kind].plan, *pool_,
-                                                                       options_.timestamps, options_.barrier_filter);
+    for (const FrameKind kind : kinds()) {
+        // What a closed loop simulates is recorded by its rungs.
+        if (model_.closed_loop() && contents(kind).simulates) continue;
+        Frame& frame = frames_[static_cast<std::size_t>(kind)];
+        frame.recorded = recording(frame);
+    }
+    if (!model_.closed_loop()) return;
+    for (Frame& frame : attempts_)
+        if (!frame.recorded) frame.recorded = recording(frame);
+}
+
+std::unique_ptr<graph::RecordedPlan> FrameLoop::recording(const Frame& frame) const {
+    return std::make_unique<graph::RecordedPlan>(frame.graph, frame.plan, *pool_, options_.timestamps,
+                                                 options_.barrier_filter);
 }
 
 FrameLoop::~FrameLoop() {
@@ -112,61 +147,80 @@ bool FrameLoop::outgrown(const CutImages& before, const CutTopology& topology) c
 void FrameLoop::rebuild_resources() {
     const auto state = solver_.download_state(*pool_);
     for (Frame& frame : frames_) frame.recorded.reset();
+    rungs_.clear();
+    attempts_ = {};
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);
     solver_.upload_state(*pool_, state);
 }
 
-void FrameLoop::build(FrameKind kind) {
-    Frame& frame = frames_[static_cast<std::size_t>(kind)];
-    const bool output = plain(kind) != FrameKind::simulate;
-    solver_.declare(frame.graph, {.drawing = output && (options_.draw || options_.normals),
-                                  .statistics = output && options_.statistics});
-    if (plain(kind) != FrameKind::initial) solver_.add_simulation(frame.graph);
-    if (searches_cuts(kind)) {
+FrameNeeds FrameLoop::needs(FrameKind kind) const {
+    const FrameContents& has = contents(kind);
+    // A closed loop judges what it simulates, and hands that out.
+    const bool judged =
+        model_.closed_loop() && (has.simulates || kind == FrameKind::output || kind == FrameKind::output_cut);
+    return {.drawing = has.hands_out && (options_.draw || options_.normals),
+            .statistics = judged ? has.simulates : has.hands_out && options_.statistics};
+}
+
+FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
+    Frame frame;
+    const FrameContents& has = contents(kind);
+    const FrameNeeds wanted = needs(kind);
+    solver_.declare(frame.graph, wanted, run);
+    if (has.simulates) solver_.add_simulation(frame.graph);
+    if (has.searches_cuts) {
         solver_.add_cuts(frame.graph);
     } else {
         frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
                                                                     : "no cutter is active in this kind of frame");
     }
-    if (output && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
-    if (output && options_.draw)
+    if (has.hands_out && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
+    if (has.hands_out && options_.draw)
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
     else if (!options_.draw)
         frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
                          "no picture is wanted");
-    if (output && options_.normals)
+    if (has.hands_out && options_.normals)
         for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::normal], "normal");
-    if (output && options_.positions) {
+    if (has.hands_out && options_.positions) {
         for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::position], "position");
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }
-    if (output && options_.statistics)
+    if (wanted.statistics)
         solver_.add_statistics(frame.graph);
     else if (!options_.statistics)
         frame.graph.skip("statistics", "nobody asked for them");
     frame.plan = graph::make_plan(frame.graph);
+    return frame;
 }
 
 void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output) {
     // The initial frame simulates nothing, but its statistics need to know where the colliders are.
     const double fps = model_.scene.time.fps;
-    if (plain(kind) != FrameKind::initial || options_.statistics) solver_.write_inputs(*pool_, slot, frame);
-    if (searches_cuts(kind)) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
-    if (plain(kind) != FrameKind::simulate && raster_) raster_->write_frame(*pool_, slot, frame / fps);
+    const FrameContents& has = contents(kind);
+    if (has.simulates || needs(kind).statistics) solver_.write_inputs(*pool_, slot, frame);
+    if (has.searches_cuts) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+    if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
     slots_.submit(slot, frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
-    in_flight_[slot] = InFlight{frame, kind, output};
+    in_flight_[slot] = InFlight{frame, kind, output, std::nullopt};
 }
 
-void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished) {
+void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     slots_.wait(slot);
     if (!in_flight_[slot]) return;
-    const InFlight done = *in_flight_[slot];
+    const InFlight done = std::move(*in_flight_[slot]);
     in_flight_[slot].reset();
     FinishedFrame result;
     result.frame = done.frame;
+    result.effort.substeps = done.frame == 0 ? 0 : model_.scene.solver.substeps;
+    if (done.judged) {
+        result.statistics = done.judged->statistics;
+        result.effort = done.judged->effort;
+        result.timings = done.judged->timings;
+    }
     for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
         result.timings.push_back({std::move(timing.name), timing.milliseconds});
     if (done.output && options_.draw) {
@@ -183,12 +237,38 @@ void FrameLoop::deliver(std::uint32_t slot, const std::function<void(const Finis
     };
     if (done.output && options_.positions) result.positions = read("position");
     if (done.output && options_.normals) result.normals = read("normal");
-    if (done.output && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
+    if (done.output && !done.judged && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);
 }
 
-bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
-                    const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+void FrameLoop::deliver_all(const Finished& finished) {
+    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
+        deliver((next_slot_ + slot) % vulkan::frame_slot_count, finished);
+}
+
+std::uint32_t FrameLoop::take_slot(const Finished& finished) {
+    const std::uint32_t slot = next_slot_;
+    deliver(slot, finished);
+    next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
+    return slot;
+}
+
+void FrameLoop::take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished) {
+    // A cut acts from the next frame on, always: so that frame waits for this one's findings.
+    deliver(next_slot_, finished);
+    deliver(slot, finished);
+    take_cuts(slot, frame);
+}
+
+FrameKind FrameLoop::kind_of(std::uint32_t frame, bool wanted, bool cutting) {
+    using enum FrameKind;
+    if (frame == 0) return cutting ? initial_cut : initial;
+    if (wanted) return cutting ? simulate_and_output_cut : simulate_and_output;
+    return cutting ? simulate_cut : simulate;
+}
+
+bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& finished,
+                    const std::function<bool()>& stop) {
     bool complete = true;
     for (; next_frame_ <= last; ++next_frame_) {
         const std::uint32_t frame = next_frame_;
@@ -199,21 +279,16 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
             complete = false;
             break;
         }
-        deliver(next_slot_, finished);
-        const FrameKind kind = frame == 0 ? FrameKind::initial
-                               : output   ? FrameKind::simulate_and_output
-                                          : FrameKind::simulate;
-        submit(next_slot_, frame, cutting ? with_cut_search(kind) : kind, output);
-        const std::uint32_t slot = next_slot_;
-        next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
-        if (!cutting) continue;
-        // A cut acts from the next frame on, always: so that frame waits for this one's findings.
-        deliver(next_slot_, finished);
-        deliver(slot, finished);
-        take_cuts(slot, frame);
+        if (control_ && frame > 0) {
+            if (frame >= simulated_) simulate_segment(frame, {last, wanted, finished});
+            release_withheld(frame, output, finished);
+            continue;
+        }
+        const std::uint32_t slot = take_slot(finished);
+        submit(slot, frame, kind_of(frame, output, cutting), output);
+        if (cutting) take_cuts_of(slot, frame, finished);
     }
-    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
-        deliver((next_slot_ + slot) % vulkan::frame_slot_count, finished);
+    deliver_all(finished);
     return complete;
 }
 

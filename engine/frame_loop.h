@@ -1,16 +1,22 @@
 // The frames of a scene on the device: graphs for each kind of frame, two frames in flight, results handed out
-// in order. The host never reads positions to simulate; it reads them only where an export asks for them.
+// in order. With method `auto` the loop is closed: every frame is judged, and done again where it fails. The host never
+// reads positions to simulate; it reads them only where an export asks for them.
 #pragma once
 
 #include <array>
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "cloth/frame_judgement.h"
 #include "cloth/schedule.h"
+#include "cloth/substep_control.h"
 #include "drape/simulation.h"
+#include "frame_copy.h"
 #include "graph/executor.h"
 #include "passes/cloth_solver.h"
 #include "passes/raster.h"
@@ -31,23 +37,39 @@ struct FrameLoopOptions {
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
+    bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
     /// Told of every cut, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 
-/// What happens in a frame: frame 0 is the initial state; frames that nobody asked for are only simulated. The
-/// second three also search for cuts; they exist only when the scene has cutters.
-enum class FrameKind { initial, simulate, simulate_and_output, initial_cut, simulate_cut, simulate_and_output_cut };
-inline constexpr std::size_t plain_frame_kind_count = 3, frame_kind_count = 6;
-constexpr bool searches_cuts(FrameKind kind) { return static_cast<std::size_t>(kind) >= plain_frame_kind_count; }
-constexpr FrameKind with_cut_search(FrameKind kind) {
-    return static_cast<FrameKind>(static_cast<std::size_t>(kind) + plain_frame_kind_count);
-}
-/// The kind without the search for cuts.
-constexpr FrameKind plain(FrameKind kind) {
-    return static_cast<FrameKind>(static_cast<std::size_t>(kind) % plain_frame_kind_count);
-}
+/// What is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated; those in
+/// which a cutter is active are searched for cuts. A closed loop simulates until a frame is good and hands it out
+/// after.
+enum class FrameKind {
+    initial,
+    simulate,
+    simulate_and_output,
+    output,
+    initial_cut,
+    simulate_cut,
+    simulate_and_output_cut,
+    output_cut,
+    search_cut
+};
+struct FrameContents {
+    bool simulates, hands_out, searches_cuts;
+};
+inline constexpr std::array<FrameContents, 9> frame_contents{{{false, true, false},
+                                                              {true, false, false},
+                                                              {true, true, false},
+                                                              {false, true, false},
+                                                              {false, true, true},
+                                                              {true, false, true},
+                                                              {true, true, true},
+                                                              {false, true, true},
+                                                              {false, false, true}}};
+constexpr const FrameContents& contents(FrameKind kind) { return frame_contents[static_cast<std::size_t>(kind)]; }
 
 class FrameLoop {
   public:
@@ -78,13 +100,28 @@ class FrameLoop {
         graph::Plan plan;
         std::unique_ptr<graph::RecordedPlan> recorded;
     };
+    /// What is handed out with a frame of a closed loop, known before it is drawn.
+    struct Judged {
+        std::vector<ClothStatistics> statistics;
+        FrameEffort effort;
+        std::vector<StageTime> timings;
+    };
     struct InFlight {
         std::uint32_t frame = 0;
         FrameKind kind = FrameKind::initial;
         bool output = false;
+        std::optional<Judged> judged;
     };
+    /// A closed loop's frame at one number of substeps.
+    struct Rung {
+        std::unique_ptr<SimulationModel> model;
+        Frame frame;
+    };
+    using Finished = std::function<void(const FinishedFrame&)>;
 
-    std::size_t kind_count() const { return model_.scene.cutters.empty() ? plain_frame_kind_count : frame_kind_count; }
+    /// Those that this scene and these options ever need.
+    std::vector<FrameKind> kinds() const;
+    FrameNeeds needs(FrameKind kind) const;
     bool cutters_active_in(std::uint32_t frame) const;
     void build_graphs();
     void allocate_and_record();
@@ -92,9 +129,41 @@ class FrameLoop {
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
     bool outgrown(const CutImages& before, const CutTopology& topology) const;
     void rebuild_resources();
-    void build(FrameKind kind);
+    Frame build(FrameKind kind, const SimulationModel& run);
+    std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
+    static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
-    void deliver(std::uint32_t slot, const std::function<void(const FinishedFrame&)>& finished);
+    void deliver(std::uint32_t slot, const Finished& finished);
+    void deliver_all(const Finished& finished);
+    /// The slot that is next, free.
+    std::uint32_t take_slot(const Finished& finished);
+    void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
+
+    // closed_loop.cpp
+    void build_attempts();
+    Rung& rung(std::uint32_t substeps);
+    struct Asked {
+        std::uint32_t last;
+        const std::function<bool(std::uint32_t)>& wanted;
+        const Finished& finished;
+    };
+    struct Run {
+        std::uint32_t frame, substeps;
+        std::optional<AttemptStep> before, after;  ///< the frame
+        bool begins;                               ///< a run of the segment: its step may change
+    };
+    /// Simulates the frames from `frame` on that are judged together until the control keeps them, or throws
+    /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
+    void simulate_segment(std::uint32_t frame, const Asked& asked);
+    void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
+    Judged run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked);
+    double motion_of(std::uint32_t slot);
+    void submit_run(std::uint32_t slot, const Run& run);
+    Judged take_judged(std::uint32_t slot, std::uint32_t substeps);
+    void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
+    void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
+    void give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked);
+    void release_withheld(std::uint32_t frame, bool wanted, const Finished& finished);
 
     const vulkan::Device& device_;
     const SimulationModel& model_;
@@ -102,7 +171,15 @@ class FrameLoop {
     ClothSolver solver_;
     std::unique_ptr<RasterPass> raster_;
     bool draws_cut_ = false;  ///< raster_ was made for cut cloths
-    std::array<Frame, frame_kind_count> frames_;
+    std::array<Frame, frame_contents.size()> frames_;
+    std::array<Frame, attempt_step_count> attempts_;
+    std::map<std::uint32_t, Rung> rungs_;  ///< by substeps
+    std::optional<SubstepControl> control_;
+    std::uint32_t state_substeps_;    ///< that the state's history is of
+    std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
+    double motion_error_ = 0;         ///< of the last probe
+    std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet
+    Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;
     std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;

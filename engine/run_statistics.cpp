@@ -50,8 +50,15 @@ std::optional<double> energy(const FrameValues& values) {
 
 }  // namespace
 
-FrameValues frame_values(const SceneDescription& scene, const std::vector<ClothStatistics>& cloths) {
+FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame) {
+    const std::vector<ClothStatistics>& cloths = frame.statistics;
     FrameValues values;
+    if (frame.effort.substeps > 0) {
+        values["substeps"] = frame.effort.substeps;
+        values["attempts"] = frame.effort.attempts;
+        values["motion_error_m_s"] = frame.effort.motion_error;
+        if (!frame.effort.predictable) values["motion_unpredictable"] = 1;
+    }
     double kinetic = 0, potential = 0, elastic = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         add_cloth(values, scene.cloths[cloth].name, cloths[cloth]);

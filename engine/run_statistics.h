@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "drape/scene.h"
-#include "drape/statistics.h"
+#include "drape/simulation.h"
 #include "output/manifest.h"
 
 namespace drape {
 
 /// By name, "<cloth>/stretch_rms" and so on; without a cloth: sums over the cloths, and the deepest penetration.
 /// A number that overflowed single precision is left out: JSON has none for it.
-FrameValues frame_values(const SceneDescription& scene, const std::vector<ClothStatistics>& cloths);
+FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame);
 
 class RunStatistics {
   public:

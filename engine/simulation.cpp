@@ -8,6 +8,7 @@
 
 #include "cloth/cloth_statistics.h"
 #include "frame_checks.h"
+#include "frame_copy.h"
 #include "frame_loop.h"
 #include "graph/dump.h"
 
@@ -37,6 +38,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.positions = wanted.positions;
     options.normals = wanted.normals;
     options.statistics = wanted.statistics;
+    options.keep_promises = wanted.keep_promises;
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
@@ -85,34 +87,6 @@ const SceneDescription& checked(const SceneDescription& scene) {
     if (!result.errors.empty()) throw SceneFailure(std::move(result));
     return scene;
 }
-
-/// A frame that outlives the buffers it was read from.
-class FrameCopy {
-  public:
-    void keep(const FinishedFrame& frame) {
-        frame_ = frame;
-        rgba_.assign(frame.rgba.begin(), frame.rgba.end());
-        frame_.rgba = rgba_;
-        keep(frame.positions, positions_, frame_.positions);
-        keep(frame.normals, normals_, frame_.normals);
-    }
-    const FinishedFrame& frame() const { return frame_; }
-
-  private:
-    using Arrays = std::vector<std::vector<float>>;
-    static void keep(const std::vector<std::span<const float>>& from, Arrays& arrays,
-                     std::vector<std::span<const float>>& views) {
-        arrays.resize(from.size());
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            arrays[i].assign(from[i].begin(), from[i].end());
-            views[i] = arrays[i];
-        }
-    }
-
-    FinishedFrame frame_;
-    std::vector<std::uint8_t> rgba_;
-    Arrays positions_, normals_;
-};
 
 }  // namespace
 

@@ -1,19 +1,30 @@
 // Ends a frame: X += d, so that the position image holds the state that is drawn and read back. HOME: after an odd
-// number of explicit steps; both go back from the spare images to those that the next frame starts from.
+// number of explicit steps; both go back from the spare images to those that the next frame starts from. EXCESS: keeps
+// how much faster the end of the frame is than its last substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HOME
+#pragma variants HOME EXCESS
 #include "shared/simulation_types.h"
+#include "include/end_velocity.h"
 #include "include/verlet.h"
 #include "include/substep_state.h"
 
+layout(constant_id = 0) const bool collides = false;
 layout(push_constant) uniform Push { GridPush push; };
+#ifdef EXCESS
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before;  // of the substep before the last
+layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D end_excess_out;
+#endif
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec4 moved = imageLoad(displacement_in, texel);
     advance_position(texel, imageLoad(position_in, texel), moved.xyz);
+#ifdef EXCESS
+    vec3 excess = end_excess(moved.xyz, imageLoad(displacement_before, texel).xyz, collides ? contact_excess : free_excess);
+    imageStore(end_excess_out, texel, vec4(excess, 0.0f));
+#endif
 #ifdef HOME
     imageStore(displacement_out, texel, moved);
 #endif

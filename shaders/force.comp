@@ -1,15 +1,18 @@
 // Verlet prediction under gravity and damping: finishes the last substep (X += d, after the first substep of a frame)
 // and predicts the next displacement. WIND: adds the wind's force. Particles with w = 0 feel no force; the pin pass
-// moves those that the user moves.
+// moves those that the user moves. BEFORE: the last substep of a frame keeps the displacement of the one before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIND
+#pragma variants WIND BEFORE
 #include "shared/simulation_types.h"
 #include "include/verlet.h"
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(push_constant) uniform Push { ForcePush push; };
+#ifdef BEFORE
+layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D displacement_before;
+#endif
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -17,6 +20,9 @@ void main() {
     vec4 position = imageLoad(position_in, texel);
     vec3 displacement = imageLoad(displacement_in, texel).xyz;
     if (advance) advance_position(texel, position, displacement);
+#ifdef BEFORE
+    imageStore(displacement_before, texel, vec4(displacement, 0.0f));
+#endif
     if (position.w == 0.0f) return;
     vec4 force = force_on(texel);
     vec3 increment =

@@ -22,6 +22,7 @@ layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
 #endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 #define RECORD StatisticsRecord
 #include "include/workgroup_reduction.h"
 
@@ -51,8 +52,9 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
 
 StatisticsRecord statistics_of(ivec2 texel) {
     vec4 at = imageLoad(position, texel);
-    StatisticsRecord record = particle_statistics(at.xyz, imageLoad(displacement, texel).xyz, mass_share(texel),
-                                                  push.reference.xyz, uint(texel.y * push.grid.x + texel.x));
+    precise vec3 velocity = imageLoad(displacement, texel).xyz + imageLoad(end_excess, texel).xyz;
+    StatisticsRecord record = particle_statistics(at.xyz, velocity, mass_share(texel), push.reference.xyz,
+                                                  uint(texel.y * push.grid.x + texel.x));
     if (record.counts.x != 0u) return record;
     record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), imageLoad(tension_row, texel).x);
     record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), imageLoad(tension_column, texel).x);

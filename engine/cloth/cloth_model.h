@@ -14,6 +14,7 @@ struct ModelOptions {
     /// changes no bit.
     bool skip = true;
     DeviceKind device = DeviceKind::cpu;  ///< what method `auto` chooses for
+    bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
 };
 
 struct ClothModel : ClothGeometry {
@@ -21,6 +22,7 @@ struct ClothModel : ClothGeometry {
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
 
     double substep_length;  ///< s
+    bool collides;          ///< with colliders of the scene
     MethodPlan plan;
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
@@ -28,6 +30,8 @@ struct ClothModel : ClothGeometry {
 
     /// Of every particle at the start, 0 where pinned: row by row.
     std::vector<glsl::vec4> start_displacement() const;
+    /// h times the velocity - that displacement.
+    std::vector<glsl::vec4> start_excess() const;
 
   private:
     void set_constants(const SceneDescription& scene, const Cloth& cloth);

@@ -29,10 +29,12 @@ bool adaptive(Context c) { return c.model.adaptive(); }
 bool gathers(Context c) { return c.cloth.plan.spare_state; }
 bool second_order(Context c) { return c.cloth.plan.second_order; }
 bool line_solved(Context c) { return c.cloth.plan.line_scratch; }
+bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
+bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
-    const bool stretch_error = direction < stretch_direction_count && (c.needs.statistics || c.model.adaptive());
+    const bool stretch_error = direction < stretch_direction_count && (judged(c) || c.model.adaptive());
     return c.cloth.plan.carries_tension[direction] || stretch_error;
 }
 
@@ -60,12 +62,13 @@ const std::vector<FieldRow>& rows() {
         {Field::displacement_remainder, "displacement remainder", image, vector, state, always, particles},
         {Field::position_spare, "position spare", image, vector, frame, gathers, particles},
         {Field::displacement_spare, "displacement spare", image, vector, frame, gathers, particles},
-        // An invocation reads what it wrote itself, so it is not the frame's: nothing in it outlives a pass.
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", buffer, vector, device, line_solved, particle_list},
         {Field::line_rows, "line rows", buffer, layout_of<glsl::vec2>(), device, line_solved, particle_list},
-        {Field::displacement_before, "displacement before", image, vector, state, second_order, particles},
+        {Field::displacement_before, "displacement before", image, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", image, vector, state, second_order, particles},
+        {Field::end_excess, "end excess", image, vector, state, judged, particles,
+         [](Context c) { return bytes_of(c.cloth.start_excess()); }},
         {Field::line_control, "line control", image, integer, state, second_order,
          [](Context) { return FieldExtent{glsl::control_texel_count}; }},
         {Field::wind_force, "wind force", image, vector, frame, [](Context c) { return c.model.windy; }, particles},
@@ -102,7 +105,7 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return FieldExtent{c.cloth.pinned.size()}; },
          [](Context c) { return bytes_of(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
-         [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.scene.solver.substeps}; }},
+         [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
     };
     return table;
 }

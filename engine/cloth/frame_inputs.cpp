@@ -58,8 +58,9 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
 
 }  // namespace
 
-std::size_t collider_record_count(const SceneDescription& scene) {
-    return scene.colliders.size() * (any_moves(scene.colliders) ? scene.solver.substeps : 1);
+std::size_t collider_record_count(const SimulationModel& model) {
+    const std::vector<Collider>& colliders = model.scene.colliders;
+    return colliders.size() * (any_moves(colliders) ? model.most_substeps() : 1);
 }
 
 int first_collider(const SceneDescription& scene, std::uint32_t substep) {

@@ -10,8 +10,8 @@
 
 namespace drape {
 
-/// Collider records that one frame holds: all of them once, or per substep when any is key-framed.
-std::size_t collider_record_count(const SceneDescription& scene);
+/// Collider records that a frame has room for: all of them once, or per substep when any is key-framed.
+std::size_t collider_record_count(const SimulationModel& model);
 /// The first of them in a substep.
 int first_collider(const SceneDescription& scene, std::uint32_t substep);
 /// Colliders of each kind and those before it: where the kind ends in the sorted list.

@@ -67,6 +67,7 @@ struct Method {
     double dispatches, particle_ns;
     bool walks;  ///< an invocation goes along a whole line
     std::uint32_t most_iterations;
+    std::uint32_t most_substeps;  ///< where a closed loop gives up
 
     // For benchmarks: passes over all particles that take as long as a substep's prediction, its iteration.
     double passes_per_substep, passes_per_iteration;

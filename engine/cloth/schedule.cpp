@@ -26,7 +26,11 @@ class Substep {
         return steps_.emplace_back(Step{kind, index_, substep_, iteration});
     }
     void add(const std::vector<MethodStep>& planned) {
-        for (const MethodStep& step : planned) add(step.kind).constants = step.constants;
+        for (const MethodStep& step : planned) {
+            Step& added = add(step.kind);
+            added.constants = step.constants;
+            added.last = substep_ + 1 == model_.scene.solver.substeps;
+        }
     }
     void add_iterations() {
         const SolverSettings& solver = model_.scene.solver;

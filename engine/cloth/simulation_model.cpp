@@ -4,19 +4,36 @@
 
 #include <algorithm>
 
+#include "cloth/substep_control.h"
 #include "shared/collider_types.h"
 
 namespace drape {
 
-SimulationModel::SimulationModel(const SceneDescription& description, const ModelOptions& options)
+SimulationModel::SimulationModel(const SceneDescription& description, const ModelOptions& wanted)
     : scene(description),
       asked_method(description.solver.method),
       asked_tolerance(description.solver.tolerance),
-      choice(choose_solver(description, options.device)),
+      choice(choose_solver(description, wanted.device)),
+      options(wanted),
       windy(description.wind.blows()) {
     scene.solver = choice.settings;
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
+}
+
+SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t substeps)
+    : scene(run.scene),
+      asked_method(run.asked_method),
+      asked_tolerance(run.asked_tolerance),
+      choice(run.choice),
+      options(run.options),
+      windy(run.windy) {
+    scene.solver.substeps = substeps;
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+}
+
+std::uint32_t SimulationModel::most_substeps() const {
+    return closed_loop() ? substep_rungs(row_of(scene.solver.method)).back() : scene.solver.substeps;
 }
 
 bool SimulationModel::adaptive() const {

@@ -10,11 +10,14 @@ namespace drape {
 
 struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
+    /// The same run at another number of substeps; for closed loops.
+    SimulationModel(const SimulationModel& run, std::uint32_t substeps);
 
     SceneDescription scene;     ///< with the settings in use (`auto` is resolved), its colliders sorted by kind
     SolverMethod asked_method;  ///< as the scene file has it
     double asked_tolerance;     ///< that a frame may not miss; 0: none
     SolverChoice choice;
+    ModelOptions options;
     std::vector<ClothModel> cloths;
     bool windy;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
@@ -22,6 +25,10 @@ struct SimulationModel {
 
     /// The method in use, as a scene knows it.
     const SolverMethodName& method() const { return named(scene.solver.method); }
+    /// Whether every frame is judged and done again with other substeps where it fails (cloth/substep_control.h).
+    bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
+    /// That a frame of this run may have: what buffers have room for.
+    std::uint32_t most_substeps() const;
     /// Whether iterations end when the tolerance is met.
     bool adaptive() const;
     /// Squared RMS stretch error below which they end: a hundredth under the tolerance, so that what the frame's

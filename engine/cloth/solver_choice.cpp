@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cloth/method.h"
+#include "cloth/substep_control.h"
 
 namespace drape {
 
@@ -68,6 +69,9 @@ SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
     choice.settings.substeps = best.substeps;
     choice.settings.iterations = row_of(best.method).most_iterations;
     choice.settings.tolerance = tolerance;
+    const auto rungs = substep_rungs(row_of(best.method));
+    const auto rung = std::ranges::find_if(rungs, [&](std::uint32_t each) { return each >= best.substeps; });
+    choice.settings.substeps = rung == rungs.end() ? rungs.back() : *rung;
     return choice;
 }
 

@@ -51,7 +51,8 @@ struct Step {
     std::uint32_t substep;
     std::uint32_t iteration = 0;
     StepConstants constants{};
-    bool last = false;  ///< spring, line: of the frame's last iteration, after which its tension is the frame's
+    /// Of the frame's last substep; spring, line: of its last iteration too, after which its tension is the frame's.
+    bool last = false;
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
 #include "passes/check_pass.h"
 #include "passes/collision_pass.h"
@@ -73,31 +74,28 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
 }
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
-    : model_(model), pipelines_(device) {
+    : model_(model), run_(&model), pipelines_(device) {
     for (const ClothModel& cloth : model.cloths) {
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
     }
 }
 
-void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs) {
+void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run) {
     cloths_.clear();
     inputs_ = {};
-    for (const SkippedWork& work : model_.skipped()) graph.skip(work.what, work.reason);
-    for (const Compromise& each : model_.compromises()) graph.compromise(each.what, each.reason);
-    const SceneDescription& scene = model_.scene;
-    if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", scene.solver.substeps, Lifetime::host_input);
-    if (const std::size_t count = collider_record_count(scene))
+    run_ = &run;
+    for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
+    for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
+    if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
+    if (model_.closed_loop()) inputs_.attempt = graph.buffer<glsl::AttemptInput>(attempt_name, 1, Lifetime::host_input);
+    if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer<glsl::ColliderRecord>("colliders", count, Lifetime::host_input);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
 }
 
-FieldContext ClothSolver::context(std::size_t cloth, const FrameNeeds& needs) const {
-    return {model_, model_.cloths[cloth], topologies_[cloth], needs};
-}
-
 void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs) {
-    const FieldContext about = context(index, needs);
+    const FieldContext about = context(index, needs, *run_);
     ClothState state;
     state.model = &about.cloth;
     state.topology = &about.topology;
@@ -116,7 +114,7 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
-    for (const Step& step : frame_steps(model_)) {
+    for (const Step& step : frame_steps(*run_)) {
         if (step.cloth != all_cloths)
             add_step(graph, cloths_[step.cloth], step);
         else
@@ -151,9 +149,9 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::tether:
             return add_tether(graph, pipelines_, state, step);
         case StepKind::collide:
-            return add_collision(graph, pipelines_, state, inputs_, model_, step);
+            return add_collision(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::check:
-            return add_check(graph, pipelines_, state, model_, step);
+            return add_check(graph, pipelines_, state, *run_, step);
         case StepKind::advance:
             return add_advance(graph, pipelines_, state);
     }
@@ -163,22 +161,38 @@ void ClothSolver::add_normals(graph::Graph& graph) {
     for (ClothState& state : cloths_) drape::add_normals(graph, pipelines_, state);
 }
 
+void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
+    for (ClothState& state : cloths_) drape::add_attempt(graph, pipelines_, state, inputs_, step);
+}
+
+std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {
+    std::vector<double> all;
+    for (const ClothModel& cloth : model_.cloths) {
+        std::vector<glsl::DifferenceRecord> partials(difference_count(cloth.grid));
+        const std::span<const std::byte> bytes = pool.buffer(difference_readback_name(cloth), slot).mapped();
+        std::memcpy(partials.data(), bytes.data(), partials.size() * sizeof(glsl::DifferenceRecord));
+        all.push_back(difference_of(partials));
+    }
+    return all;
+}
+
 void ClothSolver::add_statistics(graph::Graph& graph) {
     for (ClothState& state : cloths_) {
         if (state.model->plan.gathered_tension) add_tension(graph, pipelines_, state);
-        drape::add_statistics(graph, pipelines_, state, inputs_, model_);
+        drape::add_statistics(graph, pipelines_, state, inputs_, *run_);
         if (model_.adaptive()) add_iteration_readback(graph, state);
     }
     if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 
-std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
+std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot,
+                                                     const SimulationModel& run) const {
     std::vector<ClothStatistics> all;
-    for (const ClothModel& cloth : model_.cloths) {
+    for (const ClothModel& cloth : run.cloths) {
         glsl::StatisticsRecord record;
         std::memcpy(&record, pool.buffer(statistics_readback_name(cloth), slot).mapped().data(), sizeof record);
-        all.push_back(cloth_statistics(model_, cloth, record));
-        if (!model_.adaptive()) continue;
+        all.push_back(cloth_statistics(run, cloth, record));
+        if (!run.adaptive()) continue;
         glsl::uvec4 used;
         std::memcpy(&used, pool.buffer(iteration_readback_name(cloth), slot).mapped().data(), sizeof used);
         all.back().iteration_count = used.x;
@@ -206,8 +220,9 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
     }
 }
 
-void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const {
-    const FrameInputs inputs = frame_inputs(model_, frame);
+void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
+                               const SimulationModel& run) const {
+    const FrameInputs inputs = frame_inputs(run, frame);
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)

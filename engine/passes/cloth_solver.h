@@ -8,6 +8,8 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/cut_topology.h"
+#include "cloth/frame_judgement.h"
+#include "passes/attempt_pass.h"
 #include "passes/pass_kit.h"
 
 namespace drape {
@@ -30,13 +32,19 @@ class ClothSolver {
     std::vector<CutTopology>& topologies() { return topologies_; }
     const std::vector<CutTopology>& topologies() const { return topologies_; }
     /// Declares the images and host inputs that the scene and what is wanted of the frame need, and only those.
-    void declare(graph::Graph& graph, const FrameNeeds& needs);
+    void declare(graph::Graph& graph, const FrameNeeds& needs) { declare(graph, needs, model_); }
+    /// Likewise for a run of the same scene at other substeps, which must outlive the graph and what is added to it.
+    void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
     void add_normals(graph::Graph& graph);
     /// Adds the statistics of every cloth (passes/statistics_pass.h), to be read by `statistics`.
     void add_statistics(graph::Graph& graph);
+    /// Closed loops: adds what surrounds the attempts at a frame (passes/attempt_pass.h).
+    void add_attempt(graph::Graph& graph, AttemptStep step);
+    /// Per cloth, m, of the slot's last comparison.
+    std::vector<double> differences(const graph::ResourcePool& pool, std::uint32_t slot) const;
     /// Adds the search for springs and triangles that the cutters cross.
     void add_cuts(graph::Graph& graph);
     /// The newest handles since `declare`.
@@ -55,20 +63,34 @@ class ClothSolver {
     /// Writes the cutters of the frame that spans the two times (s).
     void write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start, double frame_end) const;
     /// Writes the host inputs for simulating to `frame` (1 ..) into a slot.
-    void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const;
+    void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame) const {
+        write_inputs(pool, slot, frame, model_);
+    }
+    void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
+                      const SimulationModel& run) const;
 
     /// Per cloth, of the slot's last finished frame; its graph must have had `add_statistics`.
-    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const;
+    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
+        return statistics(pool, slot, model_);
+    }
+    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot,
+                                            const SimulationModel& run) const;
 
     const SimulationModel& model() const { return model_; }
     std::size_t pipeline_count() const { return pipelines_.size(); }
 
   private:
-    FieldContext context(std::size_t cloth, const FrameNeeds& needs = {}) const;
+    FieldContext context(std::size_t cloth, const FrameNeeds& needs = {}) const {
+        return context(cloth, needs, model_);
+    }
+    FieldContext context(std::size_t cloth, const FrameNeeds& needs, const SimulationModel& run) const {
+        return {run, run.cloths[cloth], topologies_[cloth], needs};
+    }
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
+    const SimulationModel* run_;  ///< of the graph being built
     std::vector<CutTopology> topologies_;
     PipelineCache pipelines_;
     /// Per cloth; the same in the graph of every kind of frame.

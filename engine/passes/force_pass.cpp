@@ -4,9 +4,10 @@ namespace drape {
 
 void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
+    const bool before = step.last && state[Field::displacement_before].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("force.comp", {{"wind", wind}}), {{"advance", advances}});
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("force.comp", {{"wind", wind}, {"before", before}}), {{"advance", advances}});
     graph.add_pass(
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
@@ -15,6 +16,9 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
             update(setup, state[Field::position_remainder], "position_remainder");
             update(setup, state[Field::displacement_remainder], "displacement_remainder");
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
+            if (before)
+                state[Field::displacement_before] =
+                    setup.write(state[Field::displacement_before], graph::Access::compute_write, "displacement_before");
         },
         [&pipeline, push = step.push<glsl::ForcePush>()](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
@@ -23,8 +27,14 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
 }
 
 void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
+    const bool excess = state[Field::end_excess].valid();
+    std::vector<vulkan::SpecializationConstant> constants;
+    if (excess) constants.push_back({"collides", state.model->collides ? 1u : 0u});
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("advance.comp", {{"home", state.away}}));
+        pipelines.get(vulkan::variant_name("advance.comp", {{"home", state.away}, {"excess", excess}}), constants);
+    // Where micro-steps go to and fro, the substep before the last is in the other image.
+    const graph::Handle before =
+        state.model->plan.spare_state ? state[Field::displacement_spare] : state[Field::displacement_before];
     graph.add_pass(
         state.pass_name("advance", "simulate"),
         [&](graph::PassSetup& setup) {
@@ -33,6 +43,11 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             home = setup.write(home, graph::Access::compute_write, "position_out");
             setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
             update(setup, state[Field::position_remainder], "position_remainder");
+            if (excess) {
+                setup.read(before, graph::Access::compute_read, "displacement_before");
+                state[Field::end_excess] =
+                    setup.write(state[Field::end_excess], graph::Access::compute_write, "end_excess_out");
+            }
             if (state.away)
                 state[Field::displacement_spare] =
                     setup.write(state[Field::displacement_spare], graph::Access::compute_write, "displacement_out");

@@ -30,6 +30,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
+            setup.read(state[Field::end_excess], graph::Access::compute_read, "end_excess");
             records = setup.write(records, graph::Access::compute_write, "partials");
             setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
             setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");

@@ -1,6 +1,7 @@
 // The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
 #pragma once
 
+#include "shared/closed_loop_types.h"
 #include "shared/collider_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
@@ -15,6 +16,8 @@ namespace drape::glsl {
 #include "include/bent_line.h"
 #include "include/colliders.h"
 #include "include/cut.h"
+#include "include/difference.h"
+#include "include/end_velocity.h"
 #include "include/explicit.h"
 #include "include/line.h"
 #include "include/pin.h"

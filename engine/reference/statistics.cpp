@@ -61,8 +61,9 @@ class Reduction {
         const std::size_t index = at(particle);
         const vec4 position = state_[Field::position][index];
         const float share = state_.topology.masked() ? masses_[index] : border_mass_share(particle, push_.grid);
-        StatisticsRecord record = particle_statistics(xyz(position), xyz(state_[Field::displacement][index]), share,
-                                                      xyz(push_.reference), static_cast<uint>(index));
+        const vec3 velocity = xyz(state_[Field::displacement][index]) + xyz(state_[Field::end_excess][index]);
+        StatisticsRecord record =
+            particle_statistics(xyz(position), velocity, share, xyz(push_.reference), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
         if (position.w != 0.0f) record.extents.z = penetration(xyz(position));

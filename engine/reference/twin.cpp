@@ -73,13 +73,30 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
     return std::as_bytes(std::span(integer_fields[place]));
 }
 
-Twin::Twin(const SimulationModel& model) : model_(model) {
+Twin::Twin(const SimulationModel& model) : model_(&model) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
 }
 
 void Twin::run_frame(std::uint32_t frame) {
-    const FrameInputs inputs = frame_inputs(model_, frame);
-    for (const Step& step : frame_steps(model_)) run_step(step, inputs);
+    const FrameInputs inputs = frame_inputs(*model_, frame);
+    for (const Step& step : frame_steps(*model_)) run_step(step, inputs);
+}
+
+void Twin::change_step(const SimulationModel& run) {
+    const auto ratio =
+        static_cast<float>(static_cast<double>(model_->scene.solver.substeps) / run.scene.solver.substeps);
+    model_ = &run;
+    for (TwinCloth& state : cloths_)
+        for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+            const ChangedStep changed =
+                changed_step(xyz(state[Field::displacement][i]), xyz(state[Field::end_excess][i]), ratio);
+            state[Field::displacement][i] = texel(changed.displacement);
+            state[Field::displacement_remainder][i] = {};
+            state[Field::end_excess][i] = texel(changed.excess);
+            if (state[Field::velocity_excess].empty()) continue;
+            state[Field::displacement_before][i] = texel(changed.before);
+            state[Field::velocity_excess][i] = texel(changed.excess);
+        }
 }
 
 void Twin::run_step(const Step& step, const FrameInputs& inputs) {
@@ -88,7 +105,7 @@ void Twin::run_step(const Step& step, const FrameInputs& inputs) {
 }
 
 void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs) {
-    const ClothModel& model = model_.cloths[cloth];
+    const ClothModel& model = model_->cloths[cloth];
     TwinCloth& state = cloths_[cloth];
     if (step.conditional && !state.iterates) return;
     switch (step.kind) {
@@ -121,7 +138,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::check:
             return check(model, state, step);
         case StepKind::advance:
-            return advance(state);
+            return advance(model, state);
     }
 }
 
@@ -173,6 +190,8 @@ void Twin::force(TwinCloth& state, const Step& step) {
             state[Field::position][i] = texel(advanced.value, position.w);
             state[Field::position_remainder][i] = texel(advanced.remainder);
         }
+        if (step.last && !state[Field::displacement_before].empty())
+            state[Field::displacement_before][i] = texel(displacement);
         if (position.w == 0.0f) continue;
         const vec4 applied = state.force_on(i);
         const vec3 increment = verlet_increment(displacement, xyz(push.gravity_step), xyz(applied), position.w,
@@ -219,15 +238,15 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
 
 void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
     const CollisionPush& push = model.collision;
-    const auto first = static_cast<std::size_t>(first_collider(model_.scene, substep));
+    const auto first = static_cast<std::size_t>(first_collider(model_->scene, substep));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
         vec3 displacement = xyz(state[Field::displacement][i]);
-        for (std::uint32_t round = 0; round < model_.collision_rounds(); ++round) {
+        for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
             float deepest = 0.0f;
-            for (std::size_t k = 0; k < model_.scene.colliders.size(); ++k) {
-                const Contact contact = collider_contact(model_.scene.colliders[k].kind(), inputs.colliders[first + k],
+            for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
+                const Contact contact = collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k],
                                                          start, displacement, push.contact.x, push.contact.y);
                 displacement = contact.displacement;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
@@ -257,7 +276,12 @@ void Twin::tether(TwinCloth& state) {
     }
 }
 
-void Twin::advance(TwinCloth& state) {
+void Twin::advance(const ClothModel& model, TwinCloth& state) {
+    const std::vector<vec4>& before =
+        state[model.plan.spare_state ? Field::displacement_spare : Field::displacement_before];
+    for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
+        state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i]),
+                                                       model.collides ? contact_excess : free_excess));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const CompensatedSum advanced =
             compensated_add(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]),

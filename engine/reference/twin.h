@@ -56,6 +56,8 @@ class Twin {
 
     /// Simulates from frame-1 to `frame`, step by step of the schedule.
     void run_frame(std::uint32_t frame);
+    /// Goes on with other substeps: those of `run`, the same scene's, which must outlive this.
+    void change_step(const SimulationModel& run);
     /// One step, of one cloth or all of them.
     void run_step(const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);
@@ -85,9 +87,9 @@ class Twin {
     void twist(TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
-    void advance(TwinCloth& state);
+    void advance(const ClothModel& model, TwinCloth& state);
 
-    const SimulationModel& model_;
+    const SimulationModel* model_;
     std::vector<TwinCloth> cloths_;
 };
 

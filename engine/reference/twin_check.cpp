@@ -60,8 +60,8 @@ ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
 }  // namespace
 
 void Twin::check(const ClothModel& model, TwinCloth& state, const Step& step) {
-    if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_.scene.solver.substeps;
-    state.iterates = needs_iteration(residual(model, state), model_.iteration_limit());
+    if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_->scene.solver.substeps;
+    state.iterates = needs_iteration(residual(model, state), model_->iteration_limit());
     if (state.iterates) ++state.iteration_count;
 }
 

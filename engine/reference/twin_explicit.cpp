@@ -118,8 +118,8 @@ void Twin::explicit_step(TwinCloth& state, const Step& step) {
 }
 
 void Twin::tension(std::size_t index) {
-    const TensionPush& push = model_.cloths[index].plan.gathered_tension.value();
-    const Grid& grid = model_.cloths[index].grid;
+    const TensionPush& push = model_->cloths[index].plan.gathered_tension.value();
+    const Grid& grid = model_->cloths[index].grid;
     TwinCloth& state = cloths_[index];
     const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {
         const std::size_t a = at(grid, first), b = at(grid, second);

@@ -300,6 +300,11 @@ const Object<SolverSettings> solver{
          "Largest stretch error: RMS over the stretch springs of strain - tension/(stiffness length), tension being "
          "the force that the solver applied. 0: no promise. A substep's iterations end once it is met (so `iterations` "
          "is then the most that may be needed); a frame that misses it ends the run with exit code 8."},
+        {"tolerance_worst", &SolverSettings::tolerance_worst, number(not_negative),
+         "Method auto: largest stretch error of a single spring in a frame. 0: 0.1."},
+        {"tolerance_motion", &SolverSettings::tolerance_motion, number(not_negative),
+         "Method auto: largest error of the motion, RMS over the cloth in metres per second of simulated time, as "
+         "estimated by running some frames with half the substeps too. 0: 0.01 of the cloth's longer side a second."},
         {"tethers", &SolverSettings::tethers, boolean(),
          "Whether every particle is kept within the cloth's reach of the nearest particle of each of the two nearest "
          "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "

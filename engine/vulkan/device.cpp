@@ -187,12 +187,15 @@ void Device::wait(VkFence fence, std::string_view object) const {
     check(result, "vkWaitForFences", object);
 }
 
-void Device::submit(VkCommandBuffer commands, VkFence fence, std::string_view object) const {
-    auto buffer = structure<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
-    buffer.commandBuffer = commands;
+void Device::submit(std::span<const VkCommandBuffer> commands, VkFence fence, std::string_view object) const {
+    std::vector<VkCommandBufferSubmitInfo> buffers;
+    for (const VkCommandBuffer each : commands) {
+        buffers.push_back(structure<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO));
+        buffers.back().commandBuffer = each;
+    }
     auto info = structure<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
-    info.commandBufferInfoCount = 1;
-    info.pCommandBufferInfos = &buffer;
+    info.commandBufferInfoCount = static_cast<std::uint32_t>(buffers.size());
+    info.pCommandBufferInfos = buffers.data();
     check(vkQueueSubmit2(queue_, 1, &info, fence), "vkQueueSubmit2", object);
 }
 
@@ -212,7 +215,7 @@ void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const 
     check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer", "set-up");
     record(commands);
     check(vkEndCommandBuffer(commands), "vkEndCommandBuffer", "set-up");
-    submit(commands, once.fence, "set-up");
+    submit(std::span(&commands, 1), once.fence, "set-up");
     once.in_flight = true;
     wait(once.fence, "set-up");
     once.in_flight = false;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -66,8 +67,8 @@ class Device {
     void wait_idle() const;
     /// Blocks until the fence is signalled, in slices of finite time; throws VulkanError on device loss.
     void wait(VkFence fence, std::string_view object) const;
-    /// Hands one command buffer to the queue; `fence` may be VK_NULL_HANDLE.
-    void submit(VkCommandBuffer commands, VkFence fence, std::string_view object) const;
+    /// Hands command buffers to the queue, to run in order; `fence` may be VK_NULL_HANDLE.
+    void submit(std::span<const VkCommandBuffer> commands, VkFence fence, std::string_view object) const;
     /// Records with `record`, submits, waits: for set-up and tests, never in the frame loop.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
     /// VK_EXT_debug_utils name, when validation is on.

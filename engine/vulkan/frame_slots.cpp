@@ -36,7 +36,7 @@ void FrameSlots::wait(std::uint32_t slot) {
     pending_[slot] = false;
 }
 
-void FrameSlots::submit(std::uint32_t slot, VkCommandBuffer commands) {
+void FrameSlots::submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands) {
     const std::string object = fmt::format("frame slot {}", slot);
     if (pending_[slot]) throw VulkanError(object + " was submitted again before it was waited for");
     check(vkResetFences(device_.handle(), 1, &fences_[slot]), "vkResetFences", object);

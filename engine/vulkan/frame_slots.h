@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "vulkan/device.h"
 
@@ -22,7 +23,8 @@ class FrameSlots {
     /// VulkanError on device loss.
     void wait(std::uint32_t slot);
     /// Throws VulkanError when the slot's last submit was not waited for.
-    void submit(std::uint32_t slot, VkCommandBuffer commands);
+    void submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands);
+    void submit(std::uint32_t slot, VkCommandBuffer commands) { submit(slot, std::span(&commands, 1)); }
     bool pending(std::uint32_t slot) const { return pending_[slot]; }
 
   private:

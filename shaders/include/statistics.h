@@ -47,15 +47,16 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
     return share;
 }
 
-/// A particle without its springs. It counts as not finite when its position or displacement is.
-SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, float share, vec3 reference, uint index) {
+/// A particle without its springs. It counts as not finite when its position or its velocity is; `velocity`: h times
+/// that of the frame's end, m.
+SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float share, vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
-    if (!is_finite(position) || !is_finite(displacement)) {
+    if (!is_finite(position) || !is_finite(velocity)) {
         record.counts = uvec4(1u, index, 0u, 0u);
         return record;
     }
     precise vec3 moment = (position - reference) * share;
-    precise float moved_squared = ordered_dot(displacement, displacement);
+    precise float moved_squared = ordered_dot(velocity, velocity);
     precise float moving = share * moved_squared;
     record.squares.w = moving;
     record.moments = vec4(moment.x, moment.y, moment.z, share);

@@ -28,10 +28,10 @@ struct StatisticsSumPush {
 
 /// Statistics of a particle and its springs, of a workgroup, of a cloth: joined by include/statistics.h.
 struct StatisticsRecord {
-    vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |displacement|^2, m^2
+    vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |h v|^2, m^2
     vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
     vec4 strains;  // largest: strain of stretch, of shear; minus strain of stretch, of shear
-    vec4 extents;  // largest: |position|^2, m^2; |displacement|^2, m^2; penetration, m; |stretch error|
+    vec4 extents;  // largest: |position|^2, m^2; |h v|^2, m^2; penetration, m; |stretch error|
     vec4 errors;   // sums: squared stretch error; yzw unused
     uvec4 counts;  // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
 };

@@ -200,6 +200,9 @@ struct SolverSettings {
     std::uint32_t iterations = 1;
     /// Largest RMS stretch error of a frame (cloth_statistics.h), 0 = no promise. Ends iterations once it is met.
     double tolerance = 0;
+    /// Method `auto`: largest stretch error of a spring, 0 = solver_choice.h's; largest error of the motion, in metres
+    /// per second of simulated time, 0 = a share of the cloth's size.
+    double tolerance_worst = 0, tolerance_motion = 0;
     CollideWhen collide = CollideWhen::iteration;
     bool tethers = false;         ///< no particle leaves where the cloth is held farther than the cloth reaches
     double strain_damping = 0.2;  ///< explicit: damping of each spring's strain rate, in units of its stiffness times h

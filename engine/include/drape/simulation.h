@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,6 +24,18 @@ struct StageTime {
     double milliseconds = 0;
 };
 
+/// What a frame took.
+struct FrameEffort {
+    std::uint32_t substeps = 0;
+    std::uint32_t attempts = 1;  ///< method `auto`: 1 where the first was kept
+    /// Method `auto`: estimated error of the motion in this frame, the worst cloth's, m per second of simulated time;
+    /// NaN where it was not estimated.
+    double motion_error = std::numeric_limits<double>::quiet_NaN();
+    /// Method `auto`: false where that is above its limit because more substeps do not reduce it. Cloth that crumples
+    /// parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
+    bool predictable = true;
+};
+
 /// Particles are numbered row * columns + column.
 struct FinishedFrame {
     std::uint32_t frame = 0;                        ///< shows the time frame / fps; 0 is the initial state
@@ -31,6 +44,7 @@ struct FinishedFrame {
                                                     ///< its inverse mass over an inner particle's; 0: held
     std::vector<std::span<const float>> normals;    ///< per cloth, when wanted: unit x y z of the front, and 0
     std::vector<ClothStatistics> statistics;        ///< per cloth, when wanted
+    FrameEffort effort;
     std::vector<StageTime> timings;                 ///< empty where the device has no timestamps
 };
 

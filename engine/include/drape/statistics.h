@@ -23,7 +23,7 @@ struct ClothStatistics {
     /// Of the stretch springs: strain - tension/(k l) with the tension that the solver applied in the last substep, RMS
     /// and largest magnitude. A perfect solve makes it zero; `tolerance` bounds the RMS.
     double stretch_error_rms = 0, stretch_error_max = 0;
-    /// J, with the velocities of the middle of the last substep: displacement / h.
+    /// J, of the velocities at the frame's end: those of the last substep and half its acceleration.
     double kinetic_energy = 0;
     double potential_energy = 0;             ///< J, gravity's; 0 at the origin
     double elastic_energy = 0;               ///< J, of the stretch and shear springs; rigid ones store none

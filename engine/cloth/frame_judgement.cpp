@@ -1,0 +1,82 @@
+#include "cloth/frame_judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth/cut_topology.h"
+
+namespace drape {
+
+namespace {
+
+/// Error per second over the distance from the run with half the substeps per second of the probe. An error that falls
+/// with the square of the substep is a third of that distance; a wrong acceleration takes the cloth three times as far
+/// in the time in which a pendulum of a metre forgets it as in the probe.
+constexpr double estimate_share = 1;
+
+}  // namespace
+
+std::uint32_t difference_count(const Grid& grid) {
+    constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
+    constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
+    return (grid.columns() + width - 1) / width * ((grid.rows() + rows - 1) / rows);
+}
+
+double difference_of(std::span<const glsl::DifferenceRecord> partials) {
+    double moved = 0, mass = 0;
+    for (const glsl::DifferenceRecord& record : partials) {
+        moved += record.moved;
+        mass += record.mass;
+    }
+    return mass > 0 ? std::sqrt(moved / mass) : 0.0;
+}
+
+std::uint32_t probe_length(const SimulationModel& model) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(0.1 * model.scene.time.fps), 2.0, 12.0));
+}
+
+double motion_error(const SimulationModel& model, double difference, std::uint32_t frame_count) {
+    return estimate_share * difference * model.scene.time.fps / frame_count;
+}
+
+double motion_limit(const SimulationModel& model, std::size_t cloth) {
+    const SolverSettings& solver = model.scene.solver;
+    const std::array<double, 2>& size = model.scene.cloths[cloth].size;
+    return solver.tolerance_motion > 0 ? solver.tolerance_motion : default_motion_share * std::max(size[0], size[1]);
+}
+
+double stretch_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {
+    const SolverSettings& solver = model.scene.solver;
+    const double worst_limit = solver.tolerance_worst > 0 ? solver.tolerance_worst : default_tolerance_worst;
+    double worst = 0;
+    for (const ClothStatistics& cloth : cloths) {
+        const double error =
+            std::max(cloth.stretch_error_rms / solver.tolerance, cloth.stretch_error_max / worst_limit);
+        if (cloth.non_finite_count > 0 || !std::isfinite(error)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, error);
+    }
+    return worst;
+}
+
+std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {
+    const double fps = model.scene.time.fps;
+    const std::uint32_t end = std::max(model.scene.time.frame_count, frame + 1);
+    std::uint32_t room = 0;
+    for (; frame + room < end && room < probe_length(model); ++room) {
+        const std::uint32_t each = frame + room;
+        if (cutters_active(model.scene.cutters, (each - 1) / fps, each / fps)) break;
+        if (room > 0 && eventful(model, each)) break;
+    }
+    return room;
+}
+
+bool eventful(const SimulationModel& model, std::uint32_t frame) {
+    const double end = frame / model.scene.time.fps, start = end - 1 / model.scene.time.fps;
+    for (const ClothModel& cloth : model.cloths)
+        for (const DynamicPin& pin : cloth.dynamic_pins)
+            if (pin.release && *pin.release > start - 1e-9 && *pin.release <= end - 1e-9) return true;
+    return false;
+}
+
+}  // namespace drape

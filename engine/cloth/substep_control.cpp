@@ -1,0 +1,115 @@
+#include "cloth/substep_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+
+namespace {
+
+constexpr std::uint32_t rungs[] = {2,   4,   6,   8,   12,  16,  24,   32,   48,   64,   96,
+                                   128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096};
+
+/// Frames between probes, over their length. A probe costs half as much as its frames: 1 in 1 + 12 is 4 %.
+constexpr std::uint32_t longest_interval = 12;
+/// Fewer substeps are tried where their errors are expected below this share of the limits.
+constexpr double comfort = 0.6;
+
+}  // namespace
+
+std::span<const std::uint32_t> substep_rungs(const Method& method) {
+    const auto* end = std::ranges::upper_bound(rungs, method.most_substeps);
+    return {std::begin(rungs), end};
+}
+
+SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t probe_length)
+    : rungs_(substep_rungs(method)), probe_length_(probe_length), rung_(rung_of(proposed)) {}
+
+/// The first rung of at least so many substeps, or the top.
+std::size_t SubstepControl::rung_of(double substeps) const {
+    const auto place = std::ranges::find_if(rungs_, [&](std::uint32_t rung) { return rung >= substeps; });
+    return std::min(static_cast<std::size_t>(place - rungs_.begin()), rungs_.size() - 1);
+}
+
+const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
+    if (eventful) interval_ = 1;
+    if (eventful) until_probe_ = 0;
+    tried_ = eventful ? std::min(rung_ + 2, rungs_.size() - 1) : rung_;
+    const bool probes = until_probe_ == 0 && room >= 2;
+    began_ = rung_;
+    before_ = {};
+    segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
+    return segment_;
+}
+
+SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
+    const double worst = std::max(judgement.stretch, judgement.motion / slack_);
+    if (worst <= 1) {
+        succeed(judgement);
+        return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
+    }
+    if (futile(judgement)) {
+        slack_ = 2 * judgement.motion;
+        succeed(judgement);
+        // What more substeps do not buy, fewer may not cost.
+        rung_ = began_ > 2 ? began_ - 2 : 0;
+        until_probe_ = 0;
+        return Verdict::unpredictable;
+    }
+    if (at_top()) return Verdict::give_up;
+    refine(judgement);
+    return Verdict::again;
+}
+
+/// Whether the attempt is one of those whose error hardly fell with its substeps: by less than their square root.
+bool SubstepControl::futile(const Judgement& judgement) const {
+    if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
+    return before_.substeps > 0 && judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
+}
+
+void SubstepControl::refine(const Judgement& judgement) {
+    const double worst = std::max(judgement.stretch, judgement.motion / slack_);
+    // Both errors fall about with the square of the substep.
+    const double factor = std::clamp(1.1 * std::sqrt(worst), 1.0, 4.0);
+    before_ = {static_cast<double>(segment_.substeps), judgement.motion};
+    tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
+    segment_.substeps = rungs_[tried_];
+    if (since_fewer_ < 8 * probe_length_) patience_ = std::min(2 * patience_, 16u);
+    since_fewer_ = 1000000;
+    easy_ = 0;
+    interval_ = 1;
+    rung_ = tried_;
+}
+
+void SubstepControl::keep_anyway() { succeed({.stretch = 1, .motion = 1}); }
+
+void SubstepControl::succeed(const Judgement& judgement) {
+    since_fewer_ += segment_.frame_count;
+    if (!segment_.probes) {
+        if (until_probe_ > 0) --until_probe_;
+        return;
+    }
+    slack_ = std::max(1.0, std::min(slack_, 2 * judgement.motion));
+    until_probe_ = interval_ * probe_length_;
+    interval_ = std::min(2 * interval_, longest_interval);
+    consider_fewer(judgement);
+}
+
+/// What a probe says of the rung below: the motion's error grows with the square of the substep at least, the stretch
+/// error as it did towards half the substeps.
+void SubstepControl::consider_fewer(const Judgement& judgement) {
+    if (rung_ == 0) return;
+    const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung_ - 1];
+    const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
+    const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));
+    const bool easy = judgement.motion / slack_ * longer * longer < comfort && stretch < comfort;
+    easy_ = easy ? easy_ + 1 : 0;
+    if (easy_ < patience_) return;
+    easy_ = 0;
+    since_fewer_ = 0;
+    --rung_;
+    interval_ = 1;
+    until_probe_ = 0;
+}
+
+}  // namespace drape

@@ -1,0 +1,73 @@
+// The closed loop of method `auto`: how many substeps each frame gets, from how its attempts were judged. Laws only
+// propose where it begins. The device's loop and the C++ twin's ask the same object, so they decide the same. Pure.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "cloth/method.h"
+
+namespace drape {
+
+/// Substeps per frame to choose from, ascending, even, up to the method's most.
+std::span<const std::uint32_t> substep_rungs(const Method& method);
+
+/// An attempt as judged: errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not finite
+/// counts as infinite.
+struct Judgement {
+    double stretch = 0;         ///< RMS or worst spring, whichever is worse
+    double motion = 0;          ///< of a probe
+    double coarse_stretch = 0;  ///< of its run with half the substeps
+};
+
+/// Frames that are judged, kept or done again together: a single one, or the few of a probe, which are run with half
+/// the substeps too and compared at their end.
+struct Segment {
+    std::uint32_t substeps;
+    std::uint32_t frame_count;
+    bool probes;
+    bool operator==(const Segment&) const = default;
+};
+
+class SubstepControl {
+  public:
+    /// `proposed`: substeps by the laws. `probe_length`: frames of a probe, 2 or more.
+    SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t probe_length);
+
+    /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: something
+    /// is let go of in the first of them, so it begins finer.
+    const Segment& begin(std::uint32_t room, bool eventful);
+    /// `unpredictable`: kept, though the motion's error is above its limit, since more substeps do not reduce it: the
+    /// cloth crumples, and neighbouring motions part whatever is done.
+    enum class Verdict { keep, unpredictable, again, give_up };
+    /// Of the attempt that `segment` says; `again`: with what `segment` says now.
+    Verdict judge(const Judgement& judgement);
+    const Segment& segment() const { return segment_; }
+    bool at_top() const { return tried_ + 1 == rungs_.size(); }
+    /// The frames are kept although the last judgement says no.
+    void keep_anyway();
+
+  private:
+    std::size_t rung_of(double substeps) const;
+    bool futile(const Judgement& judgement) const;
+    void succeed(const Judgement& judgement);
+    void refine(const Judgement& judgement);
+    void consider_fewer(const Judgement& judgement);
+
+    std::span<const std::uint32_t> rungs_;
+    std::uint32_t probe_length_;
+    std::size_t rung_;       ///< of frames to come
+    std::size_t began_ = 0;  ///< that before the segment
+    std::size_t tried_ = 0;  ///< of the attempt
+    double slack_ = 1;       ///< on the motion's limit, where more substeps did not help
+    struct Tried {
+        double substeps = 0, motion = 0;
+    } before_;  ///< the segment's last failed attempt
+    Segment segment_{};
+    std::uint32_t interval_ = 1, until_probe_ = 0;  ///< frames between probes, before the next
+    std::uint32_t since_fewer_ = 1000000;           ///< frames since the substeps went down
+    std::uint32_t patience_ = 1, easy_ = 0;         ///< easy probes before they go down, so far
+};
+
+}  // namespace drape

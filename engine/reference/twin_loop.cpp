@@ -1,0 +1,125 @@
+#include "reference/twin_loop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cloth/texels.h"
+#include "reference/kernels.h"
+#include "reference/statistics.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+/// As the comparison's workgroups do.
+std::vector<DifferenceRecord> partial_differences(const Grid& grid, const TwinCloth& fine, const TwinCloth& coarse) {
+    std::vector<DifferenceRecord> partials;
+    const ivec2 size = grid.size();
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * grid.columns() + static_cast<std::size_t>(x);
+    };
+    for (int y = 0; y < size.y; y += difference_rows)
+        for (int x = 0; x < size.x; x += workgroup_width) {
+            std::array<DifferenceRecord, workgroup_width> lanes;
+            lanes.fill(empty_difference());
+            for (int lane = 0; lane < workgroup_width && x + lane < size.x; ++lane)
+                for (int row = y; row < y + difference_rows && row < size.y; ++row) {
+                    const vec4 at = fine[Field::position][index(x + lane, row)];
+                    DifferenceRecord& record = lanes[static_cast<std::size_t>(lane)];
+                    record = joined(
+                        record, particle_difference(at.w, xyz(at), xyz(coarse[Field::position][index(x + lane, row)])));
+                }
+            for (std::size_t stride = workgroup_width / 2; stride > 0; stride /= 2)
+                for (std::size_t lane = 0; lane < stride; ++lane)
+                    lanes[lane] = joined(lanes[lane], lanes[lane + stride]);
+            partials.push_back(lanes[0]);
+        }
+    return partials;
+}
+
+}  // namespace
+
+TwinLoop::TwinLoop(const SimulationModel& model)
+    : model_(model),
+      control_(row_of(model.scene.solver.method), model.scene.solver.substeps, probe_length(model)),
+      state_(model),
+      state_substeps_(model.scene.solver.substeps) {}
+
+const SimulationModel& TwinLoop::at(std::uint32_t substeps) {
+    std::unique_ptr<SimulationModel>& run = runs_[substeps];
+    if (!run) run = std::make_unique<SimulationModel>(model_, substeps);
+    return *run;
+}
+
+std::vector<ClothStatistics> TwinLoop::statistics(Twin& twin, std::uint32_t frame, const SimulationModel& run) const {
+    const FrameInputs inputs = frame_inputs(run, frame);
+    std::vector<ClothStatistics> all;
+    for (std::size_t cloth = 0; cloth < run.cloths.size(); ++cloth) {
+        if (run.cloths[cloth].plan.gathered_tension) twin.tension(cloth);
+        all.push_back(cloth_statistics(run, run.cloths[cloth], twin_statistics(run, cloth, twin.cloth(cloth), inputs)));
+    }
+    return all;
+}
+
+double TwinLoop::motion(const Twin& fine, const Twin& coarse) {
+    double worst = motion_error_ = 0;
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const double apart =
+            difference_of(partial_differences(model_.cloths[cloth].grid, fine.cloth(cloth), coarse.cloth(cloth)));
+        const double error = motion_error(model_, apart, control_.segment().frame_count);
+        if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, error / motion_limit(model_, cloth));
+        motion_error_ = std::max(motion_error_, error);
+    }
+    return worst;
+}
+
+Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
+    const Segment& segment = control_.segment();
+    Judgement judgement;
+    const auto begin = [&](std::uint32_t substeps) {
+        Twin twin = state_;
+        if (substeps != state_substeps_) twin.change_step(at(substeps));
+        return twin;
+    };
+    const auto run = [&](Twin& twin, std::uint32_t k, std::uint32_t substeps) {
+        twin.run_frame(frame + k);
+        return stretch_judgement(model_, statistics(twin, frame + k, at(substeps)));
+    };
+    Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
+    for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)
+        judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2));
+    for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
+        judgement.stretch = std::max(judgement.stretch, run(fine, k, segment.substeps));
+        if (judgement.stretch > 1 && !control_.at_top()) return judgement;
+        frames.push_back(fine);
+    }
+    if (segment.probes) judgement.motion = motion(fine, coarse);
+    return judgement;
+}
+
+void TwinLoop::run(std::uint32_t last,
+                   const std::function<void(std::uint32_t, const Twin&, const FrameEffort&)>& finished) {
+    using Verdict = SubstepControl::Verdict;
+    while (next_ <= last) {
+        control_.begin(probe_room(model_, next_), eventful(model_, next_));
+        FrameEffort effort{.attempts = 0};
+        std::vector<Twin> frames;
+        for (Verdict verdict = Verdict::again; verdict == Verdict::again;) {
+            frames.clear();
+            ++effort.attempts;
+            verdict = control_.judge(attempt(next_, frames));
+            effort.predictable = verdict != Verdict::unpredictable;
+            if (verdict == Verdict::give_up) control_.keep_anyway();
+        }
+        effort.substeps = state_substeps_ = control_.segment().substeps;
+        if (control_.segment().probes) effort.motion_error = motion_error_;
+        state_ = frames.back();
+        for (const Twin& twin : frames) finished(next_++, twin, effort);
+    }
+}
+
+}  // namespace drape

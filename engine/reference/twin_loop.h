@@ -1,0 +1,40 @@
+// The twin of the closed loop: the same control asked the same questions about the twin's frames. Scenes without
+// cutters.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "cloth/frame_judgement.h"
+#include "cloth/substep_control.h"
+#include "drape/simulation.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+class TwinLoop {
+  public:
+    /// `model`: of a closed loop; must outlive this.
+    explicit TwinLoop(const SimulationModel& model);
+
+    /// Frames from the next one to `last`, told in order, with the twin at their end; a probe that goes beyond is run
+    /// to its end.
+    void run(std::uint32_t last,
+             const std::function<void(std::uint32_t frame, const Twin& twin, const FrameEffort& effort)>& finished);
+
+  private:
+    const SimulationModel& at(std::uint32_t substeps);
+    Judgement attempt(std::uint32_t frame, std::vector<Twin>& frames);
+    std::vector<ClothStatistics> statistics(Twin& twin, std::uint32_t frame, const SimulationModel& run) const;
+    double motion(const Twin& fine, const Twin& coarse);
+
+    const SimulationModel& model_;
+    std::map<std::uint32_t, std::unique_ptr<SimulationModel>> runs_;
+    SubstepControl control_;
+    Twin state_;
+    std::uint32_t next_ = 1, state_substeps_;
+    double motion_error_ = 0;
+};
+
+}  // namespace drape

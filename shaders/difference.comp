@@ -1,0 +1,27 @@
+// How far a frame is from a coarser run to it: an invocation per difference_rows particles of a column, a record per
+// workgroup.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/difference.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { GridPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D coarse_position;
+layout(set = 0, binding = 2, std430) writeonly buffer Partials { DifferenceRecord partials[]; };
+
+#define RECORD DifferenceRecord
+#include "include/workgroup_reduction.h"
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(difference_rows));
+    DifferenceRecord record = empty_difference();
+    for (int row = 0; row < difference_rows; ++row, ++texel.y) {
+        if (texel.x >= push.grid.x || texel.y >= push.grid.y) continue;
+        vec4 at = imageLoad(position, texel);
+        record = joined(record, particle_difference(at.w, at.xyz, imageLoad(coarse_position, texel).xyz));
+    }
+    record = joined_over_workgroup(record);
+    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+}

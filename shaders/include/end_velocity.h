@@ -1,0 +1,39 @@
+// The velocity at the end of a substep, and the state of a substep of another length (docs/solvers.md, "Steps that
+// change"). The displacement d of a substep of length h is h times its mean velocity; with the displacement b of the
+// substep before, of the same length, h times the velocity at its end is d + e, e = (d - b)/2 = h^2/2 times the
+// acceleration.
+#ifndef DRAPE_END_VELOCITY_H
+#define DRAPE_END_VELOCITY_H
+
+#include "include/vector.h"
+
+/// Largest |e|/|d| where there are colliders, where there are none.
+const float contact_excess = 0.5f, free_excess = 1e9f;
+
+/// e, m. `most`: largest |e|/|d|. With contact a particle that has just been stopped must not be taken to rebound.
+SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
+    precise vec3 excess = (displacement - before) * 0.5f;
+    precise float size_squared = ordered_dot(excess, excess);
+    precise float limit_squared = (most * most) * ordered_dot(displacement, displacement);
+    if (!(size_squared > limit_squared)) return excess;
+    precise float share = sqrt(limit_squared / size_squared);
+    precise vec3 limited = excess * share;
+    return limited;
+}
+
+/// State of a substep `ratio` times as long that ends at the same place with the same velocity and acceleration.
+struct ChangedStep {
+    vec3 displacement;
+    vec3 before;  // that of the substep before it
+    vec3 excess;  // of either
+};
+
+SHARED ChangedStep changed_step(vec3 displacement, vec3 excess, float ratio) {
+    precise vec3 velocity = (displacement + excess) * ratio;
+    precise vec3 half_acceleration = excess * (ratio * ratio);
+    precise vec3 moved = velocity - half_acceleration;
+    precise vec3 before = moved - half_acceleration * 2.0f;
+    return ChangedStep(moved, before, half_acceleration);
+}
+
+#endif

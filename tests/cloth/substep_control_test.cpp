@@ -1,0 +1,107 @@
+// What the control of a closed loop makes of judgements: pure decisions.
+#include "cloth/substep_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace drape {
+namespace {
+
+using Verdict = SubstepControl::Verdict;
+
+SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 6}; }
+
+/// Frames of a cloth whose errors fall with the square of the substeps: 1 at `stretch` and `motion` substeps.
+struct Cloth {
+    double stretch, motion;
+    Judgement judge(const Segment& segment) const {
+        const double n = segment.substeps;
+        return {std::pow(stretch / n, 2), segment.probes ? std::pow(motion / n, 2) : 0, std::pow(2 * stretch / n, 2)};
+    }
+};
+
+struct Run {
+    std::uint32_t frames = 0, attempts = 0, last = 0;
+    double work = 0;  // substeps
+};
+
+Run run(SubstepControl& loop, const Cloth& cloth, std::uint32_t frames) {
+    Run run;
+    while (run.frames < frames) {
+        loop.begin(6, false);
+        for (Verdict verdict = Verdict::again; verdict == Verdict::again;) {
+            const Segment segment = loop.segment();
+            ++run.attempts;
+            run.work += segment.frame_count * segment.substeps * (segment.probes ? 1.5 : 1.0);
+            verdict = loop.judge(cloth.judge(segment));
+            run.last = segment.substeps;
+        }
+        run.frames += loop.segment().frame_count;
+    }
+    return run;
+}
+
+TEST(SubstepControl, RungsAreEvenSoThatAProbeCanHalveThem) {
+    for (const Method& method : methods()) {
+        EXPECT_EQ(substep_rungs(method).back(), method.most_substeps) << method.name();
+        for (const std::uint32_t rung : substep_rungs(method)) EXPECT_EQ(rung % 2, 0u);
+    }
+}
+
+TEST(SubstepControl, GoesUpUntilAllLimitsAreKept) {
+    SubstepControl loop = control(2);
+    EXPECT_TRUE(loop.begin(6, false).probes);
+    EXPECT_GE(run(loop, {20, 3}, 1).last, 20u);
+    SubstepControl other = control(2);
+    EXPECT_GE(run(other, {3, 50}, 1).last, 50u);
+}
+
+TEST(SubstepControl, GoesDownWhereItIsEasyAndStaysNearTheLimit) {
+    SubstepControl loop = control(256);
+    const Run calm = run(loop, {4, 9}, 600);
+    EXPECT_GE(calm.last, 9u);
+    EXPECT_LE(calm.last, 16u);
+}
+
+TEST(SubstepControl, JudgingAndRedoingCostLittleOnceTheSubstepsFit) {
+    SubstepControl loop = control(24);
+    run(loop, {10, 16}, 400);
+    const Run settled = run(loop, {10, 16}, 2000);
+    EXPECT_LT(settled.work, 1.08 * settled.frames * settled.last);
+}
+
+TEST(SubstepControl, GivesUpOnlyAtTheTop) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    Verdict verdict = Verdict::again;
+    while (verdict == Verdict::again) verdict = loop.judge({.stretch = 2, .motion = 0});
+    EXPECT_EQ(verdict, Verdict::give_up);
+    EXPECT_EQ(loop.segment().substeps, 1024u);
+    const double nan = std::nan("");
+    SubstepControl broken = control(8);
+    broken.begin(6, false);
+    EXPECT_EQ(broken.judge({.stretch = INFINITY, .motion = nan}), Verdict::again);
+}
+
+TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 5}), Verdict::again);
+    const std::uint32_t tried = loop.segment().substeps;
+    EXPECT_GT(tried, 8u);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.9}), Verdict::unpredictable);
+    EXPECT_LE(loop.begin(6, false).substeps, 8u);
+    // Its stretch is still a promise.
+    EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
+}
+
+TEST(SubstepControl, BeginsFinerWhereSomethingIsLetGoOf) {
+    SubstepControl calm = control(8), loop = control(8);
+    EXPECT_GT(loop.begin(6, true).substeps, calm.begin(6, false).substeps);
+    EXPECT_TRUE(loop.segment().probes);
+    EXPECT_FALSE(loop.begin(1, true).probes);  // no room
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,171 @@
+// The closed loop of method `auto`: the device judges, redoes and changes steps as its twin does, to the bit, and
+// nobody who asks for the frames one by one gets others.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "frame_copy.h"
+#include "frame_loop.h"
+#include "reference/twin_loop.h"
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::everything;
+
+SceneDescription automatic(SceneDescription scene, std::uint32_t frames) {
+    scene.solver = {};
+    scene.time.frame_count = frames + 1;
+    return scene;
+}
+
+SceneDescription hanging_by_corners(std::uint32_t frames) {
+    SceneDescription scene = test::sheet(33, 30, 1, 0.9, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(32, 0, 32, 0)};
+    return automatic(scene, frames);
+}
+
+struct Seen {
+    std::vector<FrameEffort> efforts;
+    std::vector<std::vector<float>> positions;  // of the first cloth
+};
+
+bool same(const FrameEffort& a, const FrameEffort& b) {
+    return a.substeps == b.substeps && a.attempts == b.attempts && a.predictable == b.predictable &&
+           (a.motion_error == b.motion_error || (std::isnan(a.motion_error) && std::isnan(b.motion_error)));
+}
+
+Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) {
+    const SimulationModel model(scene, options);
+    FrameLoopOptions wanted;
+    wanted.draw = wanted.keep_promises = false;
+    wanted.positions = wanted.statistics = true;
+    FrameLoop loop(test::gpu().device, model, wanted);
+    Seen seen;
+    loop.run(
+        scene.time.frame_count - 1, [](std::uint32_t frame) { return frame > 0; },
+        [&](const FinishedFrame& frame) {
+            EXPECT_EQ(frame.frame, seen.efforts.size() + 1);
+            seen.efforts.push_back(frame.effort);
+            seen.positions.emplace_back(frame.positions[0].begin(), frame.positions[0].end());
+        });
+    return seen;
+}
+
+/// Every frame's positions, substeps, attempts and estimate; what the device did is returned.
+Seen compare_loops(const SceneDescription& scene) {
+    Seen device = on_device(scene);
+    const SimulationModel model(scene);
+    TwinLoop twin(model);
+    EXPECT_EQ(device.efforts.size(), scene.time.frame_count - 1);
+    twin.run(scene.time.frame_count - 1, [&](std::uint32_t frame, const Twin& state, const FrameEffort& effort) {
+        if (frame > device.efforts.size()) return;
+        const std::vector<glsl::vec4>& expected = state.cloth(0)[Field::position];
+        const std::vector<float>& found = device.positions[frame - 1];
+        EXPECT_EQ(std::memcmp(found.data(), expected.data(), expected.size() * sizeof(glsl::vec4)), 0)
+            << "frame " << frame;
+        EXPECT_TRUE(same(device.efforts[frame - 1], effort))
+            << "frame " << frame << ": " << effort.substeps << ", " << device.efforts[frame - 1].substeps;
+    });
+    return device;
+}
+
+std::uint32_t most_attempts(const Seen& seen) {
+    std::uint32_t most = 0;
+    for (const FrameEffort& effort : seen.efforts) most = std::max(most, effort.attempts);
+    return most;
+}
+
+bool changes(const Seen& seen) {
+    return std::ranges::any_of(seen.efforts,
+                               [&](const FrameEffort& e) { return e.substeps != seen.efforts[0].substeps; });
+}
+
+TEST(ClosedLoop, TheTwinDecidesAsTheDeviceDoes) {
+    SceneDescription scene = hanging_by_corners(20);
+    scene.solver.tolerance_motion = 0.02;
+    const Seen seen = compare_loops(scene);
+    EXPECT_GT(most_attempts(seen), 1u);
+    EXPECT_TRUE(changes(seen));
+}
+
+TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
+    SceneDescription scene = automatic(everything(), 12);
+    scene.solver.tolerance = 0.004;
+    scene.solver.tolerance_motion = 0.5;
+    EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
+}
+
+TEST(ClosedLoop, TwoRunsGiveTheSameBytesAndSoDoFramesAskedForOneByOne) {
+    SceneDescription scene = hanging_by_corners(16);
+    scene.solver.tolerance_motion = 0.03;
+    const Seen once = on_device(scene), twice = on_device(scene);
+    ASSERT_EQ(once.efforts.size(), 16u);
+    EXPECT_TRUE(std::ranges::equal(once.efforts, twice.efforts, same));
+    EXPECT_EQ(once.positions, twice.positions);
+    Simulation simulation(scene);
+    ASSERT_TRUE(simulation.step());
+    for (std::uint32_t frame = 1; simulation.step(); ++frame) {
+        const auto& positions = simulation.frame().positions[0];
+        EXPECT_TRUE(std::ranges::equal(positions, once.positions[frame - 1])) << "frame " << frame;
+        EXPECT_TRUE(same(simulation.frame().effort, once.efforts[frame - 1])) << "frame " << frame;
+    }
+}
+
+TEST(ClosedLoop, TighterLimitsTakeMoreSubstepsAndErrLess) {
+    SceneDescription scene = hanging_by_corners(12);
+    double last_error = 1e9;
+    std::uint32_t last_substeps = 0;
+    for (const double tolerance : {0.1, 0.01, 0.001}) {
+        scene.solver.tolerance_motion = tolerance;
+        const Seen seen = on_device(scene);
+        const FrameEffort& effort = seen.efforts[2];
+        EXPECT_LE(effort.motion_error, tolerance);
+        EXPECT_GE(effort.substeps, last_substeps);
+        EXPECT_LT(effort.motion_error, last_error);
+        last_error = effort.motion_error;
+        last_substeps = effort.substeps;
+    }
+}
+
+TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
+    SceneDescription scene = hanging_by_corners(6);
+    scene.solver.tolerance = 1e-7;  // below what single precision resolves
+    Simulation simulation(scene);
+    try {
+        while (simulation.step()) {
+        }
+        FAIL() << "nothing was refused";
+    } catch (const ToleranceMissed& error) {
+        EXPECT_NE(std::string(error.what()).find("stretch error"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("1024 substeps"), std::string::npos) << error.what();
+    }
+}
+
+TEST(ClosedLoop, FreeFallAndFlightKeepTheirSpeedWhenTheStepChanges) {
+    // Substeps change at the probes; the centre of mass may not notice.
+    SceneDescription scene = test::sheet(17, 17, 1, 1, 1);
+    scene.cloths[0].velocity = {1, 2, 0};
+    scene.cloths[0].pins.clear();
+    scene = automatic(scene, 40);
+    scene.solver.tolerance_motion = 1;
+    const Seen seen = on_device(scene);
+    const SimulationModel model(scene);
+    EXPECT_TRUE(changes(seen));
+    for (std::size_t frame = 0; frame < seen.positions.size(); ++frame) {
+        const double t = static_cast<double>(frame + 1) / scene.time.fps;
+        for (const std::size_t i : {std::size_t{0}, std::size_t{140}, std::size_t{288}}) {
+            const glsl::vec4& start = model.cloths[0].position[i];
+            EXPECT_NEAR(seen.positions[frame][4 * i], start.x + t, 1e-5);
+            EXPECT_NEAR(seen.positions[frame][4 * i + 1], start.y + 2 * t - 0.5 * 9.81 * t * t, 1e-5) << frame;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace drape
