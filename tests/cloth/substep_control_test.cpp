@@ -21,13 +21,13 @@ struct Cloth {
     }
 };
 
-struct Run {
+struct Spent {
     std::uint32_t frames = 0, attempts = 0, last = 0;
     double work = 0;  // substeps
 };
 
-Run run(SubstepControl& loop, const Cloth& cloth, std::uint32_t frames) {
-    Run run;
+Spent run(SubstepControl& loop, const Cloth& cloth, std::uint32_t frames) {
+    Spent run;
     while (run.frames < frames) {
         loop.begin(6, false);
         for (Verdict verdict = Verdict::again; verdict == Verdict::again;) {
@@ -59,7 +59,7 @@ TEST(SubstepControl, GoesUpUntilAllLimitsAreKept) {
 
 TEST(SubstepControl, GoesDownWhereItIsEasyAndStaysNearTheLimit) {
     SubstepControl loop = control(256);
-    const Run calm = run(loop, {4, 9}, 600);
+    const Spent calm = run(loop, {4, 9}, 600);
     EXPECT_GE(calm.last, 9u);
     EXPECT_LE(calm.last, 16u);
 }
@@ -67,7 +67,7 @@ TEST(SubstepControl, GoesDownWhereItIsEasyAndStaysNearTheLimit) {
 TEST(SubstepControl, JudgingAndRedoingCostLittleOnceTheSubstepsFit) {
     SubstepControl loop = control(24);
     run(loop, {10, 16}, 400);
-    const Run settled = run(loop, {10, 16}, 2000);
+    const Spent settled = run(loop, {10, 16}, 2000);
     EXPECT_LT(settled.work, 1.08 * settled.frames * settled.last);
 }
 
