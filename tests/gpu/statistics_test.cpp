@@ -44,6 +44,8 @@ class StatisticsRun {
                        std::as_bytes(std::span(state[Field::position])));
         vulkan::upload(test::gpu().device, pool_->image(name + "/displacement"),
                        std::as_bytes(std::span(state[Field::displacement])));
+        vulkan::upload(test::gpu().device, pool_->image(name + "/end excess"),
+                       std::as_bytes(std::span(state[Field::end_excess])));
         for (std::size_t direction = 0; direction < stretch_direction_count; ++direction)
             vulkan::upload(test::gpu().device,
                            pool_->image(name + "/tension " + std::string(spring_directions[direction].name)),
@@ -145,8 +147,9 @@ ClothStatistics plain_statistics(const SceneDescription& scene, const Simulation
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const float weight = cloth.free_weight[i];
         const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
-        const vec4 x = state[Field::position][i], d = state[Field::displacement][i];
-        const double speed = std::hypot(double(d.x), double(d.y), double(d.z)) / cloth.substep_length;
+        const vec4 x = state[Field::position][i], d = state[Field::displacement][i], e = state[Field::end_excess][i];
+        const double speed = std::hypot(double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)) /
+                             cloth.substep_length;
         const double at[] = {x.x, x.y, x.z};
         plain.kinetic_energy += 0.5 * mass * speed * speed;
         plain.mass += mass;
