@@ -80,6 +80,7 @@ TwinCloth crumpled_state(const SimulationModel& model, float stretch, float nois
         vec4& x = state[Field::position][i];
         x = {stretch * x.x + jitter(random), stretch * x.y + jitter(random), stretch * x.z + jitter(random), x.w};
         state[Field::displacement][i] = {speed(random), speed(random), speed(random), 0};
+        state[Field::end_excess][i] = {speed(random), speed(random), speed(random), 0};
     }
     for (std::size_t direction = 0; direction < 4; ++direction)
         for (float& extension : state.tension(direction)) extension = jitter(random);
@@ -148,8 +149,9 @@ ClothStatistics plain_statistics(const SceneDescription& scene, const Simulation
         const float weight = cloth.free_weight[i];
         const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
         const vec4 x = state[Field::position][i], d = state[Field::displacement][i], e = state[Field::end_excess][i];
-        const double speed = std::hypot(double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)) /
-                             cloth.substep_length;
+        const double speed =
+            std::hypot(double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)) /
+            cloth.substep_length;
         const double at[] = {x.x, x.y, x.z};
         plain.kinetic_energy += 0.5 * mass * speed * speed;
         plain.mass += mass;
