@@ -115,10 +115,6 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
         Judgement judgement;
         if (control_->segment().probes) run_coarse(frame, first, judgement);
         judged = run_fine(frame, first, judgement, asked);
-        if (getenv("DBG"))
-            fprintf(stderr, "frame %u n %u from %u probes %d: motion %.4g stretch %.3g coarse %.3g\n", frame,
-                    control_->segment().substeps, state_substeps_, control_->segment().probes, judgement.motion,
-                    judgement.stretch, judgement.coarse_stretch);
         const SubstepControl::Verdict verdict = control_->judge(judgement);
         if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);
         effort.predictable = verdict != SubstepControl::Verdict::unpredictable;

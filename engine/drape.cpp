@@ -253,15 +253,23 @@ MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& reque
     return missing;
 }
 
+/// How a run ended before its end that would end there again.
+struct RunFailure {
+    std::string status, reason;
+    std::exception_ptr error;
+};
+
 /// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
 bool write_frames(Simulation& simulation, Sink& sink, const MissingFrames& missing, std::uint32_t last,
-                  const RunRequest& request, RunSummary& summary) {
+                  const RunRequest& request, RunSummary& summary, std::optional<RunFailure>& failure) {
     // A run again would fail again at the same frame: what came before it is the result.
-    const auto keep_the_rest = [&](const std::runtime_error& error) {
-        if (summary.frame_count > 0) sink.finish(true, summary.dropped);
-        const std::string kept = fmt::format("; what was written before it is kept ({} of {} frames)",
-                                             summary.frame_count, missing.frames.size());
-        return error.what() + (summary.frame_count > 0 ? kept : std::string());
+    const auto fail = [&]<class Error>(const char* status, const Error& error) {
+        const std::string kept = summary.frame_count > 0
+                                     ? fmt::format("; what was written before it is kept ({} of {} frames)",
+                                                   summary.frame_count, missing.frames.size())
+                                     : std::string("; nothing was written");
+        failure = {status, error.what(), std::make_exception_ptr(Error(error.what() + kept))};
+        return false;
     };
     Progress progress(missing.frames.size(), Progress::standard_options(request.quiet));
     try {
@@ -274,10 +282,22 @@ bool write_frames(Simulation& simulation, Sink& sink, const MissingFrames& missi
             },
             request.stop);
     } catch (const Diverged& error) {
-        throw Diverged(keep_the_rest(error));
+        return fail("diverged", error);
     } catch (const ToleranceMissed& error) {
-        throw ToleranceMissed(keep_the_rest(error));
+        return fail("tolerance missed", error);
     }
+}
+
+/// What a run that names its method is told where it misses what `auto` keeps.
+std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics) {
+    if (facts.limits_are_kept) return std::nullopt;
+    const double rms = statistics.worst_of_run("/stretch_error_rms").value_or(0),
+                 largest = statistics.worst_of_run("/stretch_error_max").value_or(0);
+    if (rms <= facts.tolerance_rms && largest <= facts.tolerance_worst) return std::nullopt;
+    return fmt::format(
+        "the stretch error came to {:.3g} RMS and {:.3g} in a single spring; method auto would have kept {:.3g} and "
+        "{:.3g}",
+        rms, largest, facts.tolerance_rms, facts.tolerance_worst);
 }
 
 }  // namespace
@@ -304,6 +324,7 @@ RunSummary run_scene(const RunRequest& request) {
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();
     Manifest manifest;
+    std::optional<RunFailure> failure;
     {
         Sink* cut_sink = nullptr;
         SimulationOptions options = simulation_options(
@@ -323,17 +344,26 @@ RunSummary run_scene(const RunRequest& request) {
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
         const std::uint32_t last = to_the_end || missing.frames.empty() ? range.end : *missing.frames.rbegin();
-        summary.complete =
-            (missing.frames.empty() && !to_the_end) || write_frames(simulation, sink, missing, last, request, summary);
+        summary.complete = (missing.frames.empty() && !to_the_end) ||
+                           write_frames(simulation, sink, missing, last, request, summary, failure);
+        if (const auto warning = missed_limits(simulation.facts(), sink.statistics())) {
+            summary.warnings.push_back(*warning);
+            say("warning: " + *warning);
+        }
         manifest.cuts = sink.cuts();
         manifest.statistics = sink.statistics().frames();
-        manifest.solver.stretch_error = sink.statistics().worst_stretch_error();
-        manifest.files = sink.finish(summary.complete, summary.dropped);
+        manifest.solver.stretch_error = sink.statistics().worst_of_run("/stretch_error_rms");
+        manifest.files = sink.finish(summary.complete || (failure && summary.frame_count > 0), summary.dropped);
         sink.add_timings(manifest);
     }
     summary.validation_count = device.validation_count();
     manifest.validation = {request.scene.validate, summary.validation_count};
-    if (summary.complete) write_manifest(folder, manifest);
+    if (failure) {
+        manifest.status = failure->status;
+        manifest.failure = failure->reason;
+    }
+    if (summary.complete || (failure && summary.frame_count > 0)) write_manifest(folder, manifest);
+    if (failure) std::rethrow_exception(failure->error);
     return summary;
 }
 

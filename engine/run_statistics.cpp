@@ -80,11 +80,10 @@ std::optional<double> RunStatistics::energy_drift(const FrameValues& values) con
     return now && first ? std::optional(*now - *first) : std::nullopt;
 }
 
-std::optional<double> RunStatistics::worst_stretch_error() const {
+std::optional<double> RunStatistics::worst_of_run(std::string_view name) const {
     std::optional<double> largest;
     for (const auto& [frame, values] : frames_)
-        if (const auto error = worst(values, "/stretch_error_rms"))
-            largest = std::max(largest.value_or(*error), *error);
+        if (const auto error = worst(values, name)) largest = std::max(largest.value_or(*error), *error);
     return largest;
 }
 
@@ -95,6 +94,10 @@ std::string RunStatistics::note(std::uint32_t frame) const {
         parts.push_back(fmt::format("stretch {:.3g} % RMS, {:.3g} % max", 100 * *rms, 100 * *max));
     if (const auto error = worst(values, "/stretch_error_rms"))
         parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
+    if (const auto error = values.find("motion_error_m_s"); error != values.end())
+        parts.push_back(fmt::format("motion error {:.3g} mm/s", 1000 * error->second));
+    if (const auto substeps = values.find("substeps"); substeps != values.end())
+        parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
     if (const auto depth = worst(values, "/penetration_m"))
         parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));

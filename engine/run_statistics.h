@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drape/scene.h"
@@ -30,8 +31,8 @@ class RunStatistics {
     /// moving pins do.
     std::vector<Manifest::FrameStatistics> frames() const;
 
-    /// The largest RMS stretch error of any frame and cloth.
-    std::optional<double> worst_stretch_error() const;
+    /// The largest value, of any frame and cloth, of "<cloth>" + `name`.
+    std::optional<double> worst_of_run(std::string_view name) const;
 
   private:
     std::optional<double> energy_drift(const FrameValues& values) const;

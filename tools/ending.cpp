@@ -64,10 +64,10 @@ ExitCode report_current_exception() {
         print_error(error.what());
         return ExitCode::io;
     } catch (const Diverged& error) {
-        print_error(fmt::format("{}; no manifest was written", error.what()));
+        print_error(error.what());
         return ExitCode::diverged;
     } catch (const ToleranceMissed& error) {
-        print_error(fmt::format("{}; no manifest was written", error.what()));
+        print_error(error.what());
         return ExitCode::tolerance;
     } catch (const vulkan::VulkanError& error) {
         print_error(error.what() + vulkan_hint(error));

@@ -10,10 +10,9 @@ namespace drape {
 
 namespace {
 
-/// Error per second over the distance from the run with half the substeps per second of the probe. An error that falls
-/// with the square of the substep is a third of that distance; a wrong acceleration takes the cloth three times as far
-/// in the time in which a pendulum of a metre forgets it as in the probe.
-constexpr double estimate_share = 1;
+/// Error per second over the distance from the run with half the substeps per second of the probe: an error that falls
+/// with the square of the substep is a third of that distance, one that falls with the substep all of it.
+constexpr double estimate_share = 0.5;
 
 }  // namespace
 
@@ -47,12 +46,10 @@ double motion_limit(const SimulationModel& model, std::size_t cloth) {
 }
 
 double stretch_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {
-    const SolverSettings& solver = model.scene.solver;
-    const double worst_limit = solver.tolerance_worst > 0 ? solver.tolerance_worst : default_tolerance_worst;
+    const auto [rms_limit, worst_limit] = model.stretch_limits();
     double worst = 0;
     for (const ClothStatistics& cloth : cloths) {
-        const double error =
-            std::max(cloth.stretch_error_rms / solver.tolerance, cloth.stretch_error_max / worst_limit);
+        const double error = std::max(cloth.stretch_error_rms / rms_limit, cloth.stretch_error_max / worst_limit);
         if (cloth.non_finite_count > 0 || !std::isfinite(error)) return std::numeric_limits<double>::infinity();
         worst = std::max(worst, error);
     }

@@ -32,6 +32,12 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
 }
 
+SimulationModel::StretchLimits SimulationModel::stretch_limits() const {
+    const SolverSettings& solver = scene.solver;
+    return {solver.tolerance > 0 ? solver.tolerance : default_tolerance,
+            solver.tolerance_worst > 0 ? solver.tolerance_worst : default_tolerance_worst};
+}
+
 std::uint32_t SimulationModel::most_substeps() const {
     return closed_loop() ? substep_rungs(row_of(scene.solver.method)).back() : scene.solver.substeps;
 }

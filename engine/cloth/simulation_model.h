@@ -27,6 +27,11 @@ struct SimulationModel {
     const SolverMethodName& method() const { return named(scene.solver.method); }
     /// Whether every frame is judged and done again with other substeps where it fails (cloth/substep_control.h).
     bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
+    /// Largest stretch errors that a closed loop keeps: the scene's, or the defaults.
+    struct StretchLimits {
+        double rms, worst;
+    };
+    StretchLimits stretch_limits() const;
     /// That a frame of this run may have: what buffers have room for.
     std::uint32_t most_substeps() const;
     /// Whether iterations end when the tolerance is met.

@@ -14,6 +14,8 @@ constexpr std::uint32_t rungs[] = {2,   4,   6,   8,   12,  16,  24,   32,   48,
 constexpr std::uint32_t longest_interval = 12;
 /// Fewer substeps are tried where their errors are expected below this share of the limits.
 constexpr double comfort = 0.6;
+/// Where more substeps do not reduce the motion's error, fewer are used as long as they increase it by less than this.
+constexpr double unpredictable_slack = 6;
 
 }  // namespace
 
@@ -49,7 +51,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
         return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
     }
     if (futile(judgement)) {
-        slack_ = 2 * judgement.motion;
+        slack_ = unpredictable_slack * judgement.motion;
         succeed(judgement);
         // What more substeps do not buy, fewer may not cost.
         rung_ = began_ > 2 ? began_ - 2 : 0;
@@ -89,7 +91,7 @@ void SubstepControl::succeed(const Judgement& judgement) {
         if (until_probe_ > 0) --until_probe_;
         return;
     }
-    slack_ = std::max(1.0, std::min(slack_, 2 * judgement.motion));
+    slack_ = std::max(1.0, std::min(slack_, unpredictable_slack * judgement.motion));
     until_probe_ = interval_ * probe_length_;
     interval_ = std::min(2 * interval_, longest_interval);
     consider_fewer(judgement);

@@ -166,6 +166,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["format"] = std::string(manifest_format);
     json["program_version"] = manifest.program_version;
     json["status"] = manifest.status;
+    if (!manifest.failure.empty()) json["failure"] = manifest.failure;
     json["scene"] = scene_json(manifest.scene);
     json["device"] = device_json(manifest.device);
     json["frames"] = frames_json(manifest.frames);

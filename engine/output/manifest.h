@@ -84,8 +84,9 @@ struct Manifest {
     };
 
     std::string program_version;
-    std::string status = "done";
-    std::string run_key;  // kept_frames.h
+    std::string status = "done";  // "diverged", "tolerance missed": ended before its end, with what came before
+    std::string failure;          // then why
+    std::string run_key;          // kept_frames.h
     Scene scene;
     Device device;
     Frames frames;

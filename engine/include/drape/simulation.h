@@ -76,6 +76,9 @@ struct SimulationFacts {
     std::string asked_method;   ///< the scene's
     std::string choice_reason;  ///< why that method, where it was chosen
     double tolerance = 0;       ///< of the RMS stretch error, that no frame may miss; 0: none
+    /// What `auto` would keep in every frame, or keeps: largest stretch error, RMS and of a single spring.
+    double tolerance_rms = 0, tolerance_worst = 0;
+    bool limits_are_kept = false;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
     /// In a frame that is handed out, and in one that is only simulated.
