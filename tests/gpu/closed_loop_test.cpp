@@ -128,7 +128,7 @@ TEST(ClosedLoop, TighterLimitsTakeMoreSubstepsAndErrLess) {
     SceneDescription scene = hanging_by_corners(12);
     double last_error = 1e9;
     std::uint32_t last_substeps = 0;
-    for (const double tolerance : {0.1, 0.01, 0.001}) {
+    for (const double tolerance : {0.1, 0.004, 0.0004}) {
         scene.solver.tolerance_motion = tolerance;
         const Seen seen = on_device(scene);
         const FrameEffort& effort = seen.efforts[2];
