@@ -63,7 +63,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     return Verdict::again;
 }
 
-/// Whether the attempt is one of those whose error hardly fell with its substeps: by less than their square root.
+/// Whether at least twice the substeps have hardly reduced the motion's error: by less than their square root.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
     return before_.substeps > 0 && judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
