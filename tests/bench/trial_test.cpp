@@ -20,6 +20,7 @@ TrialResult scene_result(const std::string& name) {
     result.numbers = {{"frames", 30},
                       {"wall_s", 3},
                       {"worst_stretch_error", 0.008},
+                      {"worst_spring", 0.05},
                       {"tolerance", 0.01},
                       {"missed_frames", 0},
                       {"best_wall_s", 1.5},
@@ -66,7 +67,8 @@ TEST(TrialTest, TheTextSaysWhatHappened) {
     results[3].numbers["reference_error"] = 0.009;  // the true error is hardly told
     const std::string text = trial_text(results);
     EXPECT_THAT(text, HasSubstr("b/1/1 tolerance missed: the ladder ends\n"));
-    EXPECT_THAT(text, HasSubstr("b/1/2 silently missed in 5 of 30 frames: stretch error 0.2 of 0.01\n"));
+    EXPECT_THAT(text,
+                HasSubstr("b/1/2 silently missed in 5 of 30 frames: stretch error 0.2 of 0.01, worst spring 0.05\n"));
     EXPECT_THAT(text, HasSubstr("4 scenes: 75.0 % kept, 25.0 % refused, 25.0 % with frames that were silently missed"));
     EXPECT_THAT(text, testing::ContainsRegex("estimated over true motion error +3 +2 +2"));
     EXPECT_THAT(text, testing::ContainsRegex("time over the best fixed setting's +4 +2 +2"));

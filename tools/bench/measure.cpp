@@ -22,7 +22,7 @@ namespace drape::bench {
 namespace {
 
 /// Raise when the same run would be measured differently, so that kept results are not mixed with new ones.
-constexpr int measuring_version = 3;
+constexpr int measuring_version = 4;
 
 constexpr int repetition_count = 5;
 constexpr double repetition_seconds = 0.6;   // about as long is measured at a time
@@ -92,7 +92,7 @@ RecordedRun record(const Device& device, const Problem& problem, const SceneDesc
     const auto wanted = [&](std::uint32_t frame) { return frame == last || frame % problem.record_every == 0; };
     const auto start = Clock::now();
     const auto finished = [&](const FinishedFrame& frame) {
-        Sample sample{frame.frame, {}, joined(frame.statistics)};
+        Sample sample{frame.frame, {}, joined(frame.statistics), frame.effort};
         run.diverged = run.diverged || sample.statistics.non_finite_count > 0;
         for (const std::span<const float> cloth : frame.positions)
             for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
@@ -218,6 +218,18 @@ ClothStatistics joined(std::span<const ClothStatistics> cloths) {
         if (cloth.iteration_count) all.iteration_count = all.iteration_count.value_or(0) + *cloth.iteration_count;
     }
     return all;
+}
+
+void put_substeps(std::span<const Sample> samples, Metrics& metrics) {
+    double sum = 0, most = 0, count = 0;
+    for (const Sample& sample : samples) {
+        if (sample.frame == 0) continue;
+        sum += sample.effort.substeps;
+        most = std::max<double>(most, sample.effort.substeps);
+        ++count;
+    }
+    metrics["substeps_used"] = count > 0 ? sum / count : 0;
+    metrics["substeps_most"] = most;
 }
 
 std::string case_name(const Problem& problem, std::uint32_t size, const Setting& setting) {

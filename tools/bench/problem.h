@@ -9,6 +9,7 @@
 #include "bench/bench_case.h"
 #include "bench/references.h"
 #include "cloth/cloth_statistics.h"
+#include "drape/simulation.h"
 
 namespace drape::bench {
 
@@ -17,11 +18,15 @@ struct Sample {
     std::uint32_t frame;
     std::vector<Vec3> position;  ///< m, per particle, the cloths one after the other
     ClothStatistics statistics;  ///< of all cloths (`joined`)
+    FrameEffort effort{};
 };
 
 /// One for all cloths: the stretch errors are the worst cloth's, as a tolerance bounds each; strains, energies and the
 /// centre of mass are those of all together.
 ClothStatistics joined(std::span<const ClothStatistics> cloths);
+
+/// Mean and most substeps of the frames after the first: "substeps_used", "substeps_most".
+void put_substeps(std::span<const Sample> samples, Metrics& metrics);
 
 struct Recording {
     const SceneDescription& scene;

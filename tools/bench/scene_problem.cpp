@@ -128,7 +128,7 @@ Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
     if (run.scene.cutters.empty()) m["stretch_rms_reference"] = true_strain;
     m["reference_error"] = mean_error(reference, agreeing);
     m["agreement_s"] = agreeing > 0 ? reference.times[agreeing - 1] : 0;
-    m["substeps_used"] = run.scene.solver.substeps;
+    put_substeps(run.samples, m);
     m["tolerance"] = run.scene.solver.tolerance > 0 ? run.scene.solver.tolerance : default_tolerance;
     if (agreeing == 0) m.erase("position_rms"), m.erase("worst_position"), m.erase("reference_error");
     return m;

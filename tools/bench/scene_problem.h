@@ -33,7 +33,7 @@ inline constexpr double agreement_share = 0.01;
 ///   center_error                   m, distance of the centres of mass, RMS over all frames
 ///   stretch_error, worst_stretch_error, worst_spring   mean over frames and worst frame of the RMS, worst spring
 ///   stretch_rms, stretch_rms_reference   strain, mean over all frames; the reference's only without cutters
-///   tolerance, substeps_used
+///   tolerance, substeps_used, substeps_most   the substeps per frame: mean over frames, most
 /// `options` for the reference, which is made when the first setting is evaluated; `device` is copied.
 /// `errors` (m) are the targets, beside 1 % of stretch error.
 Problem user_problem(const UserScene& user, const Device& device, const RefinementOptions& options,

@@ -68,6 +68,7 @@ std::string distributions(std::span<const TrialResult> results) {
     text += distribution("substeps per frame, mean of a scene", results, plain("substeps_mean"));
     text += distribution("substeps per frame, most", results, plain("substeps_max"));
     text += distribution("redone frames, share", results, share("redone_frames", "frames"));
+    text += distribution("frames of no predictable motion, share", results, share("unpredictable_frames", "frames"));
     text += distribution("worst RMS stretch error, m/m", results, plain("worst_stretch_error"));
     text += distribution("worst spring, m/m", results, plain("worst_spring"));
     text += distribution("wall time, s per frame", results, share("wall_s", "frames"));
@@ -186,9 +187,11 @@ std::string trial_text(std::span<const TrialResult> results) {
                                 result.reason);
     for (const TrialResult& result : results)
         if (is_silent(result))
-            text += fmt::format("{} silently missed in {:g} of {:g} frames: stretch error {:.3g} of {:g}\n",
-                                result.name, result.numbers.at("missed_frames"), result.numbers.at("frames"),
-                                result.numbers.at("worst_stretch_error"), result.numbers.at("tolerance"));
+            text += fmt::format(
+                "{} silently missed in {:g} of {:g} frames: stretch error {:.3g} of {:g}, worst spring {:.3g}\n",
+                result.name, result.numbers.at("missed_frames"), result.numbers.at("frames"),
+                result.numbers.at("worst_stretch_error"), result.numbers.at("tolerance"),
+                result.numbers.at("worst_spring"));
     text += distributions(results) + tag_table(results);
     const auto count = static_cast<double>(std::max<std::size_t>(results.size(), 1));
     const auto silent = std::ranges::count_if(results, is_silent);

@@ -20,10 +20,9 @@ inline constexpr Spelling<TrialOutcome> trial_outcome_spellings[] = {{"kept", Tr
 /// Numbers by name (SI units); those that could not be told are missing:
 ///   frames, seconds              finished frames after the first, and their simulated time
 ///   size                         m, the largest cloth's longer side
-///   substeps_mean, substeps_max, redone_frames, attempts
-///   tolerance, worst_stretch_error, worst_spring, missed_frames (above the tolerance, though handed out)
-///   wall_s
-///   motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
+///   substeps_mean, substeps_max, redone_frames, attempts, unpredictable_frames (their motion is not promised)
+///   tolerance, worst_stretch_error, worst_spring, missed_frames (above a limit of the stretch error, though handed
+///   out) wall_s motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
 /// with a reference:
 ///   reference_substeps, reference_error, compared_s (until the two references part), error, worst_error (RMS position,
 ///   mean over the frames and worst), error_at_end (of what is compared)

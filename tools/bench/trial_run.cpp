@@ -18,8 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct TrialFrame {
-    std::uint32_t substeps = 0, attempts = 1;
-    double motion_error = NAN;                   ///< m/s, where it was estimated
+    FrameEffort effort;
     double stretch_error = 0, worst_spring = 0;  ///< the worst cloth's
     std::vector<float> positions;                ///< x y z of every particle, where wanted
 };
@@ -31,9 +30,9 @@ struct TrialRun {
     double wall = 0;                 ///< s, without set-up
 };
 
-TrialFrame frame_of(const FinishedFrame& frame, const Simulation& simulation, bool with_positions) {
+TrialFrame frame_of(const FinishedFrame& frame, bool with_positions) {
     TrialFrame result;
-    result.substeps = simulation.scene().solver.substeps;
+    result.effort = frame.effort;
     const ClothStatistics all = joined(frame.statistics);
     result.stretch_error = all.stretch_error_rms;
     result.worst_spring = all.stretch_error_max;
@@ -55,7 +54,7 @@ TrialRun run(const Device& device, const SceneDescription& scene, bool with_posi
         bool is_enough = false;
         const auto start = Clock::now();
         const auto finished = [&](const FinishedFrame& frame) {
-            if (frame.frame > 0) result.frames.push_back(frame_of(frame, simulation, with_positions));
+            if (frame.frame > 0) result.frames.push_back(frame_of(frame, with_positions));
             result.wall = std::chrono::duration<double>(Clock::now() - start).count();
             is_enough = is_enough || (enough && enough(result));
         };
@@ -100,17 +99,29 @@ double size_of(const SceneDescription& scene) {
     return size;
 }
 
-double tolerance_of(const SceneDescription& scene) {
-    return scene.solver.tolerance > 0 ? scene.solver.tolerance : default_tolerance;
-}
+/// What `auto` promises of a scene.
+struct Limits {
+    explicit Limits(const SceneDescription& scene)
+        : stretch(or_default(scene.solver.tolerance, default_tolerance)),
+          spring(or_default(scene.solver.tolerance_worst, default_tolerance_worst)),
+          motion(or_default(scene.solver.tolerance_motion, default_motion_share * size_of(scene))) {}
+
+    bool keeps(const TrialFrame& frame) const { return frame.stretch_error <= stretch && frame.worst_spring <= spring; }
+
+    double stretch, spring;  ///< RMS and largest stretch error
+    double motion;           ///< m/s
+
+  private:
+    static double or_default(double asked, double otherwise) { return asked > 0 ? asked : otherwise; }
+};
 
 void count_frames(const TrialRun& run, const SceneDescription& scene, Metrics& numbers) {
     const auto count = static_cast<double>(run.frames.size());
-    const double tolerance = tolerance_of(scene);
+    const Limits limits(scene);
     numbers = {{"frames", count},
                {"seconds", count / scene.time.fps},
                {"size", size_of(scene)},
-               {"tolerance", tolerance},
+               {"tolerance", limits.stretch},
                {"worst_stretch_error", 0},
                {"worst_spring", 0},
                {"missed_frames", 0},
@@ -122,11 +133,12 @@ void count_frames(const TrialRun& run, const SceneDescription& scene, Metrics& n
     for (const TrialFrame& frame : run.frames) {
         numbers["worst_stretch_error"] = std::max(numbers["worst_stretch_error"], frame.stretch_error);
         numbers["worst_spring"] = std::max(numbers["worst_spring"], frame.worst_spring);
-        numbers["missed_frames"] += frame.stretch_error > tolerance ? 1 : 0;
-        numbers["substeps_max"] = std::max<double>(numbers["substeps_max"], frame.substeps);
-        numbers["substeps_mean"] += frame.substeps / count;
-        numbers["redone_frames"] += frame.attempts > 1 ? 1 : 0;
-        numbers["attempts"] += frame.attempts;
+        numbers["missed_frames"] += limits.keeps(frame) ? 0 : 1;
+        numbers["substeps_max"] = std::max<double>(numbers["substeps_max"], frame.effort.substeps);
+        numbers["substeps_mean"] += frame.effort.substeps / count;
+        numbers["redone_frames"] += frame.effort.attempts > 1 ? 1 : 0;
+        numbers["unpredictable_frames"] += frame.effort.predictable ? 0 : 1;
+        numbers["attempts"] += frame.effort.attempts;
     }
 }
 
@@ -135,7 +147,7 @@ std::optional<double> motion_estimate(const TrialRun& run, std::size_t frames, d
     double sum = 0, rate = NAN;
     std::size_t before = 0;  // the first estimate stands for the frames before it
     for (std::size_t k = 0; k < frames; ++k) {
-        if (std::isfinite(run.frames[k].motion_error)) rate = run.frames[k].motion_error;
+        if (std::isfinite(run.frames[k].effort.motion_error)) rate = run.frames[k].effort.motion_error;
         if (std::isfinite(rate))
             sum += rate / fps * static_cast<double>(1 + std::exchange(before, 0));
         else
@@ -144,70 +156,88 @@ std::optional<double> motion_estimate(const TrialRun& run, std::size_t frames, d
     return std::isfinite(rate) ? std::optional(sum) : std::nullopt;
 }
 
-/// Against `line` at four and eight times the most substeps that auto took.
-void compare(const Device& device, const SceneDescription& scene, const TrialRun& own,
-             const std::function<bool()>& stop, Metrics& numbers) {
+/// The scene by `line` at four and eight times the most substeps that auto took.
+struct Reference {
+    TrialRun fine;
+    std::size_t compared = 0;  ///< frames until which both agree
+    double own_error = 0;      ///< m, mean over these: of first order where there are contacts, so their difference
+};
+
+Reference converged(const Device& device, const SceneDescription& scene, const TrialRun& own,
+                    const std::function<bool()>& stop, Metrics& numbers) {
     constexpr double fewest = 32, most = 640;
-    const auto coarse_substeps = static_cast<std::uint32_t>(std::clamp(4 * numbers["substeps_max"], fewest, most));
-    const TrialRun coarse = run(device, fixed(scene, SolverMethod::line, coarse_substeps), true, stop);
-    const TrialRun fine = run(device, fixed(scene, SolverMethod::line, 2 * coarse_substeps), true, stop);
-    const std::size_t count = std::min({own.frames.size(), coarse.frames.size(), fine.frames.size()});
-    std::size_t compared = 0;
-    double error = 0, worst = 0, at_end = 0, own_error = 0;
-    for (; compared < count; ++compared) {
-        // Of first order where there are contacts: the difference itself is the estimate.
-        const double apart = rms_between(coarse.frames[compared], fine.frames[compared]);
+    const auto substeps = static_cast<std::uint32_t>(std::clamp(4 * numbers["substeps_max"], fewest, most));
+    const TrialRun coarse = run(device, fixed(scene, SolverMethod::line, substeps), true, stop);
+    Reference reference{run(device, fixed(scene, SolverMethod::line, 2 * substeps), true, stop)};
+    const std::size_t count = std::min({own.frames.size(), coarse.frames.size(), reference.fine.frames.size()});
+    for (; reference.compared < count; ++reference.compared) {
+        const double apart = rms_between(coarse.frames[reference.compared], reference.fine.frames[reference.compared]);
         if (!(apart <= agreement_share * numbers["size"])) break;
-        own_error += apart;
-        at_end = rms_between(own.frames[compared], fine.frames[compared]);
-        error += at_end;
-        worst = std::max(worst, at_end);
+        reference.own_error += apart;
     }
-    numbers["reference_substeps"] = 2 * coarse_substeps;
-    numbers["compared_s"] = static_cast<double>(compared) / scene.time.fps;
-    if (compared == 0) return;
-    numbers["reference_error"] = own_error / static_cast<double>(compared);
-    numbers["error"] = error / static_cast<double>(compared);
-    numbers["worst_error"] = worst;
-    numbers["error_at_end"] = at_end;
-    if (const auto estimate = motion_estimate(own, compared, scene.time.fps)) numbers["motion_estimate"] = *estimate;
+    reference.own_error /= std::max<double>(static_cast<double>(reference.compared), 1);
+    numbers["reference_substeps"] = 2 * substeps;
+    numbers["compared_s"] = static_cast<double>(reference.compared) / scene.time.fps;
+    return reference;
 }
 
-bool keeps(const TrialFrame& frame, double tolerance) { return frame.stretch_error <= tolerance; }
+void compare(const SceneDescription& scene, const TrialRun& own, const Reference& reference, Metrics& numbers) {
+    if (reference.compared == 0) return;
+    double sum = 0, worst = 0, last = 0;
+    for (std::size_t k = 0; k < reference.compared; ++k) {
+        last = rms_between(own.frames[k], reference.fine.frames[k]);
+        sum += last;
+        worst = std::max(worst, last);
+    }
+    numbers["reference_error"] = reference.own_error;
+    numbers["error"] = sum / static_cast<double>(reference.compared);
+    numbers["worst_error"] = worst;
+    numbers["error_at_end"] = last;
+    if (const auto estimate = motion_estimate(own, reference.compared, scene.time.fps))
+        numbers["motion_estimate"] = *estimate;
+}
 
-/// The soonest setting of a method that keeps the limits, from the coarse ones on, if it is sooner than the best.
+/// The soonest setting of a method that keeps the limits, from the coarse ones on, if it is sooner than the best. Its
+/// motion may be as wrong as the limit allows over the time that is compared, or as that of auto.
 void sweep(const Device& device, const SceneDescription& scene, SolverMethod method,
-           const std::vector<std::uint32_t>& counts, const std::function<bool()>& stop, TrialResult& result) {
-    const double tolerance = tolerance_of(scene);
+           const std::vector<std::uint32_t>& counts, const Reference& reference, const std::function<bool()>& stop,
+           TrialResult& result) {
+    const Limits limits(scene);
     for (const std::uint32_t substeps : counts) {
         const auto best = result.numbers.find("best_wall_s");
-        const double limit = best == result.numbers.end() ? INFINITY : best->second;
+        const double soonest = best == result.numbers.end() ? INFINITY : best->second;
         const auto enough = [&](const TrialRun& run) {
-            return run.wall > limit || (!run.frames.empty() && !keeps(run.frames.back(), tolerance));
+            return run.wall > soonest || (!run.frames.empty() && !limits.keeps(run.frames.back()));
         };
-        const TrialRun fixed_run = run(device, fixed(scene, method, substeps), false, stop, enough);
-        if (fixed_run.wall > limit) return;
-        const bool all = fixed_run.outcome == TrialOutcome::kept &&
-                         fixed_run.frames.size() + 1 == scene.time.frame_count &&
-                         keeps(fixed_run.frames.back(), tolerance);
-        if (!all) continue;
+        const TrialRun own = run(device, fixed(scene, method, substeps), true, stop, enough);
+        if (own.wall > soonest) return;
+        if (own.outcome != TrialOutcome::kept || own.frames.size() + 1 != scene.time.frame_count ||
+            !limits.keeps(own.frames.back()))
+            continue;
+        if (reference.compared > 0) {
+            const double error =
+                rms_between(own.frames[reference.compared - 1], reference.fine.frames[reference.compared - 1]);
+            if (error > std::max(limits.motion * result.numbers["compared_s"], result.numbers["error_at_end"]))
+                continue;
+        }
         result.best = fmt::format("{}/{}", named(method).name, substeps);
-        result.numbers["best_wall_s"] = fixed_run.wall;
+        result.numbers["best_wall_s"] = own.wall;
         return;
     }
 }
 
-void time_fixed(const Device& device, const SceneDescription& scene, const std::function<bool()>& stop,
-                TrialResult& result) {
+void time_fixed(const Device& device, const SceneDescription& scene, const Reference& reference,
+                const std::function<bool()>& stop, TrialResult& result) {
     std::uint32_t links = 1;
     for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
-    sweep(device, scene, SolverMethod::line, {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}, stop, result);
+    sweep(device, scene, SolverMethod::line, {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}, reference, stop,
+          result);
     std::vector<std::uint32_t> counts;
     for (const double per_link : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0}) {
         const auto count = static_cast<std::uint32_t>(std::lround(std::max(1.0, per_link * links)));
         if (counts.empty() || counts.back() != count) counts.push_back(count);
     }
-    sweep(device, scene, SolverMethod::explicit_steps, counts, stop, result);
+    sweep(device, scene, SolverMethod::explicit_steps, counts, reference, stop, result);
 }
 
 }  // namespace
@@ -224,8 +254,9 @@ TrialResult try_scene(const Device& device, const SceneDescription& scene, bool 
     if (const auto estimate = motion_estimate(own, own.frames.size(), scene.time.fps))
         result.numbers["motion_estimate"] = *estimate;
     if (!with_reference || own.outcome != TrialOutcome::kept) return result;
-    compare(device, scene, own, stop, result.numbers);
-    time_fixed(device, scene, stop, result);
+    const Reference reference = converged(device, scene, own, stop, result.numbers);
+    compare(scene, own, reference, result.numbers);
+    time_fixed(device, scene, reference, stop, result);
     return result;
 }
 
