@@ -76,6 +76,8 @@ TEST(ClaimsTest, TimesThatCannotBeAreDoubtful) {
         << "more passes in less time; repetitions far apart";
     results[3].wall.median = 5;
     EXPECT_EQ(case_milliseconds(results[3]), 5) << "no device works longer than the wall's clock goes";
+    results[0].method = SolverMethod::automatic;
+    EXPECT_EQ(case_milliseconds(results[0]), 10) << "what auto did again is not among the device's frames";
     results[3].device.median = 0;
     EXPECT_EQ(case_milliseconds(results[3]), 5) << "no timestamps";
     const Timing timing = timing_of({4, 2, 3});

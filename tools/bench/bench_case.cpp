@@ -27,9 +27,10 @@ Timing timing_of(std::vector<double> repetitions) {
 }
 
 const Timing& case_time(const CaseResult& result) {
-    const bool plausible =
-        result.device.median > 0 && (result.wall.median == 0 || result.device.median <= result.wall.median);
-    return plausible ? result.device : result.wall;
+    if (result.wall.median == 0) return result.device;
+    const bool is_whole = result.method != SolverMethod::automatic;
+    const bool is_possible = result.device.median > 0 && result.device.median <= result.wall.median;
+    return is_whole && is_possible ? result.device : result.wall;
 }
 
 }  // namespace drape::bench

@@ -63,7 +63,8 @@ struct CaseResult {
 };
 
 /// The time that a case goes by: the device's, or the wall's where the device has no timestamps or claims more than
-/// passed on the wall, frame by frame: on a loaded machine a device in software counts what others were given.
+/// passed on the wall, frame by frame: on a loaded machine a device in software counts what others were given. Of auto
+/// it is the wall's, too: the device tells of the frames that were kept, not of those that were done again.
 const Timing& case_time(const CaseResult& result);
 
 }  // namespace drape::bench

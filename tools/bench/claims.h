@@ -53,7 +53,7 @@ struct AutoRatio {
     std::uint32_t size = 0;
     double tolerance = 0;     ///< that auto is to keep: the scene's, or 1 %
     double worst_error = 0;   ///< of auto
-    double milliseconds = 0;  ///< of auto, per frame
+    double milliseconds = 0;  ///< of auto, per frame, on the wall's clock, like the soonest's
     std::string best;         ///< the soonest's case; empty: no other setting keeps the tolerance
     double best_milliseconds = 0;
     bool met() const { return worst_error <= tolerance; }
