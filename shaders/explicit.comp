@@ -123,7 +123,8 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec4 position = imageLoad(position_in, texel);
-    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    vec4 moved = imageLoad(displacement_in, texel);
+    vec3 displacement = moved.xyz;
     if (advance)
         advance_position(texel, position, displacement);
     else
@@ -153,5 +154,5 @@ void main() {
     vec4 force = force_on(texel);
     vec3 increment = explicit_increment(displacement, push.gravity_step.xyz, force.xyz, pull, position.w,
                                         push.force_step, push.damping_loss);
-    step_displacement(texel, displacement, increment, drag_loss(force.w, position.w, push.force_step));
+    step_displacement(texel, moved, increment, drag_loss(force.w, position.w, push.force_step));
 }

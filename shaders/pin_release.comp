@@ -1,21 +1,97 @@
-// Frees particles whose pin is released: from then on w is their own inverse mass; the displacement stays, so they keep
-// their velocity.
+// Frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass. The
+// substep that follows is the first without the pin's force (include/pin.h). TENSION: the springs' last pull is taken
+// from their stored tension. MASKED: with spring shares from an image (holes, cuts). SECOND_ORDER: the
+// control is asked for a backward Euler substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED TENSION SECOND_ORDER
+#include "shared/line_types.h"
 #include "shared/simulation_types.h"
+#include "include/explicit.h"
+#include "include/spring.h"
+#include "include/pin.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { PinPush push; };
+layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(push_constant) uniform Push { ReleasePush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
 layout(set = 0, binding = 2, std430) readonly buffer Pins { PinnedParticle pins[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Motions { PinMotion motions[]; };
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_in;
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_out;
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder;
+#ifdef SECOND_ORDER
+layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
+#endif
+#ifdef TENSION
+layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_row;
+layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column;
+layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right;
+layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left;
+#ifdef MASKED
+layout(set = 0, binding = 12, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+
+float tension_at(ivec2 owner, int direction) {
+    if (direction == 0) return imageLoad(tension_row, owner).x;
+    if (direction == 1) return imageLoad(tension_column, owner).x;
+    if (direction == 2) return imageLoad(tension_shear_down_right, owner).x;
+    return imageLoad(tension_shear_down_left, owner).x;
+}
+
+float share_of(ivec2 owner, ivec2 offset, int direction) {
+#ifdef MASKED
+    return imageLoad(spring_share_image, owner)[direction];
+#else
+    return border_share(owner, offset, push.grid);
+#endif
+}
+
+/// What the springs' tension would move an inner particle at `texel` by in a substep, m.
+vec3 pull_of_springs(ivec2 texel) {
+    vec3 start = imageLoad(position_in, texel).xyz, moved = imageLoad(displacement_in, texel).xyz;
+    vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    for (int k = 0; k < neighbour_count; ++k) {
+        ivec4 around = neighbour(k);
+        ivec2 there = texel + around.xy;
+        if (there.x < 0 || there.y < 0 || there.x >= push.grid.x || there.y >= push.grid.y) continue;
+        vec3 start_there = imageLoad(position_in, there).xyz, moved_there = imageLoad(displacement_in, there).xyz;
+        precise vec3 edge = start_there - start;
+        if (advance) edge = spring_edge(start, start_there, moved, moved_there);
+        ivec2 owner = around.w == 1 ? texel : there;
+        precise float stiffness =
+            push.relative_stiffness[around.z] * share_of(owner, around.xy, around.z);
+        sum = add_tension_pull(sum, edge, tension_at(owner, around.z), stiffness);
+    }
+    return sum;
+}
+#endif
 
 void main() {
     int particle = int(gl_GlobalInvocationID.x);
     if (particle >= push.particle_count) return;
     ivec4 index = pins[particle].index;
-    if (motions[push.motion_first + index.z].held.x != 0.0f) return;
+    vec4 rest = pins[particle].rest;
+    PinMotion motion = motions[push.motion_first + index.z];
+    if (motion.held.x != 0.0f || rest.w == 0.0f) return;
     vec4 position = imageLoad(position_in, index.xy);
-    if (position.w == 0.0f) imageStore(position_out, index.xy, vec4(position.xyz, pins[particle].rest.w));
+    if (position.w != 0.0f) return;
+    imageStore(position_out, index.xy, vec4(position.xyz, rest.w));
+    vec3 displacement = imageLoad(displacement_in, index.xy).xyz;
+    vec3 pull = vec3(0.0f, 0.0f, 0.0f);
+#ifdef TENSION
+    pull = pull_of_springs(index.xy);
+#endif
+#ifdef SECOND_ORDER
+    imageAtomicMax(control, ivec2(control_hold, 0), 2u);
+    float surplus = release_surplus(motion, true);
+    vec3 velocity_step = vec3(0.0f, 0.0f, 0.0f);
+#else
+    float surplus = release_surplus(motion, false);
+    precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;
+#endif
+    imageStore(displacement_out, index.xy, vec4(displacement, release_mark(surplus)));
+    imageStore(displacement_remainder, index.xy,
+               vec4(release_remainder(velocity_step, rest.w, surplus, pull), 0.0f));
 }

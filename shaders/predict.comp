@@ -22,7 +22,8 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec4 position = imageLoad(position_in, texel);
-    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    vec4 moved = imageLoad(displacement_in, texel);
+    vec3 displacement = moved.xyz;
     if (advance) advance_position(texel, position, displacement);
     vec3 before = imageLoad(displacement_before_in, texel).xyz;
     vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
@@ -43,5 +44,5 @@ void main() {
         increment = euler_increment(displacement, excess, forced, push.loss.x);
         loss = drag_loss(force.w, position.w, push.force_step.x);
     }
-    step_displacement(texel, displacement, increment, loss);
+    step_displacement(texel, moved, increment, loss);
 }

@@ -44,16 +44,41 @@ bool any_moves(const std::vector<Collider>& colliders) {
     return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });
 }
 
-/// Motion of a pin: x = R (rest - pivot) + pivot + translation.
-glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
-    const RigidTransform motion = motion_at(pin.path, end);
+/// Motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
+RigidTransform pin_transform(const DynamicPin& pin, double time) {
+    RigidTransform motion = motion_at(pin.path, time);
     const auto& r = motion.rotation;
-    Vec3 shift;
     for (std::size_t k = 0; k < 3; ++k)
-        shift[k] = pin.pivot[k] + motion.translation[k] -
-                   (r[3 * k] * pin.pivot[0] + r[3 * k + 1] * pin.pivot[1] + r[3 * k + 2] * pin.pivot[2]);
-    const float held = pin.release && *pin.release <= start + 1e-9 ? 0.0f : 1.0f;
-    return {row(r, 0, shift[0]), row(r, 1, shift[1]), row(r, 2, shift[2]), {held, 0, 0, 0}};
+        motion.translation[k] +=
+            pin.pivot[k] - (r[3 * k] * pin.pivot[0] + r[3 * k + 1] * pin.pivot[1] + r[3 * k + 2] * pin.pivot[2]);
+    return motion;
+}
+
+/// h times its rate of change just before a time, by the backward difference of second order.
+RigidTransform pin_velocity(const DynamicPin& pin, double time, double h) {
+    constexpr double step = 1.0 / 64;
+    const RigidTransform now = pin_transform(pin, time), before = pin_transform(pin, time - step * h),
+                         earlier = pin_transform(pin, time - 2 * step * h);
+    const auto rate = [](double a, double b, double c) { return (3 * (a - b) - (b - c)) / (2 * step); };
+    RigidTransform velocity;
+    for (std::size_t k = 0; k < 9; ++k)
+        velocity.rotation[k] = rate(now.rotation[k], before.rotation[k], earlier.rotation[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+        velocity.translation[k] = rate(now.translation[k], before.translation[k], earlier.translation[k]);
+    return velocity;
+}
+
+glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
+    const double h = end - start;
+    const bool released = pin.release && *pin.release <= start + 1e-9;
+    const RigidTransform motion = released ? pin_velocity(pin, *pin.release, h) : pin_transform(pin, end);
+    const auto& [r, shift] = motion;
+    // A release before the start of a run is one at its start.
+    const double late = released ? std::clamp((start - std::max(*pin.release, 0.0)) / h, 0.0, 1.0) : 0.0;
+    return {row(r, 0, shift[0]),
+            row(r, 1, shift[1]),
+            row(r, 2, shift[2]),
+            {released ? 0.0f : 1.0f, static_cast<float>(late), 0, 0}};
 }
 
 }  // namespace

@@ -36,10 +36,12 @@ struct MethodPlan {
                          ///< else the prediction expects
 
     // Fields that the steps need beside position and displacement with their remainders.
-    bool spare_state = false;              ///< particles gather what springs do: a step reads one state, writes another
-    bool second_order = false;             ///< displacement before, velocity excess, line control
-    bool line_scratch = false;             ///< lines are solved: line scratch and rows
-    PerDirection<bool> carries_tension{};  ///< by direction: from iteration to iteration or from substep to substep
+    bool spare_state = false;   ///< particles gather what springs do: a step reads one state, writes another
+    bool second_order = false;  ///< displacement before, velocity excess, line control
+    bool line_scratch = false;  ///< lines are solved: line scratch and rows
+    /// By direction: from iteration to iteration, from substep to substep, or to the release of a pin.
+    PerDirection<bool> carries_tension{};
+    glsl::vec4 release_stiffness{};  ///< k h^2/m_inner by direction, where a release asks for tension; else 0
     /// Tension is not kept by the steps: it is computed with these where it is wanted.
     std::optional<glsl::TensionPush> gathered_tension;
 
@@ -94,6 +96,9 @@ glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settin
 /// `enough_substeps` no substeps would be.
 void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,
                      const std::string& followed, double enough_substeps, MethodPlan& plan);
+/// Where a pin is released and springs act after the prediction, their last pull is asked for: every direction's
+/// tension is stored.
+void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan);
 /// Notes why no tension goes from iteration to iteration, if so.
 void note_tension(const ClothGeometry& cloth, MethodPlan& plan);
 

@@ -114,6 +114,7 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
             plan.iterated.push_back({StepKind::line, push});
             plan.carries_tension[direction] = plan.line_scratch = true;
         }
+    carry_tension_to_release(cloth, settings, plan);
 }
 
 }  // namespace

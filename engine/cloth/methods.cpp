@@ -95,10 +95,10 @@ struct ByteList {
 std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     // A binding names every member: one that is added does not compile until it is added here.
     const auto& [prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension,
-                 gathered_tension, used_stiffness, used_bend, skipped, compromises] = plan;
+                 release_stiffness, gathered_tension, used_stiffness, used_bend, skipped, compromises] = plan;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
-    add(prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension,
+    add(prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension, release_stiffness,
         gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend);
     static_cast<void>(skipped), static_cast<void>(compromises);  // words
     return list.bytes;
@@ -137,6 +137,16 @@ void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings,
     plan.compromises.push_back({cloth.name + "/" + what,
                                 fmt::format("{} at {} substeps; {}", followed, settings.substeps, remedy),
                                 static_cast<std::uint32_t>(std::min(enough_substeps, 4294967295.0))});
+}
+
+void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
+    if (!cloth.has_release || cloth.stiffness_constant.spring[0] == 0) return;
+    plan.carries_tension.fill(true);
+    const double scale = damping_mean(cloth.damping, settings.substep_length) * settings.substep_length *
+                         settings.substep_length / cloth.inner_mass;
+    PerDirection<double> scaled = cloth.stiffness_constant.spring;
+    for (double& value : scaled) value *= scale;
+    plan.release_stiffness = texel(scaled);
 }
 
 void note_tension(const ClothGeometry& cloth, MethodPlan& plan) {

@@ -51,9 +51,10 @@ vec4 TwinCloth::force_on(std::size_t particle) const {
 
 void TwinCloth::step_displacement(std::size_t particle, vec3 displacement, vec3 increment, float loss) {
     std::vector<vec4>& remainder = (*this)[Field::displacement_remainder];
-    const CompensatedSum stepped =
-        compensated_add(displacement, dragged_increment(increment, loss), xyz(remainder[particle]));
-    (*this)[Field::displacement][particle] = texel(stepped.value, loss);
+    vec4& moved = (*this)[Field::displacement][particle];
+    const vec3 counted = dragged_increment(released_increment(increment, moved.w), loss);
+    const CompensatedSum stepped = compensated_add(displacement, counted, xyz(remainder[particle]));
+    moved = texel(stepped.value, loss);
     remainder[particle] = texel(stepped.remainder);
 }
 
@@ -139,16 +140,6 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return check(model, state, step);
         case StepKind::advance:
             return advance(model, state);
-    }
-}
-
-void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
-                   std::uint32_t substep) {
-    const std::size_t first = substep * model.dynamic_pins.size();
-    for (const PinnedParticle& pin : model.pinned) {
-        if (motions[first + static_cast<std::size_t>(pin.index.z)].held.x != 0.0f) continue;
-        vec4& position = state[Field::position][at(model.grid, {pin.index.x, pin.index.y})];
-        if (position.w == 0.0f) position.w = pin.rest.w;
     }
 }
 

@@ -108,8 +108,10 @@ void Twin::explicit_step(TwinCloth& state, const Step& step) {
                                    before.with_bending(before.with_springs(empty_sum(), {x, y}), {x, y}), position.w,
                                    push.force_step, push.damping_loss);
             const float loss = drag_loss(applied.w, position.w, push.force_step);
-            const CompensatedSum stepped = compensated_add(displacement, dragged_increment(increment, loss),
-                                                           xyz(state[Field::displacement_remainder][i]));
+            const vec3 counted =
+                dragged_increment(released_increment(increment, state[Field::displacement][i].w), loss);
+            const CompensatedSum stepped =
+                compensated_add(displacement, counted, xyz(state[Field::displacement_remainder][i]));
             displacement_out[i] = texel(stepped.value, loss);
             state[Field::displacement_remainder][i] = texel(stepped.remainder);
         }

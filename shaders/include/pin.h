@@ -1,18 +1,63 @@
-// Where a held particle goes.
+// Where a held particle goes, and how a released one starts.
+//
+// A pin lets go at the start t of a substep, where its particle moves with v; by the substep's end it has moved by
+// h v + h^2 a/2. Verlet's d' = d + h^2 a, from the d of a substep that ends at t, gives that when d = h v - h^2 a/2:
+// the force that the pin takes back acts for half a substep, as at the start of a run (docs/physics.md 3). Released
+// later than at t' within the substep before, it acts for (t - t')/h more. So of the first increment counts the share
+// 1/2 + (t - t')/h, and h v - d, known only when the position has advanced by d, goes into the sum's remainder.
+// Where springs act after the prediction, their share is taken back from their tension of the substep before; as the
+// pin bore the whole cloth, without that the cloth would fall as if from half a substep earlier. (Relaxation of rigid
+// springs has no tension and falls so.) BDF2 cannot look back over the release: it takes a backward Euler substep,
+// whose first increment counts whole and with it what the release came earlier.
 #ifndef DRAPE_PIN_H
 #define DRAPE_PIN_H
 
 #include "include/vector.h"
 
-/// Displacement that takes a held particle from `position` to its pin's motion of its rest position.
-SHARED vec3 pin_displacement(PinMotion motion, vec3 rest, vec3 position) {
+/// A pin's motion of a rest position; of a released pin h times the velocity that it had there.
+SHARED vec3 pin_target(PinMotion motion, vec3 rest) {
     vec3 row_x = vec3(motion.row_x.x, motion.row_x.y, motion.row_x.z);
     vec3 row_y = vec3(motion.row_y.x, motion.row_y.y, motion.row_y.z);
     vec3 row_z = vec3(motion.row_z.x, motion.row_z.y, motion.row_z.z);
     precise vec3 target = vec3(ordered_dot(row_x, rest) + motion.row_x.w, ordered_dot(row_y, rest) + motion.row_y.w,
                                ordered_dot(row_z, rest) + motion.row_z.w);
-    precise vec3 moved = target - position;
+    return target;
+}
+
+/// Displacement that takes a held particle from `position` to its pin's motion of its rest position.
+SHARED vec3 pin_displacement(PinMotion motion, vec3 rest, vec3 position) {
+    precise vec3 moved = pin_target(motion, rest) - position;
     return moved;
+}
+
+/// What the first increment counts more than a whole one: (t - t')/h - 1/2; of a backward Euler step 2/3 (t - t')/h,
+/// since BDF2 answers an impulse within the step before with 3/2 of it.
+SHARED float release_surplus(PinMotion motion, bool backward_euler) {
+    precise float surplus = backward_euler ? 2.0f * motion.held.y / 3.0f : motion.held.y - 0.5f;
+    return surplus;
+}
+
+/// Stands beside the displacement of a particle just released, in place of the share that drag took: minus the share of
+/// its first increment that counts.
+SHARED float release_mark(float surplus) {
+    precise float mark = -(1.0f + surplus);
+    return mark;
+}
+
+/// `sum` plus a spring's pull on the particle that `edge` starts from: `tension` as the extension that would balance
+/// it, `stiffness` k h^2/m_inner.
+SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness) {
+    precise float squared = ordered_dot(edge, edge);
+    if (!(squared > 0.0f)) return sum;
+    precise vec3 total = sum + edge * (stiffness * tension / sqrt(squared));
+    return total;
+}
+
+/// What the displacement's sum gets with its first increment. `velocity_step`: h v - d where the step does not know it
+/// itself; `pull`: what springs would move an inner particle by in a substep.
+SHARED vec3 release_remainder(vec3 velocity_step, float weight, float surplus, vec3 pull) {
+    precise vec3 remainder = velocity_step + pull * (weight * surplus);
+    return remainder;
 }
 
 #endif

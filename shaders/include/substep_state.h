@@ -20,10 +20,11 @@ void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     imageStore(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
 }
 
-/// d += increment, less what the wind's drag takes away: the share `loss`.
-void step_displacement(ivec2 texel, vec3 displacement, vec3 increment, float loss) {
-    CompensatedSum stepped = compensated_add(displacement, dragged_increment(increment, loss),
-                                             imageLoad(displacement_remainder_in, texel).xyz);
+/// d += increment, less what the wind's drag takes away: the share `loss`. `displacement`: with what is beside it.
+void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float loss) {
+    vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
+    CompensatedSum stepped =
+        compensated_add(displacement.xyz, counted, imageLoad(displacement_remainder_in, texel).xyz);
     imageStore(displacement_out, texel, vec4(stepped.value, loss));
     imageStore(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }

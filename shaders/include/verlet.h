@@ -27,6 +27,14 @@ SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, f
     return increment;
 }
 
+/// An increment of a particle with `mark` beside its displacement: below 0 right after its release, minus the
+/// share that counts (pin.h).
+SHARED vec3 released_increment(vec3 increment, float mark) {
+    if (!(mark < 0.0f)) return increment;
+    precise vec3 counted = increment * -mark;
+    return counted;
+}
+
 /// Share q of a step that the wind's drag takes away. The wind's force follows the step's own change of velocity, F' =
 /// F - k (d' - d), so that no wind is too strong for a step: d' - d = increment/(1 + x) = increment (1 - q), x = w k
 /// phi h^2/m. `drag`: k, N/m (wind.h); `force_step`: phi h^2/m.

@@ -85,6 +85,13 @@ struct PinPush {
     int motion_first;  // first motion of this substep
 };
 
+struct ReleasePush {
+    vec4 relative_stiffness;  // k h^2/m_inner by direction, of springs whose tension is stored
+    ivec2 grid;
+    int particle_count;
+    int motion_first;  // first motion of this substep
+};
+
 /// Of the stretch springs: along a row (x), along a column (y).
 struct TensionPush {
     ivec2 grid;
@@ -104,10 +111,12 @@ struct PinnedParticle {
     ivec4 index;  // column, row, motion, 0
 };
 
-/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1).
+/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). From its release on h times its velocity
+/// then, m.
 struct PinMotion {
     vec4 row_x, row_y, row_z;
-    vec4 held;  // x: 1 while held at the start of this substep, 0 from its release on
+    vec4 held;  // x: 1 while held at the start of this substep, 0 from its release on; y: how many substeps ago that
+                // was, 1 at most; zw unused
 };
 
 #ifdef __cplusplus
