@@ -311,7 +311,8 @@ const Object<SolverSettings> solver{
          "substeps, and biases its motion a little. A cloth's first cut ends its tethers."},
         {"strain_damping", &SolverSettings::strain_damping, number(unit_interval),
          "Explicit micro-steps: damping of each spring's strain rate, in units of its stiffness times the substep, so "
-         "that it vanishes as substeps grow. 0: none, for exact dynamics of cloth that does not crumple. Ignored (with "
+         "that it vanishes as substeps grow. 0: none, for exact dynamics of cloth that does not crumple; below 0.2 "
+         "crumpled cloth may not calm down. Ignored (with "
          "a warning) by other methods."},
     },
     check_solver};

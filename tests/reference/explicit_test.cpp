@@ -7,7 +7,7 @@
 
 #include "reference/twin.h"
 #include "support/sheet_state.h"
-#include "support/sheets.h"
+#include "support/windy_scenes.h"
 
 namespace drape {
 namespace {
@@ -184,6 +184,26 @@ TEST(RelaxTest, BendingGainsNoEnergyFromATangledStart) {
                         growth);
             EXPECT_LE(growth, 1);
         }
+}
+
+TEST(ExplicitTest, ACrumpledClothCalmsDownAtTheDefaultDamping) {
+    SceneDescription scene = test::sheet(17, 17, 1, 1, 16);
+    scene.solver.method = SolverMethod::explicit_steps;
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(16, 0, 16, 0)};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    test::Dice dice(1);
+    for (glsl::vec4& at : twin.cloth(0)[Field::position])
+        if (at.w > 0)
+            at = {static_cast<float>(dice.between(-0.5, 0.5)), static_cast<float>(dice.between(-0.5, 0.5)),
+                  static_cast<float>(dice.between(-0.5, 0.5)), at.w};
+    for (std::uint32_t frame = 1; frame <= 300; ++frame) twin.run_frame(frame);
+    double squares = 0;
+    for (const glsl::vec4& d : twin.cloth(0)[Field::displacement])
+        squares += double(d.x) * double(d.x) + double(d.y) * double(d.y) + double(d.z) * double(d.z);
+    const double speed = std::sqrt(squares / 289) / model.cloths[0].substep_length;
+    std::printf("[ measured ] %.3f m/s RMS after five seconds\n", speed);
+    EXPECT_LT(speed, 3);
 }
 
 }  // namespace
