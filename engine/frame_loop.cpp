@@ -32,7 +32,8 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       state_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())
-        control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, probe_length(model_));
+        control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
+                         probe_length(model_));
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);

@@ -47,6 +47,7 @@ struct MethodPlan {
 
     PerDirection<double> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
     double used_bend = 0;                 ///< N m applied
+    std::uint32_t bending_substeps = 1;   ///< per frame, that would follow all bending
     std::vector<SkippedWork> skipped;
     std::vector<Compromise> compromises;
 };
@@ -61,11 +62,9 @@ struct Method {
     SolverMethod method;
     MethodPlan (*plan)(const ClothGeometry& cloth, const MethodSettings& settings);
 
-    // For `auto`: the law of the stretch error, substeps per frame (a real number) that keep a tolerance; where that is
-    // not enough, whether the method follows all bending at a substep length (s); what a substep costs
-    // (cloth/solver_choice.cpp); iterations at most.
+    // For `auto`: the law of the stretch error, substeps per frame (a real number) that keep a tolerance; what a
+    // substep costs (cloth/solver_choice.cpp); iterations at most.
     double (*substeps)(const Hang& hang, double frame, double tolerance);
-    bool (*bends_fully)(const Cloth& cloth, double substep_length);  ///< null: the law knows no bending
     double dispatches, particle_ns;
     bool walks;  ///< an invocation goes along a whole line
     std::uint32_t most_iterations;

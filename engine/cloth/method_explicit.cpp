@@ -62,6 +62,7 @@ MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& setti
     plan.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
                            used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
     plan.used_bend = used.bend_share * cloth.bend;
+    plan.bending_substeps = static_cast<std::uint32_t>(std::ceil(settings.substeps / std::sqrt(used.bend_share)));
     if (wanted.spring[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     if (used.softened()) note_softening(cloth, settings, used.full_substeps_factor, plan);
     return plan;
@@ -73,13 +74,6 @@ double explicit_substeps(const Hang& hang, double frame, double tolerance) {
     const double law =
         hang.acceleration * hang.length * (frame_over_spacing * frame_over_spacing) / (clamp * std::sqrt(6.0));
     return std::sqrt(motion_factor(hang) * law / tolerance);
-}
-
-bool explicit_bends_fully(const Cloth& cloth, double substep_length) {
-    const double spacing[2] = {cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1)};
-    const double mass = cloth.areal_density * spacing[0] * spacing[1];
-    return relative_stiffness(stiffness_constants(cloth.stiffness, spacing), spacing, mass, substep_length, 0)
-               .bend_share == 1;
 }
 
 RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,

@@ -30,7 +30,4 @@ MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& setti
 /// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (docs/solvers.md, "Explicit micro-step").
 double explicit_substeps(const Hang& hang, double frame, double tolerance);
 
-/// Whether no bending is softened.
-bool explicit_bends_fully(const Cloth& cloth, double substep_length);
-
 }  // namespace drape

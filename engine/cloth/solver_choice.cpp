@@ -12,8 +12,6 @@ namespace drape {
 
 namespace {
 
-constexpr std::uint32_t most_substeps = 4096;
-
 /// Milliseconds of one substep of one cloth. CPU: per dispatch and per particle, measured on lavapipe with 2 cores.
 /// GPU: dispatches wait for each other, and a line solve walks along its line; estimates, no measurement.
 double substep_ms(const Hang& hang, DeviceKind device, double dispatches, double particle_ns, bool walks) {
@@ -23,20 +21,41 @@ double substep_ms(const Hang& hang, DeviceKind device, double dispatches, double
     return dispatches * (dispatch_ms + count * pass_particle_ms) + (walks ? hang.longest_line * walk_ms : 0);
 }
 
+/// Substeps that follow all bending of the cloth, if `substeps` do not. Compliances fall with the square of the
+/// substeps, so one look tells.
+std::uint32_t bending_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
+                               std::uint32_t substeps) {
+    if (cloth.stiffness.bend == 0) return 1;
+    Cloth small = cloth;  // bending does not mind how large the cloth is
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        small.grid[axis] = std::min(cloth.grid[axis], 4u);
+        small.size[axis] = cloth.size[axis] * (small.grid[axis] - 1) / (cloth.grid[axis] - 1);
+    }
+    small.pins.clear();
+    small.holes.clear();
+    const MethodSettings settings{substeps,
+                                  1,
+                                  1 / (scene.time.fps * substeps),
+                                  scene.gravity,
+                                  scene.solver.strain_damping,
+                                  !scene.colliders.empty()};
+    return method.plan(ClothGeometry(scene, small, false), settings).bending_substeps;
+}
+
 SolverCandidate candidate(const Method& method, const SceneDescription& scene, double tolerance, DeviceKind device) {
     const double frame = 1.0 / scene.time.fps;
     double substeps = 1;
     for (const Cloth& cloth : scene.cloths)
         substeps = std::max(substeps, method.substeps(hang_of(scene, cloth), frame, tolerance));
+    std::uint32_t least = 1;
+    for (const Cloth& cloth : scene.cloths) least = std::max(least, bending_substeps(method, scene, cloth, least));
     SolverCandidate result{method.method,
-                           static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), most_substeps)), 0,
-                           substeps <= most_substeps};
-    for (const Cloth& cloth : scene.cloths) {
-        const Hang hang = hang_of(scene, cloth);
-        result.predicted_ms +=
-            result.substeps * substep_ms(hang, device, method.dispatches, method.particle_ns, method.walks);
-        if (method.bends_fully && !method.bends_fully(cloth, frame / result.substeps)) result.reaches = false;
-    }
+                           static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), method.most_substeps)),
+                           least, 0, std::max<double>(substeps, least) <= method.most_substeps};
+    result.substeps = std::min(std::max(result.substeps, least), method.most_substeps);
+    for (const Cloth& cloth : scene.cloths)
+        result.predicted_ms += result.substeps * substep_ms(hang_of(scene, cloth), device, method.dispatches,
+                                                            method.particle_ns, method.walks);
     return result;
 }
 
@@ -56,7 +75,7 @@ std::string reason_for(const std::vector<SolverCandidate>& candidates, double to
 }  // namespace
 
 SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
-    if (scene.solver.method != SolverMethod::automatic) return {scene.solver, {}, "as the scene asks"};
+    if (scene.solver.method != SolverMethod::automatic) return {scene.solver, {}, "as the scene asks", 1};
     const double tolerance = scene.solver.tolerance > 0 ? scene.solver.tolerance : default_tolerance;
     std::vector<SolverCandidate> candidates;
     for (const Method& method : methods()) candidates.push_back(candidate(method, scene, tolerance, device));
@@ -64,14 +83,12 @@ SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
         return a.reaches != b.reaches ? a.reaches : a.predicted_ms < b.predicted_ms;
     });
     const SolverCandidate& best = candidates.front();
-    SolverChoice choice{scene.solver, candidates, reason_for(candidates, tolerance)};
+    SolverChoice choice{scene.solver, candidates, reason_for(candidates, tolerance), 1};
     choice.settings.method = best.method;
-    choice.settings.substeps = best.substeps;
     choice.settings.iterations = row_of(best.method).most_iterations;
     choice.settings.tolerance = tolerance;
-    const auto rungs = substep_rungs(row_of(best.method));
-    const auto rung = std::ranges::find_if(rungs, [&](std::uint32_t each) { return each >= best.substeps; });
-    choice.settings.substeps = rung == rungs.end() ? rungs.back() : *rung;
+    choice.settings.substeps = first_rung(row_of(best.method), best.substeps);
+    choice.least_substeps = best.least_substeps;
     return choice;
 }
 

@@ -23,14 +23,16 @@ enum class DeviceKind { cpu, gpu };
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
-    double predicted_ms;  ///< per frame, all cloths; for comparing, not for planning
-    bool reaches;         ///< whether the law promises the tolerance within the limits of the settings
+    std::uint32_t least_substeps;  ///< that follow all bending: fewer would drop it, whatever the laws say
+    double predicted_ms;           ///< per frame, all cloths; for comparing, not for planning
+    bool reaches;                  ///< whether the law promises the tolerance within the limits of the settings
 };
 
 struct SolverChoice {
     SolverSettings settings;                  ///< no longer automatic
     std::vector<SolverCandidate> candidates;  ///< the chosen one first; none when the scene names its method
     std::string reason;                       ///< one sentence with the laws' numbers
+    std::uint32_t least_substeps;             ///< a closed loop has no fewer
 };
 
 /// The settings that a scene of method `auto` runs with; of any other method, its own.

@@ -24,8 +24,18 @@ std::span<const std::uint32_t> substep_rungs(const Method& method) {
     return {std::begin(rungs), end};
 }
 
-SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t probe_length)
-    : rungs_(substep_rungs(method)), probe_length_(probe_length), rung_(rung_of(proposed)) {}
+std::uint32_t first_rung(const Method& method, double substeps) {
+    const auto all = substep_rungs(method);
+    const auto place = std::ranges::find_if(all, [&](std::uint32_t rung) { return rung >= substeps; });
+    return place == all.end() ? all.back() : *place;
+}
+
+SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least,
+                               std::uint32_t probe_length)
+    : rungs_(substep_rungs(method)),
+      probe_length_(probe_length),
+      lowest_(rung_of(least)),
+      rung_(std::max(lowest_, rung_of(proposed))) {}
 
 /// The first rung of at least so many substeps, or the top.
 std::size_t SubstepControl::rung_of(double substeps) const {
@@ -54,7 +64,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
         slack_ = unpredictable_slack * judgement.motion;
         succeed(judgement);
         // What more substeps do not buy, fewer may not cost.
-        rung_ = began_ > 2 ? began_ - 2 : 0;
+        rung_ = below(began_, 2);
         until_probe_ = 0;
         return Verdict::unpredictable;
     }
@@ -66,14 +76,16 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
 /// Whether at least twice the substeps have hardly reduced the motion's error: by less than their square root.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
-    return before_.substeps > 0 && judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
+    return before_.substeps > 0 && segment_.substeps >= 2 * before_.substeps &&
+           judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
 void SubstepControl::refine(const Judgement& judgement) {
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     // Both errors fall about with the square of the substep.
     const double factor = std::clamp(1.1 * std::sqrt(worst), 1.0, 4.0);
-    before_ = {static_cast<double>(segment_.substeps), judgement.motion};
+    if (before_.substeps == 0 || segment_.substeps >= 2 * before_.substeps)
+        before_ = {static_cast<double>(segment_.substeps), judgement.motion};
     tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
     segment_.substeps = rungs_[tried_];
     if (since_fewer_ < 8 * probe_length_) patience_ = std::min(2 * patience_, 16u);
@@ -100,7 +112,7 @@ void SubstepControl::succeed(const Judgement& judgement) {
 /// What a probe says of the rung below: the motion's error grows with the square of the substep at least, the stretch
 /// error as it did towards half the substeps.
 void SubstepControl::consider_fewer(const Judgement& judgement) {
-    if (rung_ == 0) return;
+    if (rung_ == lowest_) return;
     const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung_ - 1];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
     const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));

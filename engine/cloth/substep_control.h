@@ -12,6 +12,8 @@ namespace drape {
 
 /// Substeps per frame to choose from, ascending, even, up to the method's most.
 std::span<const std::uint32_t> substep_rungs(const Method& method);
+/// The first of at least so many substeps, or the last.
+std::uint32_t first_rung(const Method& method, double substeps);
 
 /// An attempt as judged: errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not finite
 /// counts as infinite.
@@ -32,8 +34,8 @@ struct Segment {
 
 class SubstepControl {
   public:
-    /// `proposed`: substeps by the laws. `probe_length`: frames of a probe, 2 or more.
-    SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t probe_length);
+    /// Begins with `proposed` substeps, never has fewer than `least`. `probe_length`: frames of a probe, 2 or more.
+    SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least, std::uint32_t probe_length);
 
     /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: something
     /// is let go of in the first of them, so it begins finer.
@@ -50,6 +52,7 @@ class SubstepControl {
 
   private:
     std::size_t rung_of(double substeps) const;
+    std::size_t below(std::size_t rung, std::size_t by) const { return rung > lowest_ + by ? rung - by : lowest_; }
     bool futile(const Judgement& judgement) const;
     void succeed(const Judgement& judgement);
     void refine(const Judgement& judgement);
@@ -57,6 +60,7 @@ class SubstepControl {
 
     std::span<const std::uint32_t> rungs_;
     std::uint32_t probe_length_;
+    std::size_t lowest_;
     std::size_t rung_;       ///< of frames to come
     std::size_t began_ = 0;  ///< that before the segment
     std::size_t tried_ = 0;  ///< of the attempt

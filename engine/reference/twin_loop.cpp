@@ -44,7 +44,8 @@ std::vector<DifferenceRecord> partial_differences(const Grid& grid, const TwinCl
 
 TwinLoop::TwinLoop(const SimulationModel& model)
     : model_(model),
-      control_(row_of(model.scene.solver.method), model.scene.solver.substeps, probe_length(model)),
+      control_(row_of(model.scene.solver.method), model.scene.solver.substeps, model.choice.least_substeps,
+               probe_length(model)),
       state_(model),
       state_substeps_(model.scene.solver.substeps) {}
 

@@ -10,7 +10,7 @@ namespace {
 
 using Verdict = SubstepControl::Verdict;
 
-SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 6}; }
+SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 1, 6}; }
 
 /// Frames of a cloth whose errors fall with the square of the substeps: 1 at `stretch` and `motion` substeps.
 struct Cloth {
@@ -94,6 +94,14 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     EXPECT_LE(loop.begin(6, false).substeps, 8u);
     // Its stretch is still a promise.
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
+}
+
+TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
+    SubstepControl loop(row_of(SolverMethod::line), 2, 30, 6);
+    EXPECT_EQ(loop.segment().substeps, 0u);
+    EXPECT_EQ(loop.begin(6, false).substeps, 32u);
+    SubstepControl easy(row_of(SolverMethod::line), 64, 30, 6);
+    EXPECT_EQ(run(easy, {1, 1}, 300).last, 32u);
 }
 
 TEST(SubstepControl, BeginsFinerWhereSomethingIsLetGoOf) {
