@@ -59,7 +59,7 @@ void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, 
     add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
     if (share == 1) return;
     plan.used_bend *= share;
-    plan.bending_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
+    plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
     note_compromise(cloth, settings, "bending",
                     fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m", plan.used_bend, cloth.bend),
                     substeps_for(share, settings), plan);
@@ -73,7 +73,7 @@ void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings,
     const double share = std::min(1.0, twist / twist_sweep_compliance);
     add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
     if (share == 1) return;
-    plan.bending_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
+    plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
     note_compromise(cloth, settings, "twist",
                     fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m where the cloth twists; "
                                 "rows and columns bend in full",

@@ -47,7 +47,8 @@ struct MethodPlan {
 
     PerDirection<double> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
     double used_bend = 0;                 ///< N m applied
-    std::uint32_t bending_substeps = 1;   ///< per frame, that would follow all bending
+    /// Per frame, fewer drop what no judgement of a run would see: bending, and stiffness that micro-steps soften.
+    std::uint32_t following_substeps = 1;
     std::vector<SkippedWork> skipped;
     std::vector<Compromise> compromises;
 };
@@ -68,6 +69,9 @@ struct Method {
     double dispatches, particle_ns;
     bool walks;  ///< an invocation goes along a whole line
     std::uint32_t most_iterations;
+    /// In a closed loop: only its substeps need judging (probed); at the substeps that follow everything it resolves
+    /// whatever moves (resolves); neither: it is not chosen, since it damps what it does not resolve.
+    enum class Trust : std::uint8_t { none, probed, resolves } trust;
     std::uint32_t most_substeps;  ///< where a closed loop gives up
 
     // For benchmarks: passes over all particles that take as long as a substep's prediction, its iteration.

@@ -21,7 +21,18 @@ constexpr double line_sweep[] = {4, 8, 12, 16, 20, 30, 40, 80, 160}, line_quick[
 constexpr double relax_sweep[] = {1, 2, 5, 10, 20, 40, 80, 160, 320}, relax_quick[] = {5, 20, 80};
 
 constexpr Method rows[] = {
-    {SolverMethod::line, plan_line, line_substeps, 10, 200, true, 1, 1024, 1, 16, {false, line_sweep, line_quick}},
+    {SolverMethod::line,
+     plan_line,
+     line_substeps,
+     10,
+     200,
+     true,
+     1,
+     Method::Trust::probed,
+     1024,
+     1,
+     16,
+     {false, line_sweep, line_quick}},
     {SolverMethod::explicit_steps,
      plan_explicit,
      explicit_substeps,
@@ -29,11 +40,23 @@ constexpr Method rows[] = {
      60,
      false,
      1,
+     Method::Trust::resolves,
      4096,
      3,
      0,
      {true, explicit_sweep, explicit_quick}},
-    {SolverMethod::relax, plan_relax, relax_substeps, 11, 140, false, 1, 4096, 1, 8, {false, relax_sweep, relax_quick}},
+    {SolverMethod::relax,
+     plan_relax,
+     relax_substeps,
+     11,
+     140,
+     false,
+     1,
+     Method::Trust::none,
+     4096,
+     1,
+     8,
+     {false, relax_sweep, relax_quick}},
 };
 
 /// Displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md 3):
@@ -72,11 +95,12 @@ struct ByteList {
 std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     // A binding names every member: one that is added does not compile until it is added here.
     const auto& [prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension,
-                 release_stiffness, gathered_tension, used_stiffness, used_bend, bending_substeps, skipped, compromises] = plan;
+                 release_stiffness, gathered_tension, used_stiffness, used_bend, following_substeps, skipped,
+                 compromises] = plan;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
     add(prediction, once, iterated, start, spare_state, second_order, line_scratch, carries_tension, release_stiffness,
-        gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend, bending_substeps);
+        gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend, following_substeps);
     static_cast<void>(skipped), static_cast<void>(compromises);  // words
     return list.bytes;
 }

@@ -73,6 +73,7 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
 
 std::vector<Compromise> SimulationModel::compromises() const {
     std::vector<Compromise> all;
+    if (closed_loop()) return all;  // it judges what its steps do not follow
     for (const ClothModel& cloth : cloths)
         all.insert(all.end(), cloth.plan.compromises.begin(), cloth.plan.compromises.end());
     return all;

@@ -21,12 +21,11 @@ double substep_ms(const Hang& hang, DeviceKind device, double dispatches, double
     return dispatches * (dispatch_ms + count * pass_particle_ms) + (walks ? hang.longest_line * walk_ms : 0);
 }
 
-/// Substeps that follow all bending of the cloth, if `substeps` do not. Compliances fall with the square of the
-/// substeps, so one look tells.
-std::uint32_t bending_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
-                               std::uint32_t substeps) {
-    if (cloth.stiffness.bend == 0) return 1;
-    Cloth small = cloth;  // bending does not mind how large the cloth is
+/// Substeps that follow what the method must follow of the cloth, at least `substeps`. Compliances fall with the square
+/// of the substeps, so one look tells.
+std::uint32_t following_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
+                                 std::uint32_t substeps) {
+    Cloth small = cloth;  // it does not depend on how large the cloth is
     for (std::size_t axis = 0; axis < 2; ++axis) {
         small.grid[axis] = std::min(cloth.grid[axis], 4u);
         small.size[axis] = cloth.size[axis] * (small.grid[axis] - 1) / (cloth.grid[axis] - 1);
@@ -39,7 +38,7 @@ std::uint32_t bending_substeps(const Method& method, const SceneDescription& sce
                                   scene.gravity,
                                   scene.solver.strain_damping,
                                   !scene.colliders.empty()};
-    return method.plan(ClothGeometry(scene, small, false), settings).bending_substeps;
+    return std::max(substeps, method.plan(ClothGeometry(scene, small, false), settings).following_substeps);
 }
 
 SolverCandidate candidate(const Method& method, const SceneDescription& scene, double tolerance, DeviceKind device) {
@@ -48,11 +47,12 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     for (const Cloth& cloth : scene.cloths)
         substeps = std::max(substeps, method.substeps(hang_of(scene, cloth), frame, tolerance));
     std::uint32_t least = 1;
-    for (const Cloth& cloth : scene.cloths) least = std::max(least, bending_substeps(method, scene, cloth, least));
-    SolverCandidate result{method.method,
-                           static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), method.most_substeps)),
-                           least, 0, std::max<double>(substeps, least) <= method.most_substeps};
-    result.substeps = std::min(std::max(result.substeps, least), method.most_substeps);
+    for (const Cloth& cloth : scene.cloths) least = following_substeps(method, scene, cloth, least);
+    SolverCandidate result{
+        method.method, static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), method.most_substeps)), least,
+        0, method.trust != Method::Trust::none && std::max<double>(substeps, least) <= method.most_substeps};
+    result.least_substeps = std::min(least, method.most_substeps);
+    result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
     for (const Cloth& cloth : scene.cloths)
         result.predicted_ms += result.substeps * substep_ms(hang_of(scene, cloth), device, method.dispatches,
                                                             method.particle_ns, method.walks);

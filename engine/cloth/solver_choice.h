@@ -23,7 +23,7 @@ enum class DeviceKind { cpu, gpu };
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
-    std::uint32_t least_substeps;  ///< that follow all bending: fewer would drop it, whatever the laws say
+    std::uint32_t least_substeps;  ///< that follow bending (MethodPlan::following_substeps)
     double predicted_ms;           ///< per frame, all cloths; for comparing, not for planning
     bool reaches;                  ///< whether the law promises the tolerance within the limits of the settings
 };

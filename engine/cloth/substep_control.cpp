@@ -33,6 +33,7 @@ std::uint32_t first_rung(const Method& method, double substeps) {
 SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least,
                                std::uint32_t probe_length)
     : rungs_(substep_rungs(method)),
+      resolves_(method.trust == Method::Trust::resolves),
       probe_length_(probe_length),
       lowest_(rung_of(least)),
       rung_(std::max(lowest_, rung_of(proposed))) {}
@@ -47,7 +48,7 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     if (eventful) interval_ = 1;
     if (eventful) until_probe_ = 0;
     tried_ = eventful ? std::min(rung_ + 2, rungs_.size() - 1) : rung_;
-    const bool probes = until_probe_ == 0 && room >= 2;
+    const bool probes = until_probe_ == 0 && room >= 2 && !resolves_;
     began_ = rung_;
     before_ = {};
     segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};

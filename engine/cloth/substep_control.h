@@ -59,6 +59,7 @@ class SubstepControl {
     void consider_fewer(const Judgement& judgement);
 
     std::span<const std::uint32_t> rungs_;
+    bool resolves_;  ///< no probe is needed
     std::uint32_t probe_length_;
     std::size_t lowest_;
     std::size_t rung_;       ///< of frames to come

@@ -52,7 +52,9 @@ TEST(SolverChoiceTest, TheCheapestThatReachesComesFirst) {
     const SolverChoice choice = choose_solver(automatic(128), DeviceKind::cpu);
     ASSERT_EQ(choice.candidates.size(), 3u);
     for (std::size_t k = 1; k < 3; ++k)
-        EXPECT_LE(choice.candidates[k - 1].predicted_ms, choice.candidates[k].predicted_ms);
+        EXPECT_TRUE(!choice.candidates[k].reaches ||
+                    choice.candidates[k - 1].predicted_ms <= choice.candidates[k].predicted_ms);
+    EXPECT_NE(choice.candidates.front().method, SolverMethod::relax);  // it damps what it does not resolve
 }
 
 TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
@@ -98,7 +100,7 @@ TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {
 
 TEST(SolverChoiceTest, ExplicitStepsThatWouldSoftenTheBendingAreNotChosen) {
     SceneDescription scene = automatic(16);
-    scene.cloths[0].stiffness.bend = 1;
+    scene.cloths[0].stiffness.bend = 100;
     EXPECT_FALSE(of(choose_solver(scene, DeviceKind::gpu), SolverMethod::explicit_steps).reaches);
     scene.cloths[0].stiffness.bend = 1e-9;
     EXPECT_TRUE(of(choose_solver(scene, DeviceKind::gpu), SolverMethod::explicit_steps).reaches);
