@@ -55,6 +55,7 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     const double wind_speed = length(scene.wind.velocity) + scene.wind.gust.amplitude;
     const double pressure =
         0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (wind_speed * wind_speed);
+    hang.gravity = length(scene.gravity);
     hang.acceleration = length(scene.gravity) + (scene.wind.blows() ? wind_share * pressure / cloth.areal_density : 0);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
