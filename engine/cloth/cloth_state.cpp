@@ -31,6 +31,8 @@ bool second_order(Context c) { return c.cloth.plan.second_order; }
 bool line_solved(Context c) { return c.cloth.plan.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
+bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
+bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -40,6 +42,9 @@ bool tense(Context c) {
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
+FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
+FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
+FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
 
 constexpr std::uint64_t size_count = glsl::iteration_size_count;
@@ -65,6 +70,8 @@ const std::vector<FieldRow>& rows() {
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", buffer, vector, device, line_solved, particle_list},
         {Field::line_rows, "line rows", buffer, layout_of<glsl::vec2>(), device, line_solved, particle_list},
+        {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
+         [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
         {Field::displacement_before, "displacement before", image, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", image, vector, state, second_order, particles},
         {Field::end_excess, "end excess", image, vector, state, judged, particles,
@@ -97,13 +104,10 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return c.needs.drawing && !c.topology.vertices().empty(); },
          [](Context c) { return FieldExtent{draw_list_capacity(c.topology.vertices().size())}; },
          [](Context c) { return bytes_of(c.topology.vertices()); }},
-        {Field::tethers, "tethers", buffer, layout_of<glsl::ParticleTethers>(), constant,
-         [](Context c) { return !c.cloth.tethers.empty(); },
-         [](Context c) { return FieldExtent{c.cloth.tethers.size()}; },
+        {Field::tethers, "tethers", buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
          [](Context c) { return bytes_of(c.topology.tethers()); }},
         {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
-         [](Context c) { return FieldExtent{c.cloth.pinned.size()}; },
-         [](Context c) { return bytes_of(c.cloth.pinned); }},
+         pinned_list, [](Context c) { return bytes_of(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
          [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
     };

@@ -25,6 +25,7 @@ enum class Field : std::uint8_t {
     displacement_spare,
     line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)
     line_rows,                 ///< likewise by spring
+    nested_sweeps,             ///< MethodPlan::nested_table
     displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end
     velocity_excess,           ///< of that substep, h times its end's velocity - displacement, m
     end_excess,                ///< at a frame's end: h times the velocity there - displacement, m (end_velocity.h)

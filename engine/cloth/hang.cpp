@@ -45,6 +45,23 @@ int axis_from_held_edge(const Cloth& cloth) {
     return -1;
 }
 
+/// Whether every pin holds one particle, and no two are neighbours.
+bool held_by_lone_pins(const Cloth& cloth) {
+    const auto apart = [](const Pin& a, const Pin& b) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double distance = static_cast<double>(a.particles.first[k]) - b.particles.first[k];
+            if (std::abs(distance) > 1) return true;
+        }
+        return false;
+    };
+    for (std::size_t i = 0; i < cloth.pins.size(); ++i) {
+        if (cloth.pins[i].particles.first != cloth.pins[i].particles.last) return false;
+        for (std::size_t k = 0; k < i; ++k)
+            if (!apart(cloth.pins[i], cloth.pins[k])) return false;
+    }
+    return !cloth.pins.empty();
+}
+
 }  // namespace
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
@@ -59,6 +76,7 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     hang.acceleration = length(scene.gravity) + (scene.wind.blows() ? wind_share * pressure / cloth.areal_density : 0);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
+    hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && scene.cutters.empty();
     hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
     hang.calm = hang.by_an_edge && !scene.wind.blows();
     hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];

@@ -13,6 +13,7 @@ struct Hang {
     double acceleration;  ///< m/s^2, gravity and the wind's share
     bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
     double edge_spacing;  ///< m, of the links that lead away from that edge
+    bool by_lone_pins;    ///< particles held alone carry it, and nothing stands in its way
     bool calm;            ///< besides, no wind blows
     std::size_t particle_count;
     double longest_line;  ///< particles

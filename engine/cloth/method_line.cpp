@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cloth/bend_sweep.h"
+#include "cloth/nested_sweeps.h"
 #include "cloth/solver_choice.h"
 #include "cloth/texels.h"
 
@@ -124,6 +125,7 @@ MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings)
     add_prediction(cloth, settings, plan);
     add_twist_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
     add_lines(cloth, settings, plan);
+    add_nested_sweeps(cloth, plan);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)
@@ -146,7 +148,7 @@ double line_substeps(const Hang& hang, double frame, double tolerance) {
     const double resolving = frame * std::sqrt(pull / hang.length) / 0.013;
     if (hang.by_an_edge) return std::max(resolving, waves / (3.3 * root * hang.edge_spacing));
     const double few_links = std::min(1.0, std::pow(64 * hang.spacing / hang.length, 0.25));
-    return std::max(resolving, waves / (0.35 * few_links * root * hang.spacing));
+    return std::max(resolving, waves / ((hang.by_lone_pins ? 0.75 : 0.35) * few_links * root * hang.spacing));
 }
 
 }  // namespace drape

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/line_types.h"
+#include "shared/nested_types.h"
 #include "shared/simulation_types.h"
 
 namespace drape {
@@ -24,6 +25,7 @@ enum class StepKind {
     twist,
     spring,
     line,
+    nested,
     tether,
     collide,
     check,
@@ -33,7 +35,7 @@ enum class StepKind {
 /// The push structure of a step whose constants are its method's own. SpringPush and LinePush: `first_iteration` is
 /// set per iteration.
 using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush,
-                                   glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush>;
+                                   glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

@@ -10,6 +10,7 @@
 #include "passes/explicit_pass.h"
 #include "passes/force_pass.h"
 #include "passes/line_pass.h"
+#include "passes/nested_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
 #include "passes/spring_pass.h"
@@ -146,6 +147,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_spring(graph, pipelines_, state, step);
         case StepKind::line:
             return add_line(graph, pipelines_, state, step);
+        case StepKind::nested:
+            return add_nested(graph, pipelines_, state, step);
         case StepKind::tether:
             return add_tether(graph, pipelines_, state, step);
         case StepKind::collide:

@@ -132,6 +132,8 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return spring(model, state, step);
         case StepKind::line:
             return line(model, state, step);
+        case StepKind::nested:
+            return nested(model, state, step);
         case StepKind::tether:
             return tether(state);
         case StepKind::collide:

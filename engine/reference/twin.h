@@ -79,6 +79,7 @@ class Twin {
     void control(TwinCloth& state);
     void predict(TwinCloth& state, const Step& step);
     void line(const ClothModel& model, TwinCloth& state, const Step& step);
+    void nested(const ClothModel& model, TwinCloth& state, const Step& step);
     void tether(TwinCloth& state);
     void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
              std::uint32_t substep);

@@ -155,6 +155,32 @@ TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
     EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, false, false}));
 }
 
+TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
+    SceneDescription scene = test::sheet(65, 65, 1, 1, 4);
+    scene.solver.method = SolverMethod::line;
+    Cloth& cloth = scene.cloths[0];
+    const auto nested = [&] { return test::pushes<glsl::NestedPush>(ClothModel(scene, 0).plan); };
+    cloth.pins = {test::pin_top(cloth)};
+    EXPECT_TRUE(nested().empty());
+    EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested sweeps"));
+    // Two corners whose boxes share no particle; in the middle one that shares some with both, so it waits.
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(64, 0, 64, 0), test::pin_box(32, 0, 32, 0)};
+    ASSERT_EQ(nested().size(), 2u);
+    const std::vector<glsl::ivec4> table = ClothModel(scene, 0).plan.nested_table;
+    const auto first = static_cast<std::size_t>(nested()[0].first_pin);
+    EXPECT_EQ(table[first].z, 2);
+    EXPECT_EQ(table[first + 1].x, 64);
+    EXPECT_EQ(table[static_cast<std::size_t>(nested()[1].first_pin)].x, 32);
+    // A pair holds each other.
+    cloth.pins = {test::pin_box(0, 0, 1, 0)};
+    EXPECT_TRUE(nested().empty());
+    // A hundred of them.
+    cloth.pins.clear();
+    for (std::uint32_t k = 0; k < 100; ++k)
+        cloth.pins.push_back(test::pin_box(6 * (k % 10), 6 * (k / 10), 6 * (k % 10), 6 * (k / 10)));
+    EXPECT_TRUE(nested().empty());
+}
+
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};

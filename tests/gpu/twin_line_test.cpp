@@ -151,6 +151,40 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
                                          std::array<std::uint32_t, 2>{41, 2}, std::array<std::uint32_t, 2>{9, 8},
                                          std::array<std::uint32_t, 2>{65, 33}));
 
+/// Held at both upper corners, in the middle, whose box shares particles with theirs, and, until it lets go, at a third
+/// corner.
+SceneDescription lone_pins() {
+    SceneDescription scene = test::sheet(97, 97, 1.0, 1.0, test::substep_count);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].velocity = {0.5, 0, 1};
+    Pin moved = test::pin_box(96, 0, 96, 0), released = test::pin_box(0, 96, 0, 96);
+    moved.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {-0.1, 0.05, 0.1}, {}}};
+    released.release = 0.11;
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), moved, released, test::pin_box(48, 44, 48, 44)};
+    return scene;
+}
+
+TEST(TwinLineTest, NestedSweepsAroundLonePins) {
+    const SimulationModel model(lone_pins());
+    ASSERT_EQ(model.cloths[0].plan.iterated.size(), 4u + 2u) << "lines, and rounds of pins";
+    compare(lone_pins());
+}
+
+TEST(TwinLineTest, NestedSweepsAndAContact) {
+    SceneDescription scene = lone_pins();
+    scene.colliders.push_back({Sphere{{0.3, -0.5, 0.2}, 0.25}});
+    scene.cloths[0].holes = {{{3, 4}, {9, 10}}};
+    compare(scene);
+}
+
+TEST(TwinLineTest, NestedSweepsWithHolesAndNoShear) {
+    SceneDescription scene = lone_pins();
+    scene.cloths[0].stiffness.shear = 0;
+    scene.cloths[0].holes = {{{3, 4}, {9, 10}}, {{52, 25}, {60, 33}}};
+    scene.solver.iterations = 2;
+    compare(scene);
+}
+
 TEST(TwinLineTest, TethersInSecondOrder) {
     SceneDescription scene = free_lines();
     scene.solver.tethers = true;

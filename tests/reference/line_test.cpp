@@ -256,7 +256,7 @@ TEST(LineStress, TethersHoldADrapeThatTheSweepCannotFollow) {
     const double loose = strain();
     scene.solver.tethers = true;
     const double held = strain();
-    std::printf("[ measured ] two-corner drape at 5 substeps: RMS strain %.4f, with tethers %.4f\n", loose, held);
+    std::printf("[ measured ] two-corner drape at 1 substep: RMS strain %.4f, with tethers %.4f\n", loose, held);
     EXPECT_GT(loose, 0.03);
     EXPECT_LE(held, 0.2 * loose);
 }
@@ -287,7 +287,7 @@ TEST(LineStress, ADrapeOnLongSubstepsGainsNoEnergy) {
         largest = std::max(largest, test::energy_of(model, 0, twin.cloth(0)).total());
     }
     std::printf("[ measured ] drape 64^2 at 10 substeps: largest energy %.2f J\n", largest);
-    EXPECT_LE(largest, 2);
+    EXPECT_LE(largest, 0.5);
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ double passes_of(const SimulationModel& model) {
             case StepKind::pin:
             case StepKind::control:
             case StepKind::check:
+            case StepKind::nested:
             case StepKind::advance:
                 break;
             default:

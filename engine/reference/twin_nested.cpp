@@ -1,0 +1,105 @@
+// The twin's nested sweeps around lone pins.
+#include "cloth/texels.h"
+#include "reference/kernels.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+/// One line of a box, in one direction, as the shader sees it.
+struct NestedLine {
+    const ClothModel& model;
+    TwinCloth& state;
+    const NestedPush& push;
+    int direction, seam;
+    float compliance, followed;
+    ivec2 step;
+    std::vector<ivec2> particles;  // in the sheet
+
+    std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
+    float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
+    LineSpring spring(std::size_t e) const {
+        const std::size_t a = index(e), b = index(e + 1);
+        return line_spring(spring_edge(xyz(state[Field::position][a]), xyz(state[Field::position][b]),
+                                       xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b])),
+                           component(push.rest_length, direction));
+    }
+    float share(std::size_t e) const {
+        if (particles[e].x == seam) return 0.0f;
+        return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], direction)
+                                       : border_share(particles[e], step, push.grid);
+    }
+    float& stored(std::size_t e) const { return state.tension(static_cast<std::size_t>(direction))[index(e)]; }
+
+    void solve() const {
+        const std::size_t count = particles.size() - 1;
+        std::vector<LineSpring> springs;
+        for (std::size_t e = 0; e < count; ++e) springs.push_back(spring(e));
+        std::vector<vec2> eliminated(count);
+        vec2 previous{0, 0};
+        const vec3 none{0, 0, 0};
+        for (std::size_t e = count; e-- > 0;)
+            eliminated[e] = previous =
+                eliminate_spring(previous, e > 0 ? springs[e - 1].normal : none, springs[e],
+                                 e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
+                                 compliance, tension_in_use(stored(e), followed));
+        float before = 0;
+        for (std::size_t p = 0; p <= count; ++p) {
+            const float change = p < count ? substitute_spring(eliminated[p], before) : 0.0f;
+            const vec3 correction = line_correction(p > 0 ? springs[p - 1].normal : none, before,
+                                                    p < count ? springs[p].normal : none, change);
+            state.move_to(index(p), moved_by(xyz(state[Field::displacement][index(p)]), correction, weight(p)));
+            if (p < count && share(p) > 0.0f)
+                stored(p) = stored_tension(
+                    changed_tension(tension_in_use(stored(p), followed), change, share(p), compliance), followed);
+            before = change;
+        }
+    }
+};
+
+void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
+                     int direction, bool is_bdf2) {
+    if (!(component(push.rest_length, direction) > 0.0f)) return;
+    const ivec2 step = nested_step(direction);
+    const int seam = nested_seam(step, box.size.x);
+    for (int k = 0; k < (step.y == 0 ? box.size.y : box.size.x); ++k) {
+        NestedLine line{model,
+                        state,
+                        push,
+                        direction,
+                        seam < 0 ? -1 : box.first.x + seam,
+                        component(is_bdf2 ? push.compliance_bdf2 : push.compliance, direction),
+                        component(is_bdf2 ? push.followed_bdf2 : push.followed, direction),
+                        step,
+                        {}};
+        ivec2 in_box = line_start(k, step);
+        for (int p = 0; p < (step.y == 0 ? box.size.x : box.size.y); ++p) {
+            line.particles.push_back({box.first.x + in_box.x, box.first.y + in_box.y});
+            in_box = next_on_line(in_box, step, box.size.x);
+        }
+        line.solve();
+    }
+}
+
+}  // namespace
+
+void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const auto& push = step.push<NestedPush>();
+    const bool is_bdf2 = model.plan.second_order && state.integers(Field::line_control)[control_order] == 2u;
+    const std::vector<ivec4>& table = model.plan.nested_table;
+    const auto first = static_cast<std::size_t>(push.first_pin);
+    for (std::size_t k = first; k < first + static_cast<std::size_t>(table[first].z); ++k) {
+        const ivec2 pin{table[k].x, table[k].y};
+        if (state[Field::position][at(model.grid, pin)].w != 0.0f) continue;
+        for (std::size_t block = 0; block < static_cast<std::size_t>(push.block_count); ++block)
+            for (int sweep = 0; sweep < table[block].y; ++sweep)
+                for (int order = 0; order < 4; ++order)
+                    sweep_direction(model, state, push, nested_box(pin, table[block].x, push.grid),
+                                    nested_direction(order), is_bdf2);
+    }
+}
+
+}  // namespace drape

@@ -1,0 +1,31 @@
+// Nested sweeps (docs/solvers.md, "Nested sweeps at lone pins"): the second system of include/line.h alone, along the
+// lines of a box of particles around a held one, again and again.
+#ifndef DRAPE_NESTED_H
+#define DRAPE_NESTED_H
+
+/// Particles with |column - pin| and |row - pin| <= radius, as far as the sheet reaches.
+struct NestedBox {
+    ivec2 first, size;
+};
+
+SHARED NestedBox nested_box(ivec2 pin, int radius, ivec2 grid) {
+    ivec2 first = ivec2(pin.x > radius ? pin.x - radius : 0, pin.y > radius ? pin.y - radius : 0);
+    ivec2 last = ivec2(pin.x + radius < grid.x ? pin.x + radius : grid.x - 1,
+                       pin.y + radius < grid.y ? pin.y + radius : grid.y - 1);
+    return NestedBox(first, ivec2(last.x - first.x + 1, last.y - first.y + 1));
+}
+
+/// The `order`-th direction of a sweep: both diagonals, rows, columns.
+SHARED int nested_direction(int order) { return order < 2 ? order + 2 : order - 2; }
+
+SHARED ivec2 nested_step(int direction) {
+    return ivec2(direction == 1 ? 0 : direction == 3 ? -1 : 1, direction == 0 ? 0 : 1);
+}
+
+/// Column of the box whose particles own no spring of a direction, -1 = none: its diagonals wrap around.
+SHARED int nested_seam(ivec2 step, int columns) {
+    if (step.x == 0 || step.y == 0) return -1;
+    return step.x > 0 ? columns - 1 : 0;
+}
+
+#endif

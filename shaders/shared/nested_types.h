@@ -1,0 +1,31 @@
+// Nested sweeps around lone pins: structs that shaders and C++ share.
+#ifndef DRAPE_NESTED_TYPES_H
+#define DRAPE_NESTED_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// A workgroup goes along the lines of one box; most boxes have 33 or fewer.
+const int nested_group_width = 32;
+
+/// Of pins whose boxes share no particle. Vectors over the spring directions: row, column, shear down-right, shear
+/// down-left; as in LinePush.
+struct NestedPush {
+    ivec2 grid;  // columns, rows
+    int block_count;
+    int first_pin;     // in the table (NestedSweeps::table), of this dispatch
+    vec4 rest_length;  // m; 0: no springs
+    vec4 compliance;
+    vec4 compliance_bdf2;
+    vec4 followed;
+    vec4 followed_bdf2;
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif
