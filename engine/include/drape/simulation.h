@@ -45,7 +45,7 @@ struct FinishedFrame {
     std::vector<std::span<const float>> normals;    ///< per cloth, when wanted: unit x y z of the front, and 0
     std::vector<ClothStatistics> statistics;        ///< per cloth, when wanted
     FrameEffort effort;
-    std::vector<StageTime> timings;                 ///< empty where the device has no timestamps
+    std::vector<StageTime> timings;  ///< empty where the device has no timestamps
 };
 
 /// A cut found at the end of a frame; it acts from the next frame on.
