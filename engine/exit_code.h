@@ -36,7 +36,7 @@ inline constexpr std::array<ExitCodeRow, 12> exit_code_rows{{
     {ExitCode::diverged, "diverged", "the simulation is no longer finite"},
     {ExitCode::validation, "validation", "a validation message was reported"},
     {ExitCode::comparison, "comparison", "a comparison or a measurement is over its limit"},
-    {ExitCode::tolerance, "tolerance", "the stretch error is above the scene's tolerance"},
+    {ExitCode::tolerance, "tolerance", "a frame misses the tolerance, or what method auto keeps"},
     {ExitCode::internal, "internal error", "a defect of the program; please report the message"},
     {ExitCode::interrupted, "interrupted", "stopped by SIGINT"},
     {ExitCode::terminated, "terminated", "stopped by SIGTERM"},

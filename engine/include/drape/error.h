@@ -19,7 +19,7 @@ class Diverged : public Error {
     using Error::Error;
 };
 
-/// The stretch error is above the scene's tolerance: names the frame and the cloth.
+/// A frame misses the tolerance of its scene, or method `auto` gave up on one: names the frame and what it misses.
 class ToleranceMissed : public Error {
     using Error::Error;
 };
