@@ -14,7 +14,7 @@ inline constexpr double default_tolerance = 0.01;
 /// The largest stretch error of a single spring.
 inline constexpr double default_tolerance_worst = 0.1;
 /// The error of the motion per second, over the cloth's longer side.
-inline constexpr double default_motion_share = 0.01;
+inline constexpr double default_motion_share = 0.02;
 
 /// What passes cost. On a CPU every store counts; on a GPU small dispatches cost what the next one waits.
 enum class DeviceKind { cpu, gpu };

@@ -74,10 +74,10 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     return Verdict::again;
 }
 
-/// Whether at least twice the substeps have hardly reduced the motion's error: by less than their square root.
+/// Whether four times the substeps or more have hardly reduced the motion's error: by less than their square root.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
-    return before_.substeps > 0 && segment_.substeps >= 2 * before_.substeps &&
+    return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps &&
            judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
@@ -85,7 +85,7 @@ void SubstepControl::refine(const Judgement& judgement) {
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     // Both errors fall about with the square of the substep.
     const double factor = std::clamp(1.1 * std::sqrt(worst), 1.0, 4.0);
-    if (before_.substeps == 0 || segment_.substeps >= 2 * before_.substeps)
+    if (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps)
         before_ = {static_cast<double>(segment_.substeps), judgement.motion};
     tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
     segment_.substeps = rungs_[tried_];

@@ -304,7 +304,7 @@ const Object<SolverSettings> solver{
          "Method auto: largest stretch error of a single spring in a frame. 0: 0.1."},
         {"tolerance_motion", &SolverSettings::tolerance_motion, number(not_negative),
          "Method auto: largest error of the motion, RMS over the cloth in metres per second of simulated time, as "
-         "estimated by running some frames with half the substeps too. 0: 0.01 of the cloth's longer side a second."},
+         "estimated by running some frames with half the substeps too. 0: 0.02 of the cloth's longer side a second."},
         {"tethers", &SolverSettings::tethers, boolean(),
          "Whether every particle is kept within the cloth's reach of the nearest particle of each of the two nearest "
          "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "

@@ -88,9 +88,9 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     SubstepControl loop = control(8);
     loop.begin(6, false);
     EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 5}), Verdict::again);
-    const std::uint32_t tried = loop.segment().substeps;
-    EXPECT_GT(tried, 8u);
-    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.9}), Verdict::unpredictable);
+    EXPECT_GT(loop.segment().substeps, 8u);
+    while (loop.segment().substeps < 32) EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.9}), Verdict::again);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.8}), Verdict::unpredictable);
     EXPECT_LE(loop.begin(6, false).substeps, 8u);
     // Its stretch is still a promise.
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);

@@ -155,8 +155,8 @@ TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
 }
 
 TEST(ClosedLoop, FreeFallAndFlightKeepTheirSpeedWhenTheStepChanges) {
-    // Substeps change at the probes; the centre of mass may not notice.
-    SceneDescription scene = test::sheet(17, 17, 1, 1, 1);
+    // Substeps change at the probes; flight may not notice. The first substep of all is backward Euler: g h^2/2 off.
+    SceneDescription scene = test::sheet(65, 65, 1, 1, 1);
     scene.cloths[0].velocity = {1, 2, 0};
     scene.cloths[0].pins.clear();
     scene = automatic(scene, 40);
@@ -166,10 +166,10 @@ TEST(ClosedLoop, FreeFallAndFlightKeepTheirSpeedWhenTheStepChanges) {
     EXPECT_TRUE(changes(seen));
     for (std::size_t frame = 0; frame < seen.positions.size(); ++frame) {
         const double t = static_cast<double>(frame + 1) / scene.time.fps;
-        for (const std::size_t i : {std::size_t{0}, std::size_t{140}, std::size_t{288}}) {
+        for (const std::size_t i : {std::size_t{0}, std::size_t{2140}, std::size_t{4224}}) {
             const glsl::vec4& start = model.cloths[0].position[i];
             EXPECT_NEAR(seen.positions[frame][4 * i], start.x + t, 1e-5);
-            EXPECT_NEAR(seen.positions[frame][4 * i + 1], start.y + 2 * t - 0.5 * 9.81 * t * t, 1e-5) << frame;
+            EXPECT_NEAR(seen.positions[frame][4 * i + 1], start.y + 2 * t - 0.5 * 9.81 * t * t, 5e-5) << frame;
         }
     }
 }
