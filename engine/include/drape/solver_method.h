@@ -30,11 +30,11 @@ inline constexpr std::array<SolverMethodName, 4> solver_method_names{{
     {SolverMethod::line, "line",
      "whole rows, columns and diagonals of springs solved at a time, of second order in time (of first order in scenes "
      "with colliders); accurate from about 0.1 substeps per particle along the cloth on where it hangs from an edge, "
-     "0.6 where it hangs from points.",
+     "0.15 where it hangs from points.",
      ""},
     {SolverMethod::automatic, "auto",
-     "the program chooses method, substeps and iterations for the tolerance (0.01 where none is given), and the "
-     "manifest says what and why.",
+     "the program chooses method and substeps, judges every frame by tolerance, tolerance_worst and "
+     "tolerance_motion, and does those that miss one again with more substeps; the manifest says what each took.",
      "the program chooses"},
 }};
 
