@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "cloth/impossible_pins.h"
 #include "frame_loop.h"
 
 namespace drape {
@@ -146,12 +147,13 @@ void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const A
     if (!options_.keep_promises || !std::isfinite(judgement.stretch)) return;
     if (!control_->segment().probes) deliver_all(asked.finished);
     const bool stretch = judgement.stretch > 1;
+    const std::string impossible = impossible_pins(model_, frame + control_->segment().frame_count - 1);
     throw ToleranceMissed(fmt::format(
         "the tolerance is missed: from frame {} on the {} is {:.3g} times its limit even with {} substeps of method "
-        "{}, "
-        "the most that method auto tries",
+        "{}, the most that method auto tries{}{}",
         frame, stretch ? "stretch error" : "estimated error of the motion",
-        stretch ? judgement.stretch : judgement.motion, control_->segment().substeps, model_.method().name));
+        stretch ? judgement.stretch : judgement.motion, control_->segment().substeps, model_.method().name,
+        impossible.empty() ? "" : "; ", impossible));
 }
 
 void FrameLoop::submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished) {

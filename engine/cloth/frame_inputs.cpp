@@ -9,6 +9,15 @@
 
 namespace drape {
 
+RigidTransform pin_transform(const DynamicPin& pin, double time) {
+    RigidTransform motion = motion_at(pin.path, time);
+    const auto& r = motion.rotation;
+    for (std::size_t k = 0; k < 3; ++k)
+        motion.translation[k] +=
+            pin.pivot[k] - (r[3 * k] * pin.pivot[0] + r[3 * k + 1] * pin.pivot[1] + r[3 * k + 2] * pin.pivot[2]);
+    return motion;
+}
+
 namespace {
 
 glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
@@ -42,16 +51,6 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
 
 bool any_moves(const std::vector<Collider>& colliders) {
     return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });
-}
-
-/// Motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
-RigidTransform pin_transform(const DynamicPin& pin, double time) {
-    RigidTransform motion = motion_at(pin.path, time);
-    const auto& r = motion.rotation;
-    for (std::size_t k = 0; k < 3; ++k)
-        motion.translation[k] +=
-            pin.pivot[k] - (r[3 * k] * pin.pivot[0] + r[3 * k + 1] * pin.pivot[1] + r[3 * k + 2] * pin.pivot[2]);
-    return motion;
 }
 
 /// h times its rate of change just before a time, by the backward difference of second order.

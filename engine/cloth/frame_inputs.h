@@ -6,9 +6,13 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
+#include "scene/motion.h"
 #include "shared/collider_types.h"
 
 namespace drape {
+
+/// Motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
+RigidTransform pin_transform(const DynamicPin& pin, double time);
 
 /// Collider records that a frame has room for: all of them once, or per substep when any is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);

@@ -65,11 +65,10 @@ struct Method {
     MethodPlan (*plan)(const ClothGeometry& cloth, const MethodSettings& settings);
 
     // For `auto`: the law of the stretch error, substeps per frame (a real number) that keep a tolerance; what a
-    // substep costs (cloth/solver_choice.cpp); iterations at most.
+    // substep costs (cloth/solver_choice.cpp).
     double (*substeps)(const Hang& hang, double frame, double tolerance);
     double dispatches, particle_ns;
     bool walks;  ///< an invocation goes along a whole line
-    std::uint32_t most_iterations;
     /// In a closed loop: only its substeps need judging (probed); at the substeps that follow everything it resolves
     /// whatever moves (resolves); neither: it is not chosen, since it damps what it does not resolve.
     enum class Trust : std::uint8_t { none, probed, resolves } trust;

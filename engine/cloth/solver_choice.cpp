@@ -85,7 +85,7 @@ SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
     const SolverCandidate& best = candidates.front();
     SolverChoice choice{scene.solver, candidates, reason_for(candidates, tolerance), 1};
     choice.settings.method = best.method;
-    choice.settings.iterations = row_of(best.method).most_iterations;
+    choice.settings.iterations = 1;
     choice.settings.tolerance = tolerance;
     choice.settings.substeps = first_rung(row_of(best.method), best.substeps);
     choice.least_substeps = best.least_substeps;

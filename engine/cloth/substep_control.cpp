@@ -51,6 +51,8 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     const bool probes = until_probe_ == 0 && room >= 2 && !resolves_;
     began_ = rung_;
     before_ = {};
+    top_motion_ = 0;
+    hopeless_ = false;
     segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
@@ -61,17 +63,44 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
         succeed(judgement);
         return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
     }
-    if (futile(judgement)) {
-        slack_ = unpredictable_slack * judgement.motion;
-        succeed(judgement);
-        // What more substeps do not buy, fewer may not cost.
-        rung_ = below(began_, 2);
-        until_probe_ = 0;
-        return Verdict::unpredictable;
+    if (top_motion_ > 0) return look_back(judgement);
+    // What more substeps do not buy, fewer may not cost.
+    if (futile(judgement)) return accept_unpredictable(judgement, below(began_, 2));
+    if (at_top()) {
+        if (!worth_looking_back(judgement)) return Verdict::give_up;
+        top_motion_ = judgement.motion;
+        return try_again_with(rung_of(rungs_.back() / 4.0));
     }
-    if (at_top()) return Verdict::give_up;
     refine(judgement);
     return Verdict::again;
+}
+
+/// At the top only the motion fails, and nothing with a quarter of its substeps was tried, to tell whether more help.
+bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
+    return !hopeless_ && segment_.probes && judgement.stretch <= 1 && std::isfinite(judgement.motion);
+}
+
+SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
+    tried_ = rung;
+    segment_.substeps = rungs_[tried_];
+    return Verdict::again;
+}
+
+/// Of the attempt with a quarter of the top's substeps.
+SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
+    const bool as_good = judgement.stretch <= 1 && judgement.motion < 2 * top_motion_;
+    top_motion_ = 0;
+    if (as_good) return accept_unpredictable(judgement, below(tried_, 1));
+    hopeless_ = true;
+    return try_again_with(rungs_.size() - 1);
+}
+
+SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& judgement, std::size_t rung) {
+    slack_ = unpredictable_slack * judgement.motion;
+    succeed(judgement);
+    rung_ = rung;
+    until_probe_ = 0;
+    return Verdict::unpredictable;
 }
 
 /// Whether four times the substeps or more have hardly reduced the motion's error: by less than their square root.

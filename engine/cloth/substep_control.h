@@ -54,6 +54,10 @@ class SubstepControl {
     std::size_t rung_of(double substeps) const;
     std::size_t below(std::size_t rung, std::size_t by) const { return rung > lowest_ + by ? rung - by : lowest_; }
     bool futile(const Judgement& judgement) const;
+    Verdict accept_unpredictable(const Judgement& judgement, std::size_t rung);
+    bool worth_looking_back(const Judgement& judgement) const;
+    Verdict try_again_with(std::size_t rung);
+    Verdict look_back(const Judgement& judgement);
     void succeed(const Judgement& judgement);
     void refine(const Judgement& judgement);
     void consider_fewer(const Judgement& judgement);
@@ -68,7 +72,9 @@ class SubstepControl {
     double slack_ = 1;       ///< on the motion's limit, where more substeps did not help
     struct Tried {
         double substeps = 0, motion = 0;
-    } before_;  ///< the segment's last failed attempt
+    } before_;               ///< the segment's last failed attempt
+    double top_motion_ = 0;  ///< of the attempt at the top, while one with a quarter of its substeps is tried
+    bool hopeless_ = false;  ///< that one was worse: more substeps would help, and there are none
     Segment segment_{};
     std::uint32_t interval_ = 1, until_probe_ = 0;  ///< frames between probes, before the next
     std::uint32_t since_fewer_ = 1000000;           ///< frames since the substeps went down

@@ -96,6 +96,24 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
 }
 
+/// Attempts until the verdict, of a cloth whose motion's error is `motion` of the substeps, begun near the top.
+Verdict verdict_near_the_top(SubstepControl& loop, double (*motion)(double)) {
+    loop.begin(6, false);
+    for (int attempts = 0; attempts < 20; ++attempts) {
+        const Verdict verdict = loop.judge({.stretch = 0.1, .motion = motion(loop.segment().substeps)});
+        if (verdict != Verdict::again) return verdict;
+    }
+    return Verdict::again;
+}
+
+TEST(SubstepControl, AtTheTopAQuarterOfItsSubstepsTellWhetherMoreWouldHelp) {
+    SubstepControl chaotic = control(768), resolving = control(768);
+    EXPECT_EQ(verdict_near_the_top(chaotic, [](double) { return 120.0; }), Verdict::unpredictable);
+    EXPECT_EQ(chaotic.segment().substeps, 256u);
+    EXPECT_EQ(verdict_near_the_top(resolving, [](double n) { return std::pow(10000 / n, 2); }), Verdict::give_up);
+    EXPECT_EQ(resolving.segment().substeps, 1024u);
+}
+
 TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
     SubstepControl loop(row_of(SolverMethod::line), 2, 30, 6);
     EXPECT_EQ(loop.segment().substeps, 0u);

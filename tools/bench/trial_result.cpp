@@ -19,6 +19,8 @@ std::optional<double> number_of(const TrialResult& result, const std::string& na
     return found == result.numbers.end() ? std::nullopt : std::optional(found->second);
 }
 
+bool is_impossible(const TrialResult& result) { return result.outcome == TrialOutcome::impossible; }
+bool is_refused(const TrialResult& result) { return result.outcome != TrialOutcome::kept && !is_impossible(result); }
 bool is_silent(const TrialResult& result) { return number_of(result, "missed_frames").value_or(0) > 0; }
 
 struct Value {
@@ -89,7 +91,7 @@ std::string tag_table(std::span<const TrialResult> results) {
         for (const std::string& tag : result.tags) {
             Row& row = rows[tag];
             ++row.scenes;
-            row.refused += result.outcome != TrialOutcome::kept ? 1 : 0;
+            row.refused += is_refused(result) ? 1 : 0;
             row.silent += is_silent(result) ? 1 : 0;
         }
     std::string text = fmt::format("\n{:<20}{:>8}{:>10}{:>10}\n", "scenes with", "scenes", "refused", "silent");
@@ -98,11 +100,11 @@ std::string tag_table(std::span<const TrialResult> results) {
     return text;
 }
 
-double refused_share(std::span<const TrialResult> results) {
-    const auto refused =
-        std::ranges::count_if(results, [](const TrialResult& r) { return r.outcome != TrialOutcome::kept; });
-    return static_cast<double>(refused) / std::max<double>(static_cast<double>(results.size()), 1);
+double share_of(std::span<const TrialResult> results, const std::function<bool(const TrialResult&)>& is) {
+    return static_cast<double>(std::ranges::count_if(results, is)) /
+           std::max<double>(static_cast<double>(results.size()), 1);
 }
+
 
 }  // namespace
 
@@ -176,7 +178,7 @@ std::optional<TrialResult> parsed_trial(const std::string& line) {
 }
 
 bool trial_fails(std::span<const TrialResult> results) {
-    return refused_share(results) > 0.01 || std::ranges::any_of(results, is_silent);
+    return share_of(results, is_refused) > 0.01 || std::ranges::any_of(results, is_silent);
 }
 
 std::string trial_text(std::span<const TrialResult> results) {
@@ -193,12 +195,12 @@ std::string trial_text(std::span<const TrialResult> results) {
                 result.numbers.at("worst_stretch_error"), result.numbers.at("tolerance"),
                 result.numbers.at("worst_spring"));
     text += distributions(results) + tag_table(results);
-    const auto count = static_cast<double>(std::max<std::size_t>(results.size(), 1));
-    const auto silent = std::ranges::count_if(results, is_silent);
-    text +=
-        fmt::format("\n{} scenes: {:.1f} % kept, {:.1f} % refused, {:.1f} % with frames that were silently missed\n",
-                    results.size(), 100 * (1 - refused_share(results)), 100 * refused_share(results),
-                    100 * static_cast<double>(silent) / count);
+    const auto kept = [](const TrialResult& result) { return result.outcome == TrialOutcome::kept; };
+    text += fmt::format(
+        "\n{} scenes: {:.1f} % kept, {:.1f} % refused, {:.1f} % impossible (explicit micro-steps miss the limits there "
+        "too), {:.1f} % with frames that were silently missed\n",
+        results.size(), 100 * share_of(results, kept), 100 * share_of(results, is_refused),
+        100 * share_of(results, is_impossible), 100 * share_of(results, is_silent));
     return text;
 }
 

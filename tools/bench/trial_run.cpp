@@ -240,6 +240,20 @@ void time_fixed(const Device& device, const SceneDescription& scene, const Refer
     sweep(device, scene, SolverMethod::explicit_steps, counts, reference, stop, result);
 }
 
+/// Whether explicit micro-steps, twice as many as soften nothing, stretch the cloth as far in the frames after those that were kept.
+bool is_impossible(const Device& device, const SceneDescription& scene, std::size_t kept,
+                   const std::function<bool()>& stop) {
+    const std::vector<SolverCandidate> candidates = SimulationModel(scene).choice.candidates;
+    const auto steps = std::ranges::find(candidates, SolverMethod::explicit_steps, &SolverCandidate::method);
+    if (steps == candidates.end()) return false;
+    SceneDescription shortened = fixed(scene, SolverMethod::explicit_steps, 2 * steps->substeps);
+    shortened.time.frame_count = static_cast<std::uint32_t>(
+        std::min<double>(scene.time.frame_count, std::ceil(static_cast<double>(kept) + 2 + 0.1 * scene.time.fps)));
+    const TrialRun run = bench::run(device, shortened, false, stop);
+    const Limits limits(scene);
+    return std::ranges::any_of(run.frames, [&](const TrialFrame& frame) { return !limits.keeps(frame); });
+}
+
 }  // namespace
 
 TrialResult try_scene(const Device& device, const SceneDescription& scene, bool with_reference,
@@ -251,6 +265,8 @@ TrialResult try_scene(const Device& device, const SceneDescription& scene, bool 
     result.reason = own.reason;
     result.method = own.method;
     count_frames(own, scene, result.numbers);
+    if (own.outcome == TrialOutcome::tolerance && is_impossible(device, scene, own.frames.size(), stop))
+        result.outcome = TrialOutcome::impossible;
     if (const auto estimate = motion_estimate(own, own.frames.size(), scene.time.fps))
         result.numbers["motion_estimate"] = *estimate;
     if (!with_reference || own.outcome != TrialOutcome::kept) return result;
