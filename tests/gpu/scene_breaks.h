@@ -17,7 +17,16 @@ struct SceneBreak {
     std::string check;   ///< the oracle that must go red
     std::string what;    ///< what is wrong
     std::uint32_t last;  ///< frame by which it shows
-    void (*apply)(SimulationModel&);
+    /// What breaks it: the scene before it is run, or its model; the other is null. The oracle judges by the file.
+    void (*break_scene)(SceneDescription&);
+    void (*break_model)(SimulationModel&) = nullptr;
+
+    SimulationModel model_of(SceneDescription whole) const {
+        if (break_scene) break_scene(whole);
+        SimulationModel model(whole);
+        if (break_model) break_model(model);
+        return model;
+    }
 
     bool concerns(const std::string& scene_name, const std::string& oracle) const {
         return (scene.empty() || scene == scene_name) && check == oracle;

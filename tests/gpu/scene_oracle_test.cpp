@@ -42,8 +42,7 @@ TEST_P(SceneOracleTest, IsMetAndNoticesABreak) {
             if (!damage.concerns(GetParam(), oracle.check)) continue;
             const std::string key = damage.what + std::to_string(damage.last);
             if (!broken_runs.contains(key)) {
-                SimulationModel model(scene);
-                damage.apply(model);
+                const SimulationModel model = damage.model_of(scene);
                 broken_runs.emplace(key, test::run_frames(scene, model, std::min(damage.last, last)));
             }
             expect_noticed(run, broken_runs.at(key), oracle, damage);

@@ -49,6 +49,7 @@ SceneRun run_frames(const SceneDescription& scene, const SimulationModel& model,
     options.draw = false;
     options.positions = true;
     options.timestamps = graph::TimestampMode::none;
+    options.keep_promises = false;  // a broken program keeps none
     options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };

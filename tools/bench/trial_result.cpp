@@ -105,7 +105,6 @@ double share_of(std::span<const TrialResult> results, const std::function<bool(c
            std::max<double>(static_cast<double>(results.size()), 1);
 }
 
-
 }  // namespace
 
 std::vector<std::string> tags_of(const SceneDescription& scene) {

@@ -240,7 +240,8 @@ void time_fixed(const Device& device, const SceneDescription& scene, const Refer
     sweep(device, scene, SolverMethod::explicit_steps, counts, reference, stop, result);
 }
 
-/// Whether explicit micro-steps, twice as many as soften nothing, stretch the cloth as far in the frames after those that were kept.
+/// Whether explicit micro-steps, twice as many as soften nothing, stretch the cloth as far in the frames after those
+/// that were kept.
 bool is_impossible(const Device& device, const SceneDescription& scene, std::size_t kept,
                    const std::function<bool()>& stop) {
     const std::vector<SolverCandidate> candidates = SimulationModel(scene).choice.candidates;
