@@ -181,6 +181,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
         manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
     const bool chosen = facts.asked_method != facts.method;
     manifest.solver = {facts.method,
+                       facts.schedule,
                        scene.solver.substeps,
                        scene.solver.iterations,
                        scene.solver.tethers,
@@ -202,6 +203,7 @@ SimulationOptions simulation_options(const SceneRequest& request, bool draw, boo
     options.draw = draw;
     options.positions = positions;
     options.skip = request.skip;
+    options.schedule = request.schedule;
     return options;
 }
 

@@ -11,6 +11,7 @@
 
 #include "drape/error.h"
 #include "drape/scene_reader.h"
+#include "drape/schedule.h"
 #include "exit_code.h"
 #include "output/output_folder.h"
 
@@ -30,6 +31,7 @@ struct SceneRequest {
     std::string device;     ///< selector; empty: the best there is
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
+    Schedule schedule = Schedule::automatic;
 };
 
 struct RunRequest {

@@ -28,7 +28,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     : device_(device),
       model_(model),
       options_(options),
-      solver_(device, model_),
+      solver_(device, model_, options.schedule),
       state_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())

@@ -37,6 +37,7 @@ struct FrameLoopOptions {
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
+    Schedule schedule = Schedule::automatic;
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
     /// Told of every cut, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
@@ -93,6 +94,8 @@ class FrameLoop {
     const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
     const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
     const graph::ResourcePool& pool() const { return *pool_; }
+    /// In use.
+    Schedule schedule() const { return solver_.schedule(); }
 
   private:
     struct Frame {

@@ -39,6 +39,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.normals = wanted.normals;
     options.statistics = wanted.statistics;
     options.keep_promises = wanted.keep_promises;
+    options.schedule = wanted.schedule;
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
@@ -141,6 +142,7 @@ SimulationFacts Simulation::facts() const {
     const graph::Plan& output = parts_->loop.plan(FrameKind::simulate_and_output);
     const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
     SimulationFacts facts{.method = std::string(model.method().name),
+                          .schedule = std::string(spelling(schedule_spellings, parts_->loop.schedule())),
                           .asked_method = std::string(named(model.asked_method).name),
                           .choice_reason = model.choice.reason,
                           .tolerance = model.asked_tolerance,

@@ -3,17 +3,17 @@
 // how much faster the end of the frame is than its last substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HOME EXCESS
+#pragma variants HOME EXCESS BUFFERED
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
 #include "include/verlet.h"
+layout(push_constant) uniform Push { GridPush push; };
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool collides = false;
-layout(push_constant) uniform Push { GridPush push; };
 #ifdef EXCESS
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before;  // of the substep before the last
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D end_excess_out;
+VECTOR_OUT(10, EndExcessOut, end_excess_out);
 #endif
 
 void main() {
@@ -23,9 +23,9 @@ void main() {
     advance_position(texel, imageLoad(position_in, texel), moved.xyz);
 #ifdef EXCESS
     vec3 excess = end_excess(moved.xyz, imageLoad(displacement_before, texel).xyz, collides ? contact_excess : free_excess);
-    imageStore(end_excess_out, texel, vec4(excess, 0.0f));
+    STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
 #endif
 #ifdef HOME
-    imageStore(displacement_out, texel, moved);
+    STORE_VECTOR(displacement_out, texel, moved);
 #endif
 }

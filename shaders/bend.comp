@@ -2,7 +2,7 @@
 // touched twice. MASKED: the spring shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
+#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
@@ -10,9 +10,10 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { BendPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
@@ -46,7 +47,7 @@ void main() {
     vec3 correction = project_bend(difference, bend_weight(weight_first, weight_middle, weight_third),
                                    bend_share(share_of(first), share_of(middle)), push.compliance);
     precise float coefficient = -2.0f * weight_middle;
-    imageStore(displacement_out, first, vec4(moved_by(moved_first.xyz, correction, weight_first), moved_first.w));
-    imageStore(displacement_out, middle, vec4(moved_by(moved_middle.xyz, correction, coefficient), moved_middle.w));
-    imageStore(displacement_out, third, vec4(moved_by(moved_third.xyz, correction, weight_third), moved_third.w));
+    STORE_VECTOR(displacement_out, first, vec4(moved_by(moved_first.xyz, correction, weight_first), moved_first.w));
+    STORE_VECTOR(displacement_out, middle, vec4(moved_by(moved_middle.xyz, correction, coefficient), moved_middle.w));
+    STORE_VECTOR(displacement_out, third, vec4(moved_by(moved_third.xyz, correction, weight_third), moved_third.w));
 }

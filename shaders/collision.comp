@@ -1,15 +1,17 @@
 // Moves every particle out of every collider, with friction; specialised to the kinds that the scene has.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants BUFFERED
 #include "shared/simulation_types.h"
 #include "include/colliders.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
 layout(push_constant) uniform Push { CollisionPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -26,5 +28,5 @@ void main() {
         touched = touched || contact.depth > 0.0f;
         if (!(contact.depth > push.contact.z)) break;
     }
-    if (touched) imageStore(displacement_out, texel, vec4(displacement, moved.w));
+    if (touched) STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 }

@@ -4,19 +4,19 @@
 // Particles with w = 0 feel no force; the pin pass moves those that the user moves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED WIND
+#pragma variants MASKED WIND BUFFERED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/explicit.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
+layout(push_constant) uniform Push { ExplicitPush push; };
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
-layout(push_constant) uniform Push { ExplicitPush push; };
 #ifdef MASKED
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_share_image;
 #endif
@@ -128,9 +128,9 @@ void main() {
     if (advance)
         advance_position(texel, position, displacement);
     else
-        imageStore(position_out, texel, position);
+        STORE_VECTOR(position_out, texel, position);
     if (position.w == 0.0f) {
-        imageStore(displacement_out, texel, vec4(displacement, 0.0f));
+        STORE_VECTOR(displacement_out, texel, vec4(displacement, 0.0f));
         return;
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));

@@ -3,15 +3,15 @@
 // moves those that the user moves. BEFORE: the last substep of a frame keeps the displacement of the one before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIND BEFORE
+#pragma variants WIND BEFORE BUFFERED
 #include "shared/simulation_types.h"
 #include "include/verlet.h"
+layout(push_constant) uniform Push { ForcePush push; };
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(push_constant) uniform Push { ForcePush push; };
 #ifdef BEFORE
-layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D displacement_before;
+VECTOR_OUT(9, DisplacementBefore, displacement_before);
 #endif
 
 void main() {
@@ -22,7 +22,7 @@ void main() {
     vec3 displacement = moved.xyz;
     if (advance) advance_position(texel, position, displacement);
 #ifdef BEFORE
-    imageStore(displacement_before, texel, vec4(displacement, 0.0f));
+    STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
 #endif
     if (position.w == 0.0f) return;
     vec4 force = force_on(texel);

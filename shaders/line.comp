@@ -4,8 +4,9 @@
 // BENT: the line bends.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER MASKED BENT
+#pragma variants SECOND_ORDER MASKED BENT BUFFERED
 #include "shared/line_types.h"
+#include "shared/simulation_types.h"
 #include "include/line.h"
 #ifdef BENT
 #include "include/bent_line.h"
@@ -14,16 +15,17 @@
 
 layout(local_size_x = line_group_width) in;
 layout(push_constant) uniform Push { LinePush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 // Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
 // leaves the spring after it.
 layout(set = 0, binding = 3, std430) buffer Scratch { vec4 scratch[]; };
 // Of spring e of a line: eliminated; before, of particle e of a line that bends.
 layout(set = 0, binding = 4, std430) buffer Rows { vec2 rows[]; };
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
-layout(set = 0, binding = 6, r32f) uniform writeonly image2D tension_out;
+SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
 #endif
@@ -198,7 +200,7 @@ float eliminate_springs(int line, float compliance, float followed) {
 
 void store_particle(LineParticle particle, vec3 delta, vec3 correction) {
     vec4 before = imageLoad(displacement_in, particle.at);  // w: lost to drag, kept beside the displacement
-    imageStore(displacement_out, particle.at,
+    STORE_VECTOR(displacement_out, particle.at,
                vec4(moved_by_both(before.xyz, delta, correction, particle.position.w), before.w));
 }
 
@@ -215,7 +217,7 @@ void substitute_springs(int line, float compliance, float followed) {
         float change = substitute_spring(rows[place(line, e)], change_before);
         store_particle(first, filtered.xyz, line_correction(normal_before, change_before, normal, change));
         float tension = changed_tension(filtered.w, change, share_of(first.at), compliance);
-        imageStore(tension_out, first.at, vec4(stored_tension(tension, followed), 0.0f, 0.0f, 0.0f));
+        STORE_SCALAR(tension_out, first.at, stored_tension(tension, followed));
         change_before = change;
         normal_before = normal;
         filtered = filtered_after;

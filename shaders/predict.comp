@@ -3,19 +3,19 @@
 // control says. WIND: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIND
+#pragma variants WIND BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bdf2.h"
 #include "include/verlet.h"
+layout(push_constant) uniform Push { PredictPush push; };
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(push_constant) uniform Push { PredictPush push; };
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D displacement_before_out;
+VECTOR_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
-layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D velocity_excess_out;
+VECTOR_OUT(12, VelocityExcessOut, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
 
 void main() {
@@ -28,8 +28,8 @@ void main() {
     vec3 before = imageLoad(displacement_before_in, texel).xyz;
     vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
     vec3 excess = velocity_excess(displacement, before, imageLoad(control, ivec2(control_previous_order, 0)).x);
-    imageStore(displacement_before_out, texel, vec4(displacement, 0.0f));
-    imageStore(velocity_excess_out, texel, vec4(excess, 0.0f));
+    STORE_VECTOR(displacement_before_out, texel, vec4(displacement, 0.0f));
+    STORE_VECTOR(velocity_excess_out, texel, vec4(excess, 0.0f));
     if (position.w == 0.0f) return;
     vec4 force = force_on(texel);
     vec3 increment;

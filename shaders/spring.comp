@@ -3,22 +3,23 @@
 // iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION
+#pragma variants MASKED TENSION BUFFERED
 #include "shared/simulation_types.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SpringPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 #ifdef TENSION
 layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
-layout(set = 0, binding = 5, r32f) uniform writeonly image2D tension_out;
+SCALAR_OUT(5, TensionOut, tension_out);
 #endif
 
 void main() {
@@ -46,9 +47,9 @@ void main() {
     SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first.xyz, result.correction, -weight_first);
     vec3 moved_second = moved_by(displacement_second.xyz, result.correction, weight_second);
-    imageStore(displacement_out, first, vec4(moved_first, displacement_first.w));
-    imageStore(displacement_out, second, vec4(moved_second, displacement_second.w));
+    STORE_VECTOR(displacement_out, first, vec4(moved_first, displacement_first.w));
+    STORE_VECTOR(displacement_out, second, vec4(moved_second, displacement_second.w));
 #ifdef TENSION
-    imageStore(tension_out, first, vec4(result.tension, 0.0f, 0.0f, 0.0f));
+    STORE_SCALAR(tension_out, first, result.tension);
 #endif
 }

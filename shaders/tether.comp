@@ -2,6 +2,7 @@
 // which this pass does not move; one that was released holds nobody.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/tether_types.h"
 #include "include/spring.h"
@@ -9,9 +10,10 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { GridPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, std430) readonly buffer Tethers { ParticleTethers tethers[]; };
 
 vec3 tethered(vec3 start, vec3 displacement, int anchor, float length) {
@@ -32,5 +34,5 @@ void main() {
     vec4 before = imageLoad(displacement_in, texel);
     vec3 moved = tethered(start.xyz, before.xyz, mine.anchor_a, mine.length_a);
     moved = tethered(start.xyz, moved, mine.anchor_b, mine.length_b);
-    if (moved != before.xyz) imageStore(displacement_out, texel, vec4(moved, before.w));
+    if (moved != before.xyz) STORE_VECTOR(displacement_out, texel, vec4(moved, before.w));
 }

@@ -2,7 +2,7 @@
 // MASKED: whether the cell is whole comes from the spring shares (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
+#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
@@ -10,9 +10,10 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { TwistPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
@@ -45,8 +46,8 @@ void main() {
                                        spring_edge(position_01.xyz, position_11.xyz, moved_01.xyz, moved_11.xyz));
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     vec3 correction = project_bend(difference, weight, share, push.compliance);
-    imageStore(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));
-    imageStore(displacement_out, upper_right, vec4(moved_by(moved_10.xyz, correction, -weight_10), moved_10.w));
-    imageStore(displacement_out, lower_left, vec4(moved_by(moved_01.xyz, correction, -weight_01), moved_01.w));
-    imageStore(displacement_out, lower_right, vec4(moved_by(moved_11.xyz, correction, weight_11), moved_11.w));
+    STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));
+    STORE_VECTOR(displacement_out, upper_right, vec4(moved_by(moved_10.xyz, correction, -weight_10), moved_10.w));
+    STORE_VECTOR(displacement_out, lower_left, vec4(moved_by(moved_01.xyz, correction, -weight_01), moved_01.w));
+    STORE_VECTOR(displacement_out, lower_right, vec4(moved_by(moved_11.xyz, correction, weight_11), moved_11.w));
 }

@@ -2,7 +2,7 @@
 // MASKED: the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
+#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/triangles.h"
 #include "include/wind.h"
@@ -10,9 +10,10 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(push_constant) uniform Push { WindPush push; };
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D wind_force;
+VECTOR_OUT(2, WindForceOut, wind_force);
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 #ifdef MASKED
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
@@ -42,5 +43,5 @@ void main() {
         sum = add_wind_share(sum, corners[0], corners[1], corners[2], moved[0], moved[1], moved[2], push.inverse_step,
                              wind_velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
     }
-    imageStore(wind_force, texel, vec4(sum.force, sum.drag));
+    STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
 }

@@ -140,6 +140,17 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
     command.add_flag_callback(
         "--no-skip", [&scene] { scene.skip = false; },
         "Do the work that is skipped because it changes no bit of the result");
+    std::string words;
+    for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
+    add_option(command, "--schedule", words.c_str(),
+               "How passes run on the device, all to the same bits: `buffers` stores through\n"
+               "buffers of the images' memory; default: by the device",
+               [&scene, words](const std::string& text) {
+                   const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
+                   if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
+                   scene.schedule = found->value;
+                   return std::string();
+               });
 }
 
 void add_image_options(CLI::App& command, SceneRequest& scene) {

@@ -40,7 +40,7 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 void add_device_option(CLI::App& command, std::string& device);
 /// --validate
 void add_validate_option(CLI::App& command, bool& validate);
-/// SCENE, --set, --device, --validate, --no-skip
+/// SCENE, --set, --device, --validate, --no-skip, --schedule
 void add_scene_options(CLI::App& command, SceneRequest& scene);
 /// --size, --samples
 void add_image_options(CLI::App& command, SceneRequest& scene);

@@ -30,7 +30,8 @@ float sweep_compliance(double wanted, double share, double sweep) {
 void add_twists(const ClothGeometry& cloth, float compliance, MethodPlan& plan) {
     for (const TwistPass& pass : twist_passes(cloth.grid.size()))
         if (!pass.empty())
-            plan.once.push_back({StepKind::twist, glsl::TwistPush{pass.element_count, pass.first, compliance}});
+            plan.once.push_back(
+                {StepKind::twist, glsl::TwistPush{cloth.grid.size(), pass.element_count, pass.first, compliance}});
 }
 
 double substeps_for(double share, const MethodSettings& settings) {

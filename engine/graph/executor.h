@@ -39,8 +39,10 @@ class ResourcePool {
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
 };
 
-/// Why the device cannot give an image a buffer view; empty when it can. Callers without one use the image alone.
-std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image);
+/// Why the device cannot give an image a buffer view, of rows `row_pitch` texels apart where that is not 0; empty when
+/// it can. Callers without one use the image alone.
+std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image,
+                                 std::uint32_t row_pitch = 0);
 
 enum class TimestampMode { none, stages, passes };
 

@@ -179,11 +179,11 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
     });
 }
 
-std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image) {
+std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image, std::uint32_t row_pitch) {
     constexpr VkImageUsageFlags usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return vulkan::Image::obstacle(device,
-                                   {image.name, image.format, image.width, image.height, usage, image.samples, true});
+    return vulkan::Image::obstacle(
+        device, {image.name, image.format, image.width, image.height, usage, image.samples, true}, row_pitch);
 }
 
 bool ResourcePool::has(const std::string& name) const { return images_.contains(name) || buffers_.contains(name); }

@@ -45,7 +45,8 @@ struct Manifest {
         std::uint32_t samples = 0;  // per pixel
     };
     struct Solver {
-        std::string method;  // in use
+        std::string method;    // in use
+        std::string schedule;  // in use
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
         bool tethers = false;

@@ -30,15 +30,19 @@ void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     const auto& push = step.push<glsl::BendPush>();
     const std::string name =
         fmt::format("bend {} {}", bend_axes[static_cast<std::size_t>(push.channel)].name, push.colour);
-    add_elements(graph, pipelines.get(vulkan::variant_name("bend.comp", {{"masked", state.masked()}})), state, step,
-                 name, push);
+    add_elements(
+        graph,
+        pipelines.get(vulkan::variant_name("bend.comp", {{"masked", state.masked()}, {"buffered", state.buffered}})),
+        state, step, name, push);
 }
 
 void add_twist(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::TwistPush>();
     const std::string name = fmt::format("twist {} {}", push.first.x, push.first.y);
-    add_elements(graph, pipelines.get(vulkan::variant_name("twist.comp", {{"masked", state.masked()}})), state, step,
-                 name, push);
+    add_elements(
+        graph,
+        pipelines.get(vulkan::variant_name("twist.comp", {{"masked", state.masked()}, {"buffered", state.buffered}})),
+        state, step, name, push);
 }
 
 }  // namespace drape

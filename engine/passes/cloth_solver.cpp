@@ -1,5 +1,7 @@
 #include "passes/cloth_solver.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "passes/attempt_pass.h"
@@ -58,14 +60,28 @@ VkFormat format_of(const FieldRow& row) {
     return &row.element == &glsl::layout_of<float>() ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT;
 }
 
-graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const FieldContext& about) {
+graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const FieldContext& about, bool buffered) {
     const FieldExtent extent = row.extent(about);
     const std::string name = resource_name(about.cloth, row);
     if (!row.is_image())
         return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element});
     return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
                         static_cast<std::uint32_t>(extent.height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
-                        row.view == FieldView::image_and_buffer});
+                        buffered && row.view == FieldView::image_and_buffer});
+}
+
+/// Buffers on a CPU that can; GPUs store to either alike, and load from LINEAR images more slowly.
+Schedule chosen(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
+    if (asked == Schedule::images) return asked;
+    if (asked == Schedule::automatic && device_kind(device.info()) != DeviceKind::cpu) return Schedule::images;
+    for (const ClothModel& cloth : model.cloths) {
+        const std::string obstacle = buffered_obstacle(device, cloth.grid);
+        if (obstacle.empty()) continue;
+        if (asked == Schedule::automatic) return Schedule::images;
+        throw vulkan::VulkanError(
+            fmt::format("schedule '{}', cloth '{}': {}", spelling(schedule_spellings, asked), cloth.name, obstacle));
+    }
+    return Schedule::buffers;
 }
 
 }  // namespace
@@ -74,8 +90,8 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
     return device.type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
 }
 
-ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model)
-    : model_(model), run_(&model), pipelines_(device) {
+ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule)
+    : model_(model), run_(&model), schedule_(chosen(device, model, schedule)), pipelines_(device) {
     for (const ClothModel& cloth : model.cloths) {
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
@@ -101,10 +117,11 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
     state.model = &about.cloth;
     state.topology = &about.topology;
     state.index = index;
+    state.buffered = schedule_ == Schedule::buffers;
     state.index_count = static_cast<std::uint32_t>(about.topology.indices().size());
     state.iteration_sizes = iteration_sizes_[index];
     for (const FieldRow& row : cloth_fields())
-        if (row.needed(about)) state[row.field] = declare_field(graph, row, about);
+        if (row.needed(about)) state[row.field] = declare_field(graph, row, about, state.buffered);
     cloths_.push_back(state);
 }
 

@@ -9,6 +9,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_judgement.h"
+#include "drape/schedule.h"
 #include "passes/attempt_pass.h"
 #include "passes/pass_kit.h"
 
@@ -26,7 +27,10 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device);
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
-    ClothSolver(const vulkan::Device& device, const SimulationModel& model);
+    /// Throws VulkanError when the device has not what the schedule needs.
+    ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule = Schedule::automatic);
+    /// In use.
+    Schedule schedule() const { return schedule_; }
 
     /// What cuts made of each cloth; what changes them acts from the next `declare` or `upload_cut` on.
     std::vector<CutTopology>& topologies() { return topologies_; }
@@ -91,6 +95,7 @@ class ClothSolver {
 
     const SimulationModel& model_;
     const SimulationModel* run_;  ///< of the graph being built
+    Schedule schedule_;
     std::vector<CutTopology> topologies_;
     PipelineCache pipelines_;
     /// Per cloth; the same in the graph of every kind of frame.

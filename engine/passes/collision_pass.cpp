@@ -8,7 +8,8 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
-    const vulkan::ComputePipeline& pipeline = pipelines.get("collision.comp", constants);
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("collision.comp", {{"buffered", state.buffered}}), constants);
     glsl::CollisionPush push = state.model->collision;
     push.first = first_collider(model.scene, step.substep);
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());

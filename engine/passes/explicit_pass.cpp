@@ -8,7 +8,8 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,
                         has_bend = push.twist > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("explicit.comp", {{"masked", state.masked()}, {"wind", wind}}),
+        pipelines.get(vulkan::variant_name("explicit.comp",
+                                           {{"masked", state.masked()}, {"wind", wind}, {"buffered", state.buffered}}),
                       {{"advance", advances}, {"has_shear", has_shear}, {"has_bend", has_bend}});
     graph.add_pass(
         state.step_name("explicit step", step),

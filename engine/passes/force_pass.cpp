@@ -7,7 +7,8 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     const bool before = step.last && state[Field::displacement_before].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("force.comp", {{"wind", wind}, {"before", before}}), {{"advance", advances}});
+        vulkan::variant_name("force.comp", {{"wind", wind}, {"before", before}, {"buffered", state.buffered}}),
+        {{"advance", advances}});
     graph.add_pass(
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
@@ -30,8 +31,9 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     const bool excess = state[Field::end_excess].valid();
     std::vector<vulkan::SpecializationConstant> constants;
     if (excess) constants.push_back({"collides", state.model->collides ? 1u : 0u});
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("advance.comp", {{"home", state.away}, {"excess", excess}}), constants);
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("advance.comp", {{"home", state.away}, {"excess", excess}, {"buffered", state.buffered}}),
+        constants);
     // Where micro-steps go to and fro, the substep before the last is in the other image.
     const graph::Handle before =
         state.model->plan.spare_state ? state[Field::displacement_spare] : state[Field::displacement_before];

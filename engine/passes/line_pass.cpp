@@ -17,8 +17,8 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("predict.comp", {{"wind", wind}}), {{"advance", advances}});
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}), {{"advance", advances}});
     graph.add_pass(
         state.step_name("predict", step),
         [&](graph::PassSetup& setup) {
@@ -42,8 +42,11 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
     glsl::LinePush push = step.push<glsl::LinePush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-        "line.comp", {{"second_order", model.plan.second_order}, {"masked", state.masked()}, {"bent", push.bend > 0}}));
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("line.comp", {{"second_order", model.plan.second_order},
+                                                         {"masked", state.masked()},
+                                                         {"bent", push.bend > 0},
+                                                         {"buffered", state.buffered}}));
     const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),

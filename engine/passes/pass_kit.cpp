@@ -19,6 +19,17 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
     return *pipeline;
 }
 
+std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid) {
+    for (const VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT}) {
+        const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(format);
+        std::string why = graph::buffer_view_obstacle(
+            device, {.name = "state", .format = format, .width = grid.columns(), .height = grid.rows()},
+            (grid.columns() + step - 1) / step * step);
+        if (!why.empty()) return why;
+    }
+    return {};
+}
+
 std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
     return cloth.name + "/" + std::string(row.name);
 }

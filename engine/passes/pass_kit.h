@@ -28,6 +28,10 @@ class PipelineCache {
     std::map<std::string, std::unique_ptr<vulkan::ComputePipeline>> pipelines_;
 };
 
+/// Why a cloth of this size cannot have its state written through buffer views (shaders/include/state_store.h); empty
+/// when it can.
+std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid);
+
 /// Newest handles of one cloth's resources within the graph being built.
 struct ClothState {
     const ClothModel* model = nullptr;
@@ -37,6 +41,7 @@ struct ClothState {
     graph::Handle& operator[](Field field) { return handles[static_cast<std::size_t>(field)]; }
     const graph::Handle& operator[](Field field) const { return handles[static_cast<std::size_t>(field)]; }
     std::array<graph::Handle, field_count> handles;
+    bool buffered = false;          ///< passes write the state's images through their buffer views
     bool away = false;              ///< position and displacement are the spare images, not where the frame starts
     std::uint32_t index_count = 0;  ///< of the triangles
     /// What Field::iteration_sizes will hold, gathered while the passes are added.

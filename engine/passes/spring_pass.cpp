@@ -12,8 +12,8 @@ void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     const auto direction = static_cast<std::size_t>(push.channel);
     const bool stores_tension = state[tension_of(direction)].valid() &&
                                 (state.model->plan.carries_tension[direction] || (step.last && push.compliance > 0));
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("spring.comp", {{"masked", state.masked()}, {"tension", stores_tension}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
+        "spring.comp", {{"masked", state.masked()}, {"tension", stores_tension}, {"buffered", state.buffered}}));
     const std::string name =
         std::string("spring ") + std::string(spring_directions[direction].name) + (push.parity == 0 ? " even" : " odd");
     const StepDispatch dispatch(state, step, pipeline, push.pair_count);

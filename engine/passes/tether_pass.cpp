@@ -3,7 +3,8 @@
 namespace drape {
 
 void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get("tether.comp");
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("tether.comp", {{"buffered", state.buffered}}));
     graph.add_pass(
         state.step_name("tethers", step),
         [&](graph::PassSetup& setup) {

@@ -6,7 +6,8 @@ void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
               const Step& step) {
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("wind.comp", {{"masked", state.masked()}}), {{"advance", advances}});
+        pipelines.get(vulkan::variant_name("wind.comp", {{"masked", state.masked()}, {"buffered", state.buffered}}),
+                      {{"advance", advances}});
     glsl::WindPush push = state.model->wind;
     push.substep = static_cast<int>(step.substep);
     graph.add_pass(

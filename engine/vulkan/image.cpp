@@ -108,9 +108,12 @@ Image::Image(const Device& device, const ImageDescription& description) : Image(
     if (description.usage & ~transfer) make_view();
 }
 
-std::string Image::obstacle(const Device& device, const ImageDescription& description) {
+std::string Image::obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch) {
     try {
-        Image(device, description, Empty{}).make_handles();
+        Image image(device, description, Empty{});
+        image.make_handles();
+        if (row_pitch != 0 && image.row_pitch() != row_pitch)
+            return fmt::format("its rows are {} texels apart, not {}", image.row_pitch(), row_pitch);
     } catch (const VulkanError& error) {
         return error.what();
     }

@@ -29,8 +29,9 @@ class Image {
     /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is
     /// beyond the device, or the texels beyond the memory budget.
     Image(const Device& device, const ImageDescription& description);
-    /// Why the device or its budget cannot have such an image; empty when they can.
-    static std::string obstacle(const Device& device, const ImageDescription& description);
+    /// Why the device or its budget cannot have such an image; empty when they can. `row_pitch`, where it is not 0, is
+    /// what that of its buffer view must be.
+    static std::string obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch = 0);
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&&) = delete;

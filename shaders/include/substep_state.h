@@ -1,14 +1,17 @@
 // What the passes share that carry a cloth's state from substep to substep: its images, and the compensated sums that
-// move position and displacement on. WIND: the wind's force is one of the images. Needs `verlet.h`.
+// move position and displacement on. WIND: the wind's force is one of the images. Needs `verlet.h`
+// and `push.grid`.
+#include "include/state_store.h"
+
 layout(local_size_x = workgroup_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
+VECTOR_OUT(1, PositionOut, position_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D displacement_out;
+VECTOR_OUT(3, DisplacementOut, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
-layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D position_remainder_out;
+VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder_out;
+VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef WIND
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 #endif
@@ -16,8 +19,8 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 /// X += d.
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_remainder_in, texel).xyz);
-    imageStore(position_out, texel, vec4(advanced.value, position.w));
-    imageStore(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
+    STORE_VECTOR(position_out, texel, vec4(advanced.value, position.w));
+    STORE_VECTOR(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
 }
 
 /// d += increment, less what the wind's drag takes away: the share `loss`. `displacement`: with what is beside it.
@@ -25,8 +28,8 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
     CompensatedSum stepped =
         compensated_add(displacement.xyz, counted, imageLoad(displacement_remainder_in, texel).xyz);
-    imageStore(displacement_out, texel, vec4(stepped.value, loss));
-    imageStore(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
+    STORE_VECTOR(displacement_out, texel, vec4(stepped.value, loss));
+    STORE_VECTOR(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }
 
 /// On the particle of a texel: N; w: its drag, N/m.

@@ -11,6 +11,8 @@ namespace drape::glsl {
 
 /// Workgroups are rows along x: 64x1 is among the best shapes on the default device and coalesces on GPUs.
 const int workgroup_width = 64;
+/// Bytes: rows of a state image's buffer view begin at multiples of it (include/state_store.h).
+const int state_row_alignment = 64;
 
 /// One parity pass of one spring direction (engine/cloth/directions.h).
 struct SpringPush {
@@ -57,6 +59,7 @@ struct BendPush {
 
 /// The twist of one colour of the cells (engine/cloth/directions.h).
 struct TwistPush {
+    ivec2 grid;           // columns, rows
     ivec2 element_count;  // cells of this pass along columns, rows
     ivec2 first;          // its first cell
     float compliance;     // m_inner / (t h^2), dimensionless, > 0

@@ -162,6 +162,8 @@ TEST(BufferViewObstacle, SaysWhatTheDeviceLacks) {
     const std::uint32_t beyond = gpu().device.limits().maxImageDimension2D + 1;
     EXPECT_THAT(buffer_view_obstacle(gpu().device, {.name = "wide", .width = beyond}),
                 HasSubstr("image wide (" + std::to_string(beyond) + " x 1): the device's limit is"));
+    EXPECT_THAT(buffer_view_obstacle(gpu().device, {.name = "narrow", .width = 3, .height = 2}, 3),
+                HasSubstr("texels apart, not 3"));
     EXPECT_THAT(buffer_view_obstacle(gpu().device, {.name = "samples", .samples = VK_SAMPLE_COUNT_4_BIT}),
                 HasSubstr("samples"));
     EXPECT_THAT(buffer_view_obstacle(gpu().device, {.name = "srgb", .format = VK_FORMAT_R8G8B8A8_SRGB}),

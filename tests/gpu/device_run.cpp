@@ -31,8 +31,9 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
 
 }  // namespace
 
-DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep)
-    : device_(device), model_(model), solver_(device, model), slots_(device) {
+DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep,
+                     Schedule schedule)
+    : device_(device), model_(model), solver_(device, model, schedule), slots_(device) {
     solver_.declare(graph_, {.drawing = true});
     solver_.add_simulation(graph_);
     solver_.add_normals(graph_);

@@ -23,7 +23,8 @@ std::vector<T> texels_of(std::span<const std::byte> bytes) {
 
 class DeviceRun {
   public:
-    DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {});
+    DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {},
+              Schedule schedule = Schedule::automatic);
 
     /// Simulates from frame-1 to `frame` and waits.
     void run_frame(std::uint32_t frame);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "device_run.h"
@@ -62,20 +63,32 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
     expect_same(row_of(field), one.bytes(0, field), other.bytes(0, field), frame);
 }
 
+/// Schedules that the device has for a model's cloths.
+inline std::vector<Schedule> schedules(const SimulationModel& model) {
+    const bool buffered = std::ranges::all_of(model.cloths, [](const ClothModel& cloth) {
+        return buffered_obstacle(gpu().device, cloth.grid).empty();
+    });
+    return buffered ? std::vector{Schedule::images, Schedule::buffers} : std::vector{Schedule::images};
+}
+
+/// On every schedule.
 inline void compare(const SceneDescription& scene, const ModelOptions& options = {}) {
     const SimulationModel model(scene, options);
     Twin twin(model);
-    DeviceRun device(gpu().device, model);
+    std::vector<std::unique_ptr<DeviceRun>> devices;
+    for (const Schedule schedule : schedules(model))
+        devices.push_back(std::make_unique<DeviceRun>(gpu().device, model, graph::BarrierFilter{}, schedule));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
-        device.run_frame(frame);
+        for (const auto& device : devices) device->run_frame(frame);
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
             twin.normals(cloth);
             const TwinCloth& expected = twin.cloth(cloth);
             const FieldContext about{model, model.cloths[cloth], expected.topology, {.drawing = true}};
             for (const FieldRow& row : cloth_fields())
                 if (row.needed(about) && (row.life == FieldLife::state || row.field == Field::normal))
-                    expect_same(row, device.bytes(cloth, row.field), expected.bytes(row.field), frame);
+                    for (const auto& device : devices)
+                        expect_same(row, device->bytes(cloth, row.field), expected.bytes(row.field), frame);
         }
         if (::testing::Test::HasFailure()) return;
     }

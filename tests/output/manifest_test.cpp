@@ -25,7 +25,7 @@ Manifest example() {
     manifest.frames = {0, 239, 2, 120, 60};
     manifest.run_key = "00112233445566778899aabbccddeeff";
     manifest.picture = Manifest::Picture{1280, 720, 4};
-    manifest.solver = {"line", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
+    manifest.solver = {"line", "buffers", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
     manifest.validation = {true, 0};
     manifest.skipped = {{"collision", "the scene has no collider"}};
     manifest.compromises = {{"flag/stiffness", "80 of 100 N/m", 23}, {"flag/bending", "none", 0}};
@@ -78,6 +78,7 @@ constexpr const char* golden = R"json({
     "choice": "the laws expect it",
     "iterations": 8,
     "method": "line",
+    "schedule": "buffers",
     "stretch_error_rms": 0.0075,
     "substeps": 20,
     "tethers": true,

@@ -14,6 +14,7 @@
 #include "drape/device.h"
 #include "drape/error.h"
 #include "drape/scene_reader.h"
+#include "drape/schedule.h"
 #include "drape/statistics.h"
 
 namespace drape {
@@ -64,6 +65,7 @@ struct SimulationOptions {
     bool keep_promises =
         true;          ///< with statistics: throw Diverged and ToleranceMissed instead of handing out the frame
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
+    Schedule schedule = Schedule::automatic;  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
 };
 
@@ -73,6 +75,7 @@ struct SimulationFacts {
         std::string what, reason;
     };
     std::string method;         ///< in use
+    std::string schedule;       ///< in use
     std::string asked_method;   ///< the scene's
     std::string choice_reason;  ///< why that method, where it was chosen
     double tolerance = 0;       ///< of the RMS stretch error, that no frame may miss; 0: none

@@ -1,0 +1,16 @@
+// Ways to run the same passes on a device, all to the same bits.
+#pragma once
+
+#include "drape/scene.h"
+
+namespace drape {
+
+enum class Schedule {
+    automatic,  ///< chosen by the device
+    images,     ///< passes load and store the state's images
+    buffers,    ///< they store through buffers of the same memory, which a CPU does six times as fast
+};
+inline constexpr Spelling<Schedule> schedule_spellings[] = {
+    {"auto", Schedule::automatic}, {"images", Schedule::images}, {"buffers", Schedule::buffers}};
+
+}  // namespace drape

@@ -1,0 +1,17 @@
+// How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
+// memory; on the default device an image store takes six times as long (docs/devices.md). Loads go through the images
+// either way. Needs `push.grid`.
+#ifdef BUFFERED
+/// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
+int vector_pitch() { return (push.grid.x + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
+int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
+#define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
+#define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
+#define STORE_VECTOR(name, texel, value) name[(texel).y * vector_pitch() + (texel).x] = value
+#define STORE_SCALAR(name, texel, value) name[(texel).y * scalar_pitch() + (texel).x] = value
+#else
+#define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform writeonly image2D name
+#define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, r32f) uniform writeonly image2D name
+#define STORE_VECTOR(name, texel, value) imageStore(name, texel, value)
+#define STORE_SCALAR(name, texel, value) imageStore(name, texel, vec4(value, 0.0f, 0.0f, 0.0f))
+#endif
