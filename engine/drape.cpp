@@ -321,6 +321,7 @@ RunSummary run_scene(const RunRequest& request) {
     for (const std::string& warning : summary.warnings) say("warning: " + warning);
     OutputFolder folder(request.output, request.existing);
 
+    prefer_calling_thread(scene.description, request.draws());
     const Device device = device_of(request.scene);
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);

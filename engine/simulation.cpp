@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "cloth/cloth_statistics.h"
@@ -29,6 +30,12 @@ const DeviceInfo& Device::info() const { return parts_->device.info(); }
 std::uint64_t Device::validation_count() const { return parts_->instance.validation_log().count(); }
 std::uint64_t Device::memory_used() const { return parts_->device.budget().used(); }
 std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
+
+void prefer_calling_thread(const SceneDescription& scene, bool draws) {
+    constexpr std::uint64_t most_particles = 48 * 48;
+    const auto is_small = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1] <= most_particles; };
+    if (!draws && std::ranges::all_of(scene.cloths, is_small)) setenv("LP_NUM_THREADS", "0", 0);
+}
 
 namespace {
 
