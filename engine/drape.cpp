@@ -370,6 +370,8 @@ RunSummary run_scene(const RunRequest& request) {
     return summary;
 }
 
+SceneDescription asked_scene(const SceneRequest& request) { return load(request).description; }
+
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
     return Simulation(scene, simulation_options(request, draw, !draw), device_of(request)).describe_plan(format);

@@ -70,6 +70,9 @@ struct RunSummary {
 /// written.
 RunSummary run_scene(const RunRequest& request);
 
+/// The scene as it is asked for. Throws SceneFailure.
+SceneDescription asked_scene(const SceneRequest& request);
+
 /// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
 

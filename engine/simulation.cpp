@@ -11,6 +11,7 @@
 #include "frame_checks.h"
 #include "frame_copy.h"
 #include "frame_loop.h"
+#include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
 
 namespace drape {
@@ -30,14 +31,21 @@ const DeviceInfo& Device::info() const { return parts_->device.info(); }
 std::uint64_t Device::validation_count() const { return parts_->instance.validation_log().count(); }
 std::uint64_t Device::memory_used() const { return parts_->device.budget().used(); }
 std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
+double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
 
 void prefer_calling_thread(const SceneDescription& scene, bool draws) {
     constexpr std::uint64_t most_particles = 48 * 48;
-    const auto is_small = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1] <= most_particles; };
+    const auto is_small = [](const Cloth& cloth) {
+        return std::uint64_t{cloth.grid[0]} * cloth.grid[1] <= most_particles;
+    };
     if (!draws && std::ranges::all_of(scene.cloths, is_small)) setenv("LP_NUM_THREADS", "0", 0);
 }
 
 namespace {
+
+/// By Timings.
+constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, graph::TimestampMode::stages,
+                                                    graph::TimestampMode::passes};
 
 FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOptions& wanted) {
     FrameLoopOptions options;
@@ -47,6 +55,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.statistics = wanted.statistics;
     options.keep_promises = wanted.keep_promises;
     options.schedule = wanted.schedule;
+    options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
@@ -164,6 +173,32 @@ SimulationFacts Simulation::facts() const {
                           .simulated_barrier_count = graph::barrier_count(simulate)};
     for (const graph::Skipped& skipped : output.skipped) facts.skipped.push_back({skipped.what, skipped.reason});
     return facts;
+}
+
+std::vector<PassWork> Simulation::work() const {
+    const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);
+    std::vector<PassWork> all;
+    for (const graph::PlannedPass& planned : parts_->loop.plan(FrameKind::simulate_and_output).passes) {
+        const graph::Pass& pass = graph.passes()[planned.pass];
+        auto found = std::ranges::find(all, pass.label, &PassWork::name);
+        if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0});
+        ++found->count;
+        for (const graph::Use& use : pass.uses) found->bytes += graph.resources()[use.handle.resource].byte_count();
+    }
+    return all;
+}
+
+std::vector<ResourceMemory> Simulation::memory() const {
+    const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);
+    const graph::Plan& plan = parts_->loop.plan(FrameKind::simulate_and_output);
+    std::vector<ResourceMemory> all;
+    for (std::size_t index = 0; index < graph.resources().size(); ++index) {
+        const graph::Resource& resource = graph.resources()[index];
+        if (plan.lifespans[index].used())
+            all.push_back({resource.name, resource.byte_count() * graph::copy_count(resource)});
+    }
+    std::ranges::stable_sort(all, std::ranges::greater(), &ResourceMemory::bytes);
+    return all;
 }
 
 std::string Simulation::describe_plan(const std::string& format) const {

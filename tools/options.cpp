@@ -104,6 +104,10 @@ void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
     command.add_option("SCENE", paths, "Scene files")->required()->type_name("");
 }
 
+void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path) {
+    command.add_option(name, path, help)->required()->type_name("");
+}
+
 void add_optional_scene(CLI::App& command, std::string& path, const std::string& help) {
     command.add_option("SCENE", path, help)->type_name("");
 }

@@ -33,6 +33,8 @@ SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set
 /// SCENE..., at least one
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
 /// SCENE, or none; `help` says what happens then
+/// A file by its place on the command line.
+void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
 void add_optional_scene(CLI::App& command, std::string& path, const std::string& help);
 /// --set
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);

@@ -57,6 +57,9 @@ struct Cut {
     std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is still whole
 };
 
+/// How finely FinishedFrame::timings tells the device's time. Each bracket costs about 10 us on a CPU.
+enum class Timings { none, stages, passes };
+
 struct SimulationOptions {
     bool draw = false;  ///< pictures of the scene's size and samples
     bool positions = true;
@@ -65,6 +68,7 @@ struct SimulationOptions {
     bool keep_promises =
         true;          ///< with statistics: throw Diverged and ToleranceMissed instead of handing out the frame
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
+    Timings timings = Timings::stages;
     Schedule schedule = Schedule::automatic;  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
 };
@@ -86,6 +90,18 @@ struct SimulationFacts {
     std::vector<Compromise> compromises;
     /// In a frame that is handed out, and in one that is only simulated.
     std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
+};
+
+/// What a kind of pass does in a frame that is handed out, of the substeps that the scene begins with.
+struct PassWork {
+    std::string name, stage;  ///< as in FinishedFrame::timings: of passes, of stages
+    std::size_t count = 0;
+    std::uint64_t bytes = 0;  ///< of all of them, when each reads and writes all it declares once
+};
+
+struct ResourceMemory {
+    std::string name;
+    std::uint64_t bytes = 0;  ///< all copies
 };
 
 class Simulation {
@@ -115,6 +131,8 @@ class Simulation {
     /// Three particles per triangle: those that no cut has split so far.
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
     SimulationFacts facts() const;
+    std::vector<PassWork> work() const;           ///< in order of first appearance
+    std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".
     std::string describe_plan(const std::string& format) const;
 
