@@ -19,15 +19,17 @@ float visibility(vec3 world, vec3 normal) {
     vec2 corner = floor(at.xy - 1.5);
     vec2 part = at.xy - 1.5 - corner;
     ivec2 first = ivec2(corner);
-    if (any(lessThan(first, ivec2(0))) || any(greaterThan(first + 3, ivec2(shadow_map_size - 1)))) return 1.0;
+    bool beyond = any(lessThan(first, ivec2(0))) || any(greaterThan(first + 3, ivec2(shadow_map_size - 1)));
+    // Loops of no round skip the loads of pixels beyond the map; a branch would not on the default device.
+    int rows = beyond ? 0 : 4;
     vec4 column_weight = vec4(1.0 - part.x, 1.0, 1.0, part.x);
     vec4 row_weight = vec4(1.0 - part.y, 1.0, 1.0, part.y);
     float lit = 0.0;
-    for (int row = 0; row < 4; ++row)
+    for (int row = 0; row < rows; ++row)
         for (int column = 0; column < 4; ++column)
             if (imageLoad(shadow_map, first + ivec2(column, row)).x >= at.z)
                 lit += column_weight[column] * row_weight[row];
-    return lit / 9.0;
+    return beyond ? 1.0 : lit / 9.0;
 }
 #else
 float visibility(vec3 world, vec3 normal) { return 1.0; }
