@@ -53,33 +53,35 @@ std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
 }
 
+/// Through either view, as the schedule says.
+constexpr FieldView stored = FieldView::image_and_buffer;
+
 const std::vector<FieldRow>& rows() {
     using enum FieldLife;
     using enum FieldView;
     static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
                       &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
     static const std::vector<FieldRow> table = {
-        {Field::position, "position", image_and_buffer, vector, state, always, particles,
+        {Field::position, "position", stored, vector, state, always, particles,
          [](Context c) { return bytes_of(c.cloth.position); }},
-        {Field::displacement, "displacement", image_and_buffer, vector, state, always, particles,
+        {Field::displacement, "displacement", stored, vector, state, always, particles,
          [](Context c) { return bytes_of(c.cloth.start_displacement()); }},
-        {Field::position_remainder, "position remainder", image_and_buffer, vector, state, always, particles},
-        {Field::displacement_remainder, "displacement remainder", image_and_buffer, vector, state, always, particles},
-        {Field::position_spare, "position spare", image_and_buffer, vector, frame, gathers, particles},
-        {Field::displacement_spare, "displacement spare", image_and_buffer, vector, frame, gathers, particles},
+        {Field::position_remainder, "position remainder", stored, vector, state, always, particles},
+        {Field::displacement_remainder, "displacement remainder", stored, vector, state, always, particles},
+        {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
+        {Field::displacement_spare, "displacement spare", stored, vector, frame, gathers, particles},
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", buffer, vector, device, line_solved, particle_list},
         {Field::line_rows, "line rows", buffer, layout_of<glsl::vec2>(), device, line_solved, particle_list},
         {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
          [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
-        {Field::displacement_before, "displacement before", image_and_buffer, vector, state, keeps_before, particles},
-        {Field::velocity_excess, "velocity excess", image_and_buffer, vector, state, second_order, particles},
-        {Field::end_excess, "end excess", image_and_buffer, vector, state, judged, particles,
+        {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
+        {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
+        {Field::end_excess, "end excess", stored, vector, state, judged, particles,
          [](Context c) { return bytes_of(c.cloth.start_excess()); }},
         {Field::line_control, "line control", image, integer, state, second_order,
          [](Context) { return FieldExtent{glsl::control_texel_count}; }},
-        {Field::wind_force, "wind force", image_and_buffer, vector, frame, [](Context c) { return c.model.windy; },
-         particles},
+        {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
          [](Context c) { return bytes_of(c.topology.spring_shares()); }},
@@ -87,12 +89,10 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return bytes_of(mass_shares(c.cloth)); }},
         {Field::cells, "cells", image, integer, constant, masked, cells,
          [](Context c) { return bytes_of(c.topology.grid().cells()); }},
-        {Field::tension_row, "tension row", image_and_buffer, scalar, state, tense<0>, particles},
-        {Field::tension_column, "tension column", image_and_buffer, scalar, state, tense<1>, particles},
-        {Field::tension_shear_down_right, "tension shear down-right", image_and_buffer, scalar, state, tense<2>,
-         particles},
-        {Field::tension_shear_down_left, "tension shear down-left", image_and_buffer, scalar, state, tense<3>,
-         particles},
+        {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
+        {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
+        {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},
+        {Field::tension_shear_down_left, "tension shear down-left", stored, scalar, state, tense<3>, particles},
         {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive,
          [](Context c) { return FieldExtent{residual_count(c.cloth.grid)}; }},
         {Field::iterations, "iterations", buffer, sizes, device, adaptive,

@@ -5,8 +5,10 @@
 /// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
 int vector_pitch() { return (push.grid.x + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
 int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
-#define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
-#define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
+#define VECTOR_OUT(slot, block, name) \
+    layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
+#define SCALAR_OUT(slot, block, name) \
+    layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
 #define STORE_VECTOR(name, texel, value) name[(texel).y * vector_pitch() + (texel).x] = value
 #define STORE_SCALAR(name, texel, value) name[(texel).y * scalar_pitch() + (texel).x] = value
 #else

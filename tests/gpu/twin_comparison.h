@@ -65,9 +65,8 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 
 /// Schedules that the device has for a model's cloths.
 inline std::vector<Schedule> schedules(const SimulationModel& model) {
-    const bool buffered = std::ranges::all_of(model.cloths, [](const ClothModel& cloth) {
-        return buffered_obstacle(gpu().device, cloth.grid).empty();
-    });
+    const bool buffered = std::ranges::all_of(
+        model.cloths, [](const ClothModel& cloth) { return buffered_obstacle(gpu().device, cloth.grid).empty(); });
     return buffered ? std::vector{Schedule::images, Schedule::buffers} : std::vector{Schedule::images};
 }
 

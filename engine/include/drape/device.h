@@ -36,7 +36,8 @@ class Device {
     std::uint64_t validation_count() const;  ///< messages so far
     std::uint64_t memory_used() const;       ///< bytes, by this library
     std::uint64_t memory_limit() const;      ///< bytes
-    /// Bytes per second that a copy of 64 MiB reads and writes, median of several; 0 where the device has no timestamps.
+    /// Bytes per second that a copy of 64 MiB reads and writes, median of several; 0 where the device has no
+    /// timestamps.
     double copy_bandwidth() const;
 
   private:

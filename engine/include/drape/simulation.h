@@ -131,7 +131,7 @@ class Simulation {
     /// Three particles per triangle: those that no cut has split so far.
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
     SimulationFacts facts() const;
-    std::vector<PassWork> work() const;           ///< in order of first appearance
+    std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".
     std::string describe_plan(const std::string& format) const;
