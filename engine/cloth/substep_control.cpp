@@ -14,6 +14,8 @@ constexpr std::uint32_t rungs[] = {2,   4,   6,   8,   12,  16,  24,   32,   48,
 constexpr std::uint32_t longest_interval = 12;
 /// Fewer substeps are tried where their errors are expected below this share of the limits.
 constexpr double comfort = 0.6;
+/// And without waiting where they are below this share of that.
+constexpr double very_easy = 0.2;
 /// Where more substeps do not reduce the motion's error, fewer are used as long as they increase it by less than this.
 constexpr double unpredictable_slack = 6;
 
@@ -139,19 +141,31 @@ void SubstepControl::succeed(const Judgement& judgement) {
     consider_fewer(judgement);
 }
 
-/// What a probe says of the rung below: the motion's error grows with the square of the substep at least, the stretch
-/// error as it did towards half the substeps.
-void SubstepControl::consider_fewer(const Judgement& judgement) {
-    if (rung_ == lowest_) return;
-    const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung_ - 1];
+/// What a probe says of a rung below, over the limits: the motion's error grows with the square of the substep at
+/// least, the stretch error as it did towards half the substeps.
+double SubstepControl::expected(const Judgement& judgement, std::size_t rung) const {
+    const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
     const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));
-    const bool easy = judgement.motion / slack_ * longer * longer < comfort && stretch < comfort;
-    easy_ = easy ? easy_ + 1 : 0;
-    if (easy_ < patience_) return;
+    return std::max(judgement.motion / slack_ * longer * longer, stretch);
+}
+
+/// One rung down after a few easy probes; as far as is easy, to a quarter at most, at once where it is very easy.
+void SubstepControl::consider_fewer(const Judgement& judgement) {
+    if (rung_ == lowest_) return;
+    const double next = expected(judgement, rung_ - 1);
+    easy_ = next < comfort ? easy_ + 1 : 0;
+    std::size_t rung = rung_;
+    if (next < very_easy * comfort) {
+        while (rung > lowest_ && 4 * rungs_[rung - 1] >= rungs_[tried_] && expected(judgement, rung - 1) < comfort)
+            --rung;
+    } else if (easy_ >= patience_) {
+        --rung;
+    }
+    if (rung == rung_) return;
     easy_ = 0;
     since_fewer_ = 0;
-    --rung_;
+    rung_ = rung;
     interval_ = 1;
     until_probe_ = 0;
 }

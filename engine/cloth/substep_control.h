@@ -60,6 +60,7 @@ class SubstepControl {
     Verdict look_back(const Judgement& judgement);
     void succeed(const Judgement& judgement);
     void refine(const Judgement& judgement);
+    double expected(const Judgement& judgement, std::size_t rung) const;
     void consider_fewer(const Judgement& judgement);
 
     std::span<const std::uint32_t> rungs_;

@@ -64,6 +64,13 @@ TEST(SubstepControl, GoesDownWhereItIsEasyAndStaysNearTheLimit) {
     EXPECT_LE(calm.last, 16u);
 }
 
+TEST(SubstepControl, GoesDownAtOnceWhereItIsVeryEasy) {
+    SubstepControl loop = control(768);
+    const Spent calm = run(loop, {4, 9}, 60);
+    EXPECT_GE(calm.last, 9u);
+    EXPECT_LE(calm.last, 16u);
+}
+
 TEST(SubstepControl, JudgingAndRedoingCostLittleOnceTheSubstepsFit) {
     SubstepControl loop = control(24);
     run(loop, {10, 16}, 400);
