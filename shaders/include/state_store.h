@@ -1,5 +1,5 @@
 // How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
-// memory; on the default device an image store takes six times as long (docs/devices.md). Loads go through the images
+// memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
 // either way. Needs `push.grid`.
 #ifdef BUFFERED
 /// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.

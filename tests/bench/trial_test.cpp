@@ -57,7 +57,7 @@ TEST(TrialTest, OnePerCentMayBeRefusedButNothingSilently) {
 }
 
 TEST(TrialTest, TheTextSaysWhatHappened) {
-    std::vector<TrialResult> results(4, scene_result("b/1/0"));
+    std::vector<TrialResult> results(5, scene_result("b/1/0"));
     results[1].outcome = TrialOutcome::tolerance;
     results[1].name = "b/1/1";
     results[1].reason = "the ladder ends";
@@ -65,14 +65,16 @@ TEST(TrialTest, TheTextSaysWhatHappened) {
     results[2].numbers["missed_frames"] = 5;
     results[2].numbers["worst_stretch_error"] = 0.2;
     results[3].numbers["reference_error"] = 0.009;  // the true error is hardly told
+    results[4].outcome = TrialOutcome::impossible;
     const std::string text = trial_text(results);
     EXPECT_THAT(text, HasSubstr("b/1/1 tolerance missed: the ladder ends\n"));
     EXPECT_THAT(text,
                 HasSubstr("b/1/2 silently missed in 5 of 30 frames: stretch error 0.2 of 0.01, worst spring 0.05\n"));
-    EXPECT_THAT(text, HasSubstr("4 scenes: 75.0 % kept, 25.0 % refused, 25.0 % with frames that were silently missed"));
-    EXPECT_THAT(text, testing::ContainsRegex("estimated over true motion error +3 +2 +2"));
-    EXPECT_THAT(text, testing::ContainsRegex("time over the best fixed setting's +4 +2 +2"));
-    EXPECT_THAT(text, testing::ContainsRegex("release +4 +1 +1"));
+    EXPECT_THAT(text, HasSubstr("5 scenes: 60.0 % kept, 20.0 % refused, 20.0 % impossible"));
+    EXPECT_THAT(text, HasSubstr("20.0 % with frames that were silently missed"));
+    EXPECT_THAT(text, testing::ContainsRegex("estimated over true motion error +4 +2 +2"));
+    EXPECT_THAT(text, testing::ContainsRegex("time over the best fixed setting's +5 +2 +2"));
+    EXPECT_THAT(text, testing::ContainsRegex("release +5 +1 +1"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace drape {
 enum class Schedule {
     automatic,  ///< chosen by the device
     images,     ///< passes load and store the state's images
-    buffers,    ///< they store through buffers of the same memory, which a CPU does six times as fast
+    buffers,    ///< they store through buffers of the same memory, which a CPU does sooner
 };
 inline constexpr Spelling<Schedule> schedule_spellings[] = {
     {"auto", Schedule::automatic}, {"images", Schedule::images}, {"buffers", Schedule::buffers}};
