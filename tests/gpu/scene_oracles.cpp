@@ -246,8 +246,8 @@ Verdict penetration(const SceneRun& run, const Limits& limits) {
 }
 
 /// The top of the cloth lies where the collider below puts it: `height` is the collider's top and the cloth's
-/// thickness; no higher than that by more than rounding, no lower than `below` (the particles miss the very
-/// top).
+/// thickness; no higher than `above` (rounding, or a fold that stands up), no lower than `below` (the particles miss
+/// the very top).
 Verdict supported(const SceneRun& run, const Limits& limits) {
     double top = -1e300;
     for (const glsl::vec4& x : run.frames.back().at(limits.index("cloth")))
