@@ -70,7 +70,7 @@ graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const Fiel
                         buffered && row.view == FieldView::image_and_buffer});
 }
 
-/// Buffers on a CPU that can; GPUs store to either alike, and load from LINEAR images more slowly.
+/// Buffers on a CPU that can. On GPUs nothing was measured; images there, since LINEAR ones may load more slowly.
 Schedule chosen(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
     if (asked == Schedule::images) return asked;
     if (asked == Schedule::automatic && device_kind(device.info()) != DeviceKind::cpu) return Schedule::images;

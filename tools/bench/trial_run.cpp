@@ -252,7 +252,9 @@ bool is_impossible(const Device& device, const SceneDescription& scene, std::siz
         std::min<double>(scene.time.frame_count, std::ceil(static_cast<double>(kept) + 2 + 0.1 * scene.time.fps)));
     const TrialRun run = bench::run(device, shortened, false, stop);
     const Limits limits(scene);
-    return std::ranges::any_of(run.frames, [&](const TrialFrame& frame) { return !limits.keeps(frame); });
+    const auto missed = std::ranges::find_if(run.frames, [&](const auto& frame) { return !limits.keeps(frame); });
+    // Micro-steps that miss them before do not tell anything.
+    return missed != run.frames.end() && missed - run.frames.begin() >= static_cast<std::ptrdiff_t>(kept);
 }
 
 }  // namespace
