@@ -149,6 +149,8 @@ TEST_P(TwinLineGrid, EveryShapeOfGrid) {
 INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
                          testing::Values(std::array<std::uint32_t, 2>{2, 2}, std::array<std::uint32_t, 2>{2, 33},
                                          std::array<std::uint32_t, 2>{41, 2}, std::array<std::uint32_t, 2>{9, 8},
+                                         // Rows of buffer views without padding: of floats, of vectors.
+                                         std::array<std::uint32_t, 2>{32, 17}, std::array<std::uint32_t, 2>{20, 11},
                                          std::array<std::uint32_t, 2>{65, 33}));
 
 /// Held at both upper corners, in the middle, whose box shares particles with theirs, and, until it lets go, at a third
