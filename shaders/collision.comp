@@ -1,7 +1,9 @@
-// Moves every particle out of every collider, with friction; specialised to the kinds that the scene has.
+// Moves every particle out of every collider, with friction; specialised to the kinds that the scene has. HISTORY: what
+// is touched is at once as fast as it is left, and the cloth goes on in backward Euler substeps (include/bdf2.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants BUFFERED
+#pragma variants HISTORY BUFFERED
+#include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/colliders.h"
 
@@ -12,6 +14,10 @@ layout(push_constant) uniform Push { CollisionPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
+#ifdef HISTORY
+VECTOR_KEPT(3, DisplacementBefore, displacement_before);
+layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
+#endif
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -28,5 +34,12 @@ void main() {
         touched = touched || contact.depth > 0.0f;
         if (!(contact.depth > push.contact.z)) break;
     }
-    if (touched) STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+    if (!touched) return;
+    STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+#ifdef HISTORY
+    STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
+    // Most that come here find it done.
+    if (imageLoad(control, ivec2(control_hold, 0)).x < line_hold_contact)
+        imageAtomicMax(control, ivec2(control_hold, 0), line_hold_contact);
+#endif
 }

@@ -1,10 +1,10 @@
 // Solves the springs of one direction line by line: one invocation per line, Thomas algorithm, in three walks along it.
-// The lines of a direction share no particle, so the displacement is updated in place. SECOND_ORDER: the control says
+// The lines of a direction share no particle, so the displacement is updated in place. The control says
 // whether this substep is BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts).
 // BENT: the line bends.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER MASKED BENT BUFFERED
+#pragma variants MASKED BENT BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/line.h"
@@ -29,9 +29,7 @@ SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
 #endif
-#ifdef SECOND_ORDER
 layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
-#endif
 
 struct LineParticle {
     ivec2 at;
@@ -231,18 +229,14 @@ void main() {
     int line = int(gl_GlobalInvocationID.x);
     if (line >= push.line_count) return;
     float compliance = push.compliance, followed = push.followed, bend = push.bend;
-#ifdef SECOND_ORDER
     if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
         compliance = push.compliance_bdf2;
         followed = push.followed_bdf2;
         bend = push.bend_bdf2;
     }
-#endif
     if (push.first_iteration != 0) eliminate_particles(line, compliance, followed, bend);
     float largest_excess = eliminate_springs(line, compliance, followed);
     substitute_springs(line, compliance, followed);
-#ifdef SECOND_ORDER
     imageAtomicMax(control, ivec2(control_violation, 0),
                    floatBitsToUint(line_violation(largest_excess, push.rest_length)));
-#endif
 }

@@ -13,10 +13,9 @@ uint control_at(int texel) { return imageLoad(control_in, ivec2(texel, 0)).x; }
 void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel, 0), uvec4(value, 0u, 0u, 0u)); }
 
 void main() {
-    LineControl next = next_control(LineControl(control_at(control_order), control_at(control_previous_order),
-                                                control_at(control_violation), control_at(control_hold)));
+    LineControl next = next_control(
+        LineControl(control_at(control_order), control_at(control_violation), control_at(control_hold)));
     store_control(control_order, next.order);
-    store_control(control_previous_order, next.previous_order);
     store_control(control_violation, next.violation);
     store_control(control_hold, next.hold);
 }

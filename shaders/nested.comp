@@ -1,9 +1,9 @@
 // Sweeps over boxes around lone pins: one workgroup per pin, an invocation per line of its box, a barrier after every
 // direction. The pins of a dispatch have boxes that share no particle. A pin that has let go is left alone.
-// SECOND_ORDER, MASKED: as in line.comp. SHEARED: there are diagonal springs.
+// MASKED: as in line.comp. SHEARED: there are diagonal springs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER MASKED SHEARED
+#pragma variants MASKED SHEARED
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "include/line.h"
@@ -26,9 +26,7 @@ layout(set = 0, binding = 7, r32f) uniform coherent image2D tension_down_left;
 #ifdef MASKED
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
 #endif
-#ifdef SECOND_ORDER
 layout(set = 0, binding = 9, r32ui) uniform readonly uimage2D control;
-#endif
 
 /// A direction within a box.
 struct NestedLines {
@@ -162,10 +160,7 @@ void sweep_direction(NestedBox box, int direction, bool second_order) {
 void main() {
     ivec2 pin = table[push.first_pin + int(gl_WorkGroupID.x)].xy;
     if (imageLoad(position, pin).w != 0.0f) return;
-    bool second_order = false;
-#ifdef SECOND_ORDER
-    second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
-#endif
+    bool second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
     for (int block = 0; block < push.block_count; ++block) {
         NestedBox box = nested_box(pin, table[block].x, push.grid);
         for (int sweep = 0; sweep < table[block].y; ++sweep)

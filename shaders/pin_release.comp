@@ -1,7 +1,7 @@
 // Frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass. The
 // substep that follows is the first without the pin's force (include/pin.h). TENSION: the springs' last pull is taken
 // from their stored tension. MASKED: with spring shares from an image (holes, cuts). SECOND_ORDER: the
-// control is asked for a backward Euler substep.
+// control is asked for backward Euler substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED TENSION SECOND_ORDER
@@ -84,14 +84,11 @@ void main() {
     pull = pull_of_springs(index.xy);
 #endif
 #ifdef SECOND_ORDER
-    imageAtomicMax(control, ivec2(control_hold, 0), 2u);
-    float surplus = release_surplus(motion, true);
-    vec3 velocity_step = vec3(0.0f, 0.0f, 0.0f);
-#else
-    float surplus = release_surplus(motion, false);
-    precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;
+    imageAtomicMax(control, ivec2(control_hold, 0), line_hold_release);
 #endif
+    float surplus = release_surplus(motion);
+    precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;
     imageStore(displacement_out, index.xy, vec4(displacement, release_mark(surplus)));
     imageStore(displacement_remainder, index.xy,
-               vec4(release_remainder(velocity_step, rest.w, surplus, pull), 0.0f));
+               vec4(release_remainder(velocity_step, rest.w, surplus, pull, push.reach), 0.0f));
 }

@@ -27,7 +27,7 @@ void main() {
     if (advance) advance_position(texel, position, displacement);
     vec3 before = imageLoad(displacement_before_in, texel).xyz;
     vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
-    vec3 excess = velocity_excess(displacement, before, imageLoad(control, ivec2(control_previous_order, 0)).x);
+    vec3 excess = velocity_excess(displacement, before);
     STORE_VECTOR(displacement_before_out, texel, vec4(displacement, 0.0f));
     STORE_VECTOR(velocity_excess_out, texel, vec4(excess, 0.0f));
     if (position.w == 0.0f) return;
@@ -40,8 +40,8 @@ void main() {
                                    push.loss.y);
         loss = drag_loss(bdf2_drag(force.w), position.w, push.force_step.y);
     } else {
-        vec3 forced = forced_step(push.gravity_step.xyz, force.xyz, position.w, push.force_step.x);
-        increment = euler_increment(displacement, excess, forced, push.loss.x);
+        increment = verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w, push.force_step.x,
+                                     push.loss.x);
         loss = drag_loss(force.w, position.w, push.force_step.x);
     }
     step_displacement(texel, moved, increment, loss);

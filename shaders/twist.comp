@@ -1,8 +1,10 @@
 // Relaxes the twist of one colour of the cells: one invocation per cell, so no particle is touched twice.
-// MASKED: whether the cell is whole comes from the spring shares (holes, cuts).
+// MASKED: whether the cell is whole comes from the spring shares (holes, cuts). SECOND_ORDER: the control says whether
+// this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BUFFERED
+#pragma variants MASKED SECOND_ORDER BUFFERED
+#include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/spring.h"
@@ -16,6 +18,9 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+#ifdef SECOND_ORDER
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D control;
 #endif
 
 void main() {
@@ -45,7 +50,11 @@ void main() {
     vec3 difference = twist_difference(spring_edge(position_00.xyz, position_10.xyz, moved_00.xyz, moved_10.xyz),
                                        spring_edge(position_01.xyz, position_11.xyz, moved_01.xyz, moved_11.xyz));
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
-    vec3 correction = project_bend(difference, weight, share, push.compliance);
+    float compliance = push.compliance;
+#ifdef SECOND_ORDER
+    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) compliance = push.compliance_bdf2;
+#endif
+    vec3 correction = project_bend(difference, weight, share, compliance);
     STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));
     STORE_VECTOR(displacement_out, upper_right, vec4(moved_by(moved_10.xyz, correction, -weight_10), moved_10.w));
     STORE_VECTOR(displacement_out, lower_left, vec4(moved_by(moved_01.xyz, correction, -weight_01), moved_01.w));

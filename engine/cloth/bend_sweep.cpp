@@ -27,11 +27,11 @@ float sweep_compliance(double wanted, double share, double sweep) {
     return static_cast<float>(std::max(wanted / share - sweep, 1e-20));
 }
 
-void add_twists(const ClothGeometry& cloth, float compliance, MethodPlan& plan) {
+void add_twists(const ClothGeometry& cloth, float compliance, float compliance_bdf2, MethodPlan& plan) {
     for (const TwistPass& pass : twist_passes(cloth.grid.size()))
         if (!pass.empty())
-            plan.once.push_back(
-                {StepKind::twist, glsl::TwistPush{cloth.grid.size(), pass.element_count, pass.first, compliance}});
+            plan.once.push_back({StepKind::twist, glsl::TwistPush{cloth.grid.size(), pass.element_count, pass.first,
+                                                                  compliance, compliance_bdf2}});
 }
 
 double substeps_for(double share, const MethodSettings& settings) {
@@ -57,7 +57,8 @@ void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, 
             {StepKind::bend, glsl::BendPush{cloth.grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour,
                                             pass.axis, sweep_compliance(wanted, share, bend_sweep_compliance)}});
     }
-    add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
+    const float compliance = sweep_compliance(twist, share, twist_sweep_compliance);
+    add_twists(cloth, compliance, compliance, plan);
     if (share == 1) return;
     plan.used_bend *= share;
     plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
@@ -66,13 +67,17 @@ void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, 
                     substeps_for(share, settings), plan);
 }
 
-void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, double compliance_factor,
+void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
                      MethodPlan& plan) {
     plan.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
-    const double twist = compliance_factor * wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
-    const double share = std::min(1.0, twist / twist_sweep_compliance);
-    add_twists(cloth, sweep_compliance(twist, share, twist_sweep_compliance), plan);
+    const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
+    const auto followed = [&](double factor) { return std::min(1.0, factor * twist / twist_sweep_compliance); };
+    const auto compliance = [&](double factor) {
+        return sweep_compliance(factor * twist, followed(factor), twist_sweep_compliance);
+    };
+    add_twists(cloth, compliance(1), compliance(factors.bdf2), plan);
+    const double share = followed(factors.least);
     if (share == 1) return;
     plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
     note_compromise(cloth, settings, "twist",

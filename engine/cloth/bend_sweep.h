@@ -9,9 +9,14 @@ namespace drape {
 /// follow is softened, and said.
 void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan);
 
-/// Adds the cells' twist alone: the lines bend by themselves. `compliance_factor`: of the method's own units on the
-/// compliance m/(t h^2) of a backward Euler step.
-void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, double compliance_factor,
+/// What a step multiplies the compliance m/(t h^2) of a backward Euler step by.
+struct StepFactors {
+    double bdf2;   ///< a BDF2 step
+    double least;  ///< that of the steps whose stiffness counts as followed
+};
+
+/// Adds the cells' twist alone: the lines bend by themselves.
+void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
                      MethodPlan& plan);
 
 }  // namespace drape

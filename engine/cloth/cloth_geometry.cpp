@@ -25,6 +25,10 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (scene.solver.tethers) set_tethers(scene, cloth);
 }
 
+float ClothGeometry::reach() const {
+    return static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
+}
+
 void ClothGeometry::place() {
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {

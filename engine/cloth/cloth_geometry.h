@@ -54,6 +54,9 @@ struct ClothGeometry {
     bool has_release = false, has_motion = false;
     std::vector<SkippedWork> skipped;
 
+    /// The flat cloth's diagonal, m.
+    float reach() const;
+
   private:
     void place();
     void hold_pins(const std::vector<Pin>& pins);

@@ -14,15 +14,32 @@ namespace drape {
 
 namespace {
 
-/// f = 1/(1 + (2/3) c h): what damping leaves of a BDF2 step's velocity.
-double bdf2_damping(const ClothGeometry& cloth, const MethodSettings& settings) {
-    return 1 / (1 + 2.0 / 3 * cloth.damping * settings.substep_length);
+/// Constants of a BDF2 step under damping, dimensionless (shaders/include/bdf2.h).
+struct Bdf2Step {
+    double weight;  ///< f = 1/(1 + (2/3) c h), on the history's differences
+    double loss;    ///< on the displacement
+    double forced;  ///< on h^2 times the acceleration
+};
+
+/// In flight under damping the differences of d fall by E = e^(-c h) from substep to substep, and d itself towards
+/// h a/c. With K = f (2/9) (1 - 1/(2 E)) + f (4/9), what the history gives, the step is exact there when
+/// loss = (1 - E) (1 - K/E) and forced = loss/(c h); (2/3) (1 - f) and (4/9) f to second order.
+Bdf2Step bdf2_step(const ClothGeometry& cloth, const MethodSettings& settings) {
+    const double ch = cloth.damping * settings.substep_length, f = 1 / (1 + 2.0 / 3 * ch);
+    if (ch < 1e-6) return {f, 4.0 / 9 * ch, 4.0 / 9 * f};
+    const double E = std::exp(-ch), K = f * (2.0 / 9 * (1 - 1 / (2 * E)) + 4.0 / 9);
+    const double loss = -std::expm1(-ch) * (1 - K / E);
+    return {f, loss, loss / ch};
 }
 
-/// The compliance m/(k h^2) of a spring in the method's own units over that of a backward Euler step: BDF2 multiplies
-/// it by (9/4) (1 + (2/3) c h).
-double compliance_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
-    return settings.collides ? 1.0 : 2.25 / bdf2_damping(cloth, settings);
+/// The compliance m/(k h^2) of a spring in a BDF2 step over that in a backward Euler step: (9/4) (1 + (2/3) c h).
+double bdf2_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
+    return 1 / bdf2_step(cloth, settings).forced;
+}
+
+/// The same of the stiffest steps that there will be many of: in contact they are backward Euler.
+double least_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
+    return settings.collides ? 1.0 : bdf2_factor(cloth, settings);
 }
 
 /// Constant (N/m) of the bending elements along lines of a direction; 0 on diagonals.
@@ -43,7 +60,7 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
     const bool is_row = step.y == 0;
     const double constant = cloth.stiffness_constant.spring[direction];
     const double euler = constant > 0 ? euler_compliance(constant, cloth, settings) : slack_compliance;
-    const double factor = compliance_factor(cloth, settings), own = factor * euler;
+    const double factor = bdf2_factor(cloth, settings), own = factor * euler;
     const auto limited = [](double compliance) { return std::max(compliance, least_line_compliance); };
     const auto followed = [&](double compliance) { return static_cast<float>(compliance / limited(compliance)); };
     const int seam = is_row || step.x == 0 ? -1 : step.x > 0 ? grid.x - 1 : 0;
@@ -68,7 +85,7 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
 /// Stiffness (N/m) that a line's spring has, given the least compliance.
 double line_stiffness(double stiffness, const ClothGeometry& cloth, const MethodSettings& settings) {
     if (stiffness == 0) return 0;
-    const double wanted = compliance_factor(cloth, settings) * euler_compliance(stiffness, cloth, settings);
+    const double wanted = least_factor(cloth, settings) * euler_compliance(stiffness, cloth, settings);
     return wanted < least_line_compliance ? stiffness * wanted / least_line_compliance : stiffness;
 }
 
@@ -81,11 +98,12 @@ double enough_substeps(const ClothGeometry& cloth, const MethodSettings& setting
 
 glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSettings& settings) {
     const glsl::ForcePush euler = force_constants(cloth, settings);
-    const double f = bdf2_damping(cloth, settings), h = settings.substep_length, step = f * 4 / 9 * h * h;
+    const auto [f, loss, forced] = bdf2_step(cloth, settings);
+    const double h = settings.substep_length, step = forced * h * h;
     const auto rounded = [](double value) { return static_cast<float>(value); };
     const Vec3& gravity = settings.gravity;
     return {cloth.grid.size(),
-            {euler.damping_loss, rounded(2.0 / 3 * (1 - f))},
+            {euler.damping_loss, rounded(loss)},
             {euler.force_step, rounded(step / cloth.inner_mass)},
             {rounded(f * 2 / 9), rounded(f * 8 / 9)},
             euler.gravity_step,
@@ -93,16 +111,9 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
 }
 
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
-    plan.second_order = !settings.collides;
-    if (plan.second_order) {
-        const double h = settings.substep_length;
-        plan.start = texel(Vec3{cloth.velocity[0] * h, cloth.velocity[1] * h, cloth.velocity[2] * h}, 0);
-        plan.prediction = {{StepKind::control, {}}, {StepKind::predict, predict_constants(cloth, settings)}};
-    } else {
-        plan.start = verlet_start(cloth, settings);
-        plan.prediction = {{StepKind::force, force_constants(cloth, settings)}};
-        plan.skipped.push_back({cloth.name + "/second order", "colliders: contact is backward Euler throughout"});
-    }
+    plan.second_order = true;
+    plan.start = verlet_start(cloth, settings);
+    plan.prediction = {{StepKind::control, {}}, {StepKind::predict, predict_constants(cloth, settings)}};
 }
 
 void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
@@ -123,7 +134,7 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
 MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings) {
     MethodPlan plan;
     add_prediction(cloth, settings, plan);
-    add_twist_sweep(cloth, settings, compliance_factor(cloth, settings), plan);
+    add_twist_sweep(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, plan);
     add_lines(cloth, settings, plan);
     add_nested_sweeps(cloth, plan);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;

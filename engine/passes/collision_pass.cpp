@@ -8,8 +8,9 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("collision.comp", {{"buffered", state.buffered}}), constants);
+    const bool history = state.model->plan.second_order;
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("collision.comp", {{"history", history}, {"buffered", state.buffered}}), constants);
     glsl::CollisionPush push = state.model->collision;
     push.first = first_collider(model.scene, step.substep);
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());
@@ -18,6 +19,10 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
+            if (history) {
+                update_in_place(setup, state[Field::displacement_before], "displacement_before");
+                update_in_place(setup, state[Field::line_control], "control");
+            }
             setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
             dispatch.declare(setup);
         },

@@ -38,15 +38,11 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
 }
 
 void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const ClothModel& model = *state.model;
     glsl::LinePush push = step.push<glsl::LinePush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("line.comp", {{"second_order", model.plan.second_order},
-                                                         {"masked", state.masked()},
-                                                         {"bent", push.bend > 0},
-                                                         {"buffered", state.buffered}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
+        "line.comp", {{"masked", state.masked()}, {"bent", push.bend > 0}, {"buffered", state.buffered}}));
     const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),
@@ -58,7 +54,7 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             update(setup, state[tension_of(direction)], "tension");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
-            if (model.plan.second_order) update_in_place(setup, state[Field::line_control], "control");
+            update_in_place(setup, state[Field::line_control], "control");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

@@ -8,8 +8,8 @@ void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     const ClothModel& model = *state.model;
     const auto& push = step.push<glsl::NestedPush>();
     const bool sheared = push.rest_length.z > 0;
-    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-        "nested.comp", {{"second_order", model.plan.second_order}, {"masked", state.masked()}, {"sheared", sheared}}));
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("nested.comp", {{"masked", state.masked()}, {"sheared", sheared}}));
     const auto pin_count =
         static_cast<std::uint32_t>(model.plan.nested_table[static_cast<std::size_t>(push.first_pin)].z);
     const StepDispatch dispatch(state, step, pipeline, pin_count * static_cast<std::uint32_t>(glsl::nested_group_width),
@@ -29,7 +29,7 @@ void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             }
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
-            if (model.plan.second_order) setup.read(state[Field::line_control], graph::Access::compute_read, "control");
+            setup.read(state[Field::line_control], graph::Access::compute_read, "control");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

@@ -236,6 +236,7 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
         vec3 displacement = xyz(state[Field::displacement][i]);
+        bool touched = false;
         for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
             float deepest = 0.0f;
             for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
@@ -244,7 +245,13 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
                 displacement = contact.displacement;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }
+            touched = touched || deepest > 0.0f;
             if (!(deepest > push.contact.z)) break;
+        }
+        if (touched && model.plan.second_order) {
+            state[Field::displacement_before][i] = texel(displacement);
+            uint& hold = state.integers(Field::line_control)[control_hold];
+            hold = std::max(hold, line_hold_contact);
         }
         state.move_to(i, displacement);
     }

@@ -41,6 +41,9 @@ void Twin::twist(TwinCloth& state, const Step& step) {
     const auto& push = step.push<TwistPush>();
     const CutTopology& topology = state.topology;
     const std::vector<vec4>& shares = topology.spring_shares();
+    const auto& control = state.integers(Field::line_control);
+    const bool is_bdf2 = !control.empty() && control[control_order] == 2u;
+    const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     for (int y = 0; y < push.element_count.y; ++y)
         for (int x = 0; x < push.element_count.x; ++x) {
             const ivec2 corner = twist_corner({x, y}, push.first);
@@ -57,8 +60,8 @@ void Twin::twist(TwinCloth& state, const Step& step) {
             const float share = topology.masked() ? twist_share(shares[i[0]], shares[i[1]], shares[i[2]]) : 1.0f;
             const vec3 difference = twist_difference(spring_edge(start[0], start[1], moved[0], moved[1]),
                                                      spring_edge(start[2], start[3], moved[2], moved[3]));
-            const vec3 correction = project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]),
-                                                 share, push.compliance);
+            const vec3 correction =
+                project_bend(difference, twist_weight(weight[0], weight[1], weight[2], weight[3]), share, compliance);
             state.move_to(i[0], moved_by(moved[0], correction, weight[0]));
             state.move_to(i[1], moved_by(moved[1], correction, -weight[1]));
             state.move_to(i[2], moved_by(moved[2], correction, -weight[2]));

@@ -11,9 +11,8 @@ using namespace glsl;
 
 void Twin::control(TwinCloth& state) {
     auto& texels = state.integers(Field::line_control);
-    const LineControl next = next_control(
-        {texels[control_order], texels[control_previous_order], texels[control_violation], texels[control_hold]});
-    texels = {next.order, next.previous_order, next.violation, next.hold};
+    const LineControl next = next_control({texels[control_order], texels[control_violation], texels[control_hold]});
+    texels = {next.order, next.violation, next.hold};
 }
 
 void Twin::predict(TwinCloth& state, const Step& step) {
@@ -31,8 +30,7 @@ void Twin::predict(TwinCloth& state, const Step& step) {
         }
         const vec3 before = xyz(state[Field::displacement_before][i]),
                    excess_before = xyz(state[Field::velocity_excess][i]);
-        const vec3 excess =
-            velocity_excess(displacement, before, state.integers(Field::line_control)[control_previous_order]);
+        const vec3 excess = velocity_excess(displacement, before);
         state[Field::displacement_before][i] = texel(displacement);
         state[Field::velocity_excess][i] = texel(excess);
         if (position.w == 0.0f) continue;
@@ -45,8 +43,8 @@ void Twin::predict(TwinCloth& state, const Step& step) {
                                        push.weight.y, push.loss.y);
             loss = drag_loss(bdf2_drag(applied.w), position.w, push.force_step.y);
         } else {
-            const vec3 forced = forced_step(xyz(push.gravity_step), xyz(applied), position.w, push.force_step.x);
-            increment = euler_increment(displacement, excess, forced, push.loss.x);
+            increment = verlet_increment(displacement, xyz(push.gravity_step), xyz(applied), position.w,
+                                         push.force_step.x, push.loss.x);
             loss = drag_loss(applied.w, position.w, push.force_step.x);
         }
         state.step_displacement(i, displacement, increment, loss);
@@ -173,7 +171,7 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
 
 void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<LinePush>();
-    const bool is_bdf2 = model.plan.second_order && state.integers(Field::line_control)[control_order] == 2u;
+    const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
     std::vector<float>& stored = state.tension(static_cast<std::size_t>(push.channel));
@@ -201,7 +199,6 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                     stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
         }
     }
-    if (!model.plan.second_order) return;
     const std::uint32_t bits = floatBitsToUint(line_violation(largest, push.rest_length));
     state.integers(Field::line_control)[control_violation] =
         std::max(state.integers(Field::line_control)[control_violation], bits);

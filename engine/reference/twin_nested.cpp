@@ -88,7 +88,7 @@ void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush
 
 void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<NestedPush>();
-    const bool is_bdf2 = model.plan.second_order && state.integers(Field::line_control)[control_order] == 2u;
+    const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const std::vector<ivec4>& table = model.plan.nested_table;
     const auto first = static_cast<std::size_t>(push.first_pin);
     for (std::size_t k = first; k < first + static_cast<std::size_t>(table[first].z); ++k) {

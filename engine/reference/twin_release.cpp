@@ -44,17 +44,17 @@ void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<
         const std::size_t i = at(model.grid, here);
         if (motion.held.x != 0.0f || pin.rest.w == 0.0f || position[i].w != 0.0f) continue;
         state[Field::position][i].w = pin.rest.w;
-        const bool second_order = model.plan.second_order;
-        if (second_order) {
+        if (model.plan.second_order) {
             uint& hold = state.integers(Field::line_control)[control_hold];
-            hold = std::max(hold, 2u);
+            hold = std::max(hold, line_hold_release);
         }
         const vec3 none{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
         const vec3 pull = model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, substep > 0) : none;
-        const float surplus = release_surplus(motion, second_order);
-        const vec3 velocity_step = second_order ? none : pin_target(motion, xyz(pin.rest)) - displacement;
+        const float surplus = release_surplus(motion);
+        const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);
-        state[Field::displacement_remainder][i] = texel(release_remainder(velocity_step, pin.rest.w, surplus, pull));
+        state[Field::displacement_remainder][i] =
+            texel(release_remainder(velocity_step, pin.rest.w, surplus, pull, model.reach()));
     }
 }
 

@@ -1,14 +1,13 @@
-// BDF2 in displacement form (docs/solvers.md, "Line solve"), with a backward Euler step where there is no history
-// worth trusting, and the control that decides which of the two a substep is.
+// BDF2 in displacement form (docs/solvers.md, "Line solve"), with a backward Euler step, which is Verlet's (verlet.h)
+// with implicit springs, where there is no history worth trusting, and the control that decides which of the two a
+// substep is.
 // State beside the position X: d = displacement of the substep, d_before = that of the substep before, and `excess` =
-// u - d, where u is h times the velocity at the substep's end and d h times its mean: after BDF2 (d - d_before)/2,
-// after backward Euler 0. Small numbers are stored and added, so no digits are lost to d.
+// u - d = (d - d_before)/2, where u is h times the velocity at the substep's end and d h times its mean. Small numbers
+// are stored and added, so no digits are lost to d. Both steps, and changes between them, are exact in free flight.
 #ifndef DRAPE_BDF2_H
 #define DRAPE_BDF2_H
 
-/// u - d of the substep of order `order` that moved by `displacement`.
-SHARED vec3 velocity_excess(vec3 displacement, vec3 displacement_before, uint order) {
-    if (order != 2u) return vec3(0.0f, 0.0f, 0.0f);
+SHARED vec3 velocity_excess(vec3 displacement, vec3 displacement_before) {
     precise vec3 excess = (displacement - displacement_before) * 0.5f;
     return excess;
 }
@@ -21,17 +20,12 @@ SHARED vec3 forced_step(vec3 gravity_step, vec3 force, float inverse_mass, float
 
 /// Increment to d of x* = (4 x_n - x_(n-1))/3 + f [(8/9) u_n - (2/9) u_(n-1) + (4/9) h^2 a], f = 1/(1 + (2/3) c h):
 ///   d* - d = f [(2/9) ((d - d_before) - excess_before) + (8/9) excess] - (2/3) (1 - f) d + f (4/9) h^2 a.
-/// `forced` = f (4/9) h^2 a; `old_weight` = f 2/9; `new_weight` = f 8/9; `loss` = (2/3) (1 - f).
+/// `forced` = f (4/9) h^2 a; `old_weight` = f 2/9; `new_weight` = f 8/9; `loss` = (2/3) (1 - f); both corrected so
+/// that damped flight is exact (engine/cloth/method_line.cpp).
 SHARED vec3 bdf2_increment(vec3 displacement, vec3 displacement_before, vec3 excess, vec3 excess_before, vec3 forced,
                            float old_weight, float new_weight, float loss) {
     precise vec3 change = ((displacement - displacement_before) - excess_before) * old_weight + excess * new_weight;
     precise vec3 increment = (change + forced) - displacement * loss;
-    return increment;
-}
-
-/// Increment to d of x* = x_n + e^(-c h) u_n + phi h^2 a: `forced` = phi h^2 a, `loss` = 1 - e^(-c h).
-SHARED vec3 euler_increment(vec3 displacement, vec3 excess, vec3 forced, float loss) {
-    precise vec3 increment = (excess + forced) - (displacement + excess) * loss;
     return increment;
 }
 
@@ -45,20 +39,18 @@ SHARED float bdf2_drag(float drag) {
 
 /// What a cloth's substeps know of each other; one integer per texel of the control image.
 struct LineControl {
-    uint order;           // of this substep: 1 backward Euler, 2 BDF2; 0 before the first
-    uint previous_order;  // of the substep before
-    uint violation;       // bits of the largest |C|/L that this substep's lines have met
-    uint hold;            // substeps that remain backward Euler
+    uint order;      // of this substep: 1 backward Euler, 2 BDF2; 0 before the first
+    uint violation;  // bits of the largest |C|/L that this substep's lines have met
+    uint hold;       // substeps that remain backward Euler, this one too
 };
 
-/// The control of the next substep. The first one is backward Euler, since the history of a cloth at rest does not know
-/// the forces that hold it; and so are those after a spring of |C|/L > line_violation_limit was met. Non-negative
-/// floats order as their bits do, and NaN lies above them all.
+/// The control of the next substep. The first ones are backward Euler, since the history that a cloth starts with does
+/// not know the forces that hold it; and so are those after a spring of |C|/L > line_violation_limit was met, or what
+/// else asked for it. Non-negative floats order as their bits do, and NaN lies above them all.
 SHARED LineControl next_control(LineControl last) {
-    uint hold = last.hold > 0u ? last.hold - 1u : 0u;
+    uint hold = last.order == 0u ? line_hold_start : last.hold > 0u ? last.hold - 1u : 0u;
     if (last.violation > floatBitsToUint(line_violation_limit)) hold = line_hold_count;
-    uint order = last.order == 0u || hold > 0u ? 1u : 2u;
-    return LineControl(order, last.order == 0u ? 1u : last.order, 0u, hold);
+    return LineControl(hold > 0u ? 1u : 2u, 0u, hold);
 }
 
 #endif

@@ -7,8 +7,8 @@
 // 1/2 + (t - t')/h, and h v - d, known only when the position has advanced by d, goes into the sum's remainder.
 // Where springs act after the prediction, their share is taken back from their tension of the substep before; as the
 // pin bore the whole cloth, without that the cloth would fall as if from half a substep earlier. (Relaxation of rigid
-// springs has no tension and falls so.) BDF2 cannot look back over the release: it takes a backward Euler substep,
-// whose first increment counts whole and with it what the release came earlier.
+// springs has no tension and falls so.) BDF2 cannot look back over the release: it takes backward Euler substeps, which
+// are Verlet's, until its history begins after it.
 #ifndef DRAPE_PIN_H
 #define DRAPE_PIN_H
 
@@ -30,10 +30,9 @@ SHARED vec3 pin_displacement(PinMotion motion, vec3 rest, vec3 position) {
     return moved;
 }
 
-/// What the first increment counts more than a whole one: (t - t')/h - 1/2; of a backward Euler step 2/3 (t - t')/h,
-/// since BDF2 answers an impulse within the step before with 3/2 of it.
-SHARED float release_surplus(PinMotion motion, bool backward_euler) {
-    precise float surplus = backward_euler ? 2.0f * motion.held.y / 3.0f : motion.held.y - 0.5f;
+/// What the first increment counts more than a whole one: (t - t')/h - 1/2.
+SHARED float release_surplus(PinMotion motion) {
+    precise float surplus = motion.held.y - 0.5f;
     return surplus;
 }
 
@@ -53,10 +52,14 @@ SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness
     return total;
 }
 
-/// What the displacement's sum gets with its first increment. `velocity_step`: h v - d where the step does not know it
-/// itself; `pull`: what springs would move an inner particle by in a substep.
-SHARED vec3 release_remainder(vec3 velocity_step, float weight, float surplus, vec3 pull) {
-    precise vec3 remainder = velocity_step + pull * (weight * surplus);
+/// What the displacement's sum gets with its first increment. `velocity_step`: h v - d; `pull`: what springs would move
+/// an inner particle by in a substep. It counts up to `reach`: springs torn to many times their length, as strong wind
+/// leaves them in too few substeps, would throw the particle out of sight.
+SHARED vec3 release_remainder(vec3 velocity_step, float weight, float surplus, vec3 pull, float reach) {
+    precise vec3 pulled = pull * (weight * surplus);
+    precise float far = sqrt(ordered_dot(pulled, pulled));
+    if (far > reach) pulled = pulled * (reach / far);
+    precise vec3 remainder = velocity_step + pulled;
     return remainder;
 }
 

@@ -32,7 +32,7 @@ struct LinePush {
 /// Prediction of the line solver in second order (include/bdf2.h).
 struct PredictPush {
     ivec2 grid;
-    vec2 loss;               // x: 1 - exp(-c h), y: (2/3) (1 - f), f = 1/(1 + (2/3) c h)
+    vec2 loss;               // x: 1 - exp(-c h), y: (2/3) (1 - f), f = 1/(1 + (2/3) c h) (about: bdf2.h)
     vec2 force_step;         // displacement per newton on an inner particle: phi h^2 / m_inner, f (4/9) h^2 / m_inner
     vec2 weight;             // f 2/9, f 8/9
     vec4 gravity_step;       // xyz: phi h^2 g, metres; w unused
@@ -40,14 +40,18 @@ struct PredictPush {
 };
 
 /// Texels of the line solver's control image (LineControl in include/bdf2.h).
-const int control_order = 0, control_previous_order = 1, control_violation = 2, control_hold = 3,
-          control_texel_count = 4;
+const int control_order = 0, control_violation = 1, control_hold = 2, control_texel_count = 3;
 /// A spring that a substep meets wrong by more than its own length, after the carried tension has had its say, tells
 /// that BDF2 extrapolates nonsense here; the next substeps are then backward Euler. Measured on a sheet of 64^2 held at
 /// two corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to
 /// 30 J); where it holds (20 substeps) 5 % of the substeps switch, and half the limit would switch 20 %, without gain.
 const float line_violation_limit = 1.0f;
 const uint line_hold_count = 8u;
+/// A history is BDF2's from its second difference on: of two substeps at the start, whose first one is made up for free
+/// flight; of three after a pin has let go, this one and two more.
+const uint line_hold_start = 2u, line_hold_release = 4u;
+/// A contact asks after the control has been counted down for this substep, so for one more.
+const uint line_hold_contact = line_hold_count + 1u;
 
 #ifdef __cplusplus
 }  // namespace drape::glsl

@@ -59,10 +59,11 @@ struct BendPush {
 
 /// The twist of one colour of the cells (engine/cloth/directions.h).
 struct TwistPush {
-    ivec2 grid;           // columns, rows
-    ivec2 element_count;  // cells of this pass along columns, rows
-    ivec2 first;          // its first cell
-    float compliance;     // m_inner / (t h^2), dimensionless, > 0
+    ivec2 grid;             // columns, rows
+    ivec2 element_count;    // cells of this pass along columns, rows
+    ivec2 first;            // its first cell
+    float compliance;       // m_inner / (t h^2), dimensionless, > 0
+    float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (t h^2)
 };
 
 struct WindPush {
@@ -93,6 +94,7 @@ struct ReleasePush {
     ivec2 grid;
     int particle_count;
     int motion_first;  // first motion of this substep
+    float reach;       // the cloth's diagonal, m
 };
 
 /// Of the stretch springs: along a row (x), along a column (y).

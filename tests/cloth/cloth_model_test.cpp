@@ -95,7 +95,7 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     EXPECT_EQ(SimulationModel(scene).method().name, "relax");
 }
 
-TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
+TEST(ScheduleTest, LineFramesPredictInSecondOrderWithCollidersToo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 2);
     scene.solver.method = SolverMethod::line;
     const auto kinds = [&] {
@@ -115,7 +115,7 @@ TEST(ScheduleTest, LineFramesAreOfSecondOrderUnlessThereAreColliders) {
     EXPECT_EQ(kinds(), expected({control, predict, line, line, line, line, line, line, line, line}));
     scene.colliders.push_back({Sphere{}});
     scene.cloths[0].stiffness.shear = 0;
-    EXPECT_EQ(kinds(), expected({force, line, line, collide, line, line, collide}));
+    EXPECT_EQ(kinds(), expected({control, predict, line, line, collide, line, line, collide}));
 }
 
 TEST(ClothModelTest, LinesSayWhatTheySoften) {
