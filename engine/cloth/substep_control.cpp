@@ -60,6 +60,7 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
+    if (segment_.probes) learn_order(judgement);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     if (worst <= 1) {
         succeed(judgement);
@@ -112,6 +113,18 @@ bool SubstepControl::futile(const Judgement& judgement) const {
            judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
+/// From two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than the second
+/// order of free motion.
+void SubstepControl::learn_order(const Judgement& judgement) {
+    const Tried now{static_cast<double>(segment_.substeps), judgement.motion};
+    const double seen = std::log(probed_.motion / now.motion) / std::log(now.substeps / probed_.substeps);
+    if (probed_.substeps > 0 && now.substeps != probed_.substeps && std::isfinite(seen)) {
+        const double order = std::clamp(seen, 1.0, 2.0);
+        order_ = now.substeps > probed_.substeps ? order : 0.5 * (order_ + order);
+    }
+    probed_ = now;
+}
+
 void SubstepControl::refine(const Judgement& judgement) {
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     // Both errors fall about with the square of the substep.
@@ -141,27 +154,24 @@ void SubstepControl::succeed(const Judgement& judgement) {
     consider_fewer(judgement);
 }
 
-/// What a probe says of a rung below, over the limits: the motion's error grows with the square of the substep at
-/// least, the stretch error as it did towards half the substeps.
+/// What a probe says of a rung below, over the limits: the motion's error grows with the order that it showed, the
+/// stretch error as it did towards half the substeps.
 double SubstepControl::expected(const Judgement& judgement, std::size_t rung) const {
     const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
     const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));
-    return std::max(judgement.motion / slack_ * longer * longer, stretch);
+    return std::max(judgement.motion / slack_ * std::pow(longer, order_), stretch);
 }
 
-/// One rung down after a few easy probes; as far as is easy, to a quarter at most, at once where it is very easy.
+/// Down after a few easy probes, at once where it is very easy: as far as is easy, to a quarter at most.
 void SubstepControl::consider_fewer(const Judgement& judgement) {
     if (rung_ == lowest_) return;
     const double next = expected(judgement, rung_ - 1);
     easy_ = next < comfort ? easy_ + 1 : 0;
+    if (easy_ > 0) until_probe_ = std::min(until_probe_, probe_length_);
+    if (next >= very_easy * comfort && easy_ < patience_) return;
     std::size_t rung = rung_;
-    if (next < very_easy * comfort) {
-        while (rung > lowest_ && 4 * rungs_[rung - 1] >= rungs_[tried_] && expected(judgement, rung - 1) < comfort)
-            --rung;
-    } else if (easy_ >= patience_) {
-        --rung;
-    }
+    while (rung > lowest_ && 4 * rungs_[rung - 1] >= rungs_[tried_] && expected(judgement, rung - 1) < comfort) --rung;
     if (rung == rung_) return;
     easy_ = 0;
     since_fewer_ = 0;

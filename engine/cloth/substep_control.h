@@ -60,6 +60,7 @@ class SubstepControl {
     Verdict look_back(const Judgement& judgement);
     void succeed(const Judgement& judgement);
     void refine(const Judgement& judgement);
+    void learn_order(const Judgement& judgement);
     double expected(const Judgement& judgement, std::size_t rung) const;
     void consider_fewer(const Judgement& judgement);
 
@@ -70,10 +71,12 @@ class SubstepControl {
     std::size_t rung_;       ///< of frames to come
     std::size_t began_ = 0;  ///< that before the segment
     std::size_t tried_ = 0;  ///< of the attempt
+    double order_ = 2;       ///< with which the motion's error falls
     double slack_ = 1;       ///< on the motion's limit, where more substeps did not help
     struct Tried {
         double substeps = 0, motion = 0;
-    } before_;               ///< the segment's last failed attempt
+    } before_,               ///< a failed attempt of the segment, to tell whether more substeps help
+        probed_;             ///< the last probe
     double top_motion_ = 0;  ///< of the attempt at the top, while one with a quarter of its substeps is tried
     bool hopeless_ = false;  ///< that one was worse: more substeps would help, and there are none
     Segment segment_{};
