@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "cloth/impossible_pins.h"
+#include "cloth/step_change.h"
 #include "frame_loop.h"
 
 namespace drape {
@@ -42,8 +43,8 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
     if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_step));
     all.push_back(rung.frame.recorded->commands(slot));
     if (run.after) all.push_back(commands(*run.after));
-    const glsl::AttemptInput input{static_cast<float>(static_cast<double>(state_substeps_) / run.substeps)};
-    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), &input, sizeof input);
+    const std::vector<glsl::StepChange> changes = step_changes(model_, state_substeps_, run.substeps);
+    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
     slots_.submit(slot, all);
 }

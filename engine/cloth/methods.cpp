@@ -28,7 +28,7 @@ constexpr Method rows[] = {
      200,
      true,
      Method::Trust::probed,
-     1024,
+     4096,
      1,
      16,
      {false, line_sweep, line_quick}},

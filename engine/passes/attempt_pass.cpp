@@ -75,7 +75,8 @@ void add_remember(graph::Graph& graph, ClothState& state) {
     add_copies(graph, state, "remember", copies);
 }
 
-void add_change_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs) {
+void add_change_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+                     std::size_t cloth) {
     const bool second_order = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("change_step.comp", {{"second_order", second_order}}));
@@ -93,7 +94,8 @@ void add_change_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
             write(Field::displacement_before, "displacement_before");
             write(Field::velocity_excess, "velocity_excess");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
+        [&pipeline,
+         push = glsl::ChangeStepPush{state.model->grid.size(), static_cast<int>(cloth)}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y));
         });
@@ -124,14 +126,14 @@ void add_compare(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
 std::string difference_readback_name(const ClothModel& cloth) { return cloth.name + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step) {
+                 std::size_t cloth, AttemptStep step) {
     switch (step) {
         case AttemptStep::keep:
             return add_state_copies(graph, state, false);
         case AttemptStep::restore:
             return add_state_copies(graph, state, true);
         case AttemptStep::change_step:
-            return add_change_step(graph, pipelines, state, inputs);
+            return add_change_step(graph, pipelines, state, inputs, cloth);
         case AttemptStep::remember:
             return add_remember(graph, state);
         case AttemptStep::compare:

@@ -19,6 +19,6 @@ inline constexpr const char* attempt_name = "attempt";
 std::string difference_readback_name(const ClothModel& cloth);
 
 void add_attempt(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step);
+                 std::size_t cloth, AttemptStep step);
 
 }  // namespace drape

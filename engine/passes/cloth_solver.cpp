@@ -105,7 +105,8 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
-    if (model_.closed_loop()) inputs_.attempt = graph.buffer<glsl::AttemptInput>(attempt_name, 1, Lifetime::host_input);
+    if (model_.closed_loop())
+        inputs_.attempt = graph.buffer<glsl::StepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer<glsl::ColliderRecord>("colliders", count, Lifetime::host_input);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
@@ -182,7 +183,8 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
-    for (ClothState& state : cloths_) drape::add_attempt(graph, pipelines_, state, inputs_, step);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth)
+        drape::add_attempt(graph, pipelines_, cloths_[cloth], inputs_, cloth, step);
 }
 
 std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {

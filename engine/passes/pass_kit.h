@@ -61,7 +61,7 @@ std::string resource_name(const ClothModel& cloth, const FieldRow& row);
 struct SceneInputs {
     graph::Handle wind;
     graph::Handle colliders;  ///< ColliderRecords, sorted by kind
-    graph::Handle attempt;    ///< closed loops: an AttemptInput
+    graph::Handle attempt;    ///< closed loops: a StepChange per cloth
 };
 
 /// What the shaders that meet colliders (include/colliders.h) are specialised with: where each kind ends in the list.

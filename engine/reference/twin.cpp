@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "cloth/step_change.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 
@@ -84,20 +85,21 @@ void Twin::run_frame(std::uint32_t frame) {
 }
 
 void Twin::change_step(const SimulationModel& run) {
-    const auto ratio =
-        static_cast<float>(static_cast<double>(model_->scene.solver.substeps) / run.scene.solver.substeps);
+    const std::vector<StepChange> changes = step_changes(run, model_->scene.solver.substeps, run.scene.solver.substeps);
     model_ = &run;
-    for (TwinCloth& state : cloths_)
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        TwinCloth& state = cloths_[cloth];
         for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
             const ChangedStep changed =
-                changed_step(xyz(state[Field::displacement][i]), xyz(state[Field::end_excess][i]), ratio);
+                changed_step(xyz(state[Field::displacement][i]), xyz(state[Field::end_excess][i]), changes[cloth]);
             state[Field::displacement][i] = texel(changed.displacement);
             state[Field::displacement_remainder][i] = {};
             state[Field::end_excess][i] = texel(changed.excess);
             if (state[Field::velocity_excess].empty()) continue;
             state[Field::displacement_before][i] = texel(changed.before);
-            state[Field::velocity_excess][i] = texel(changed.excess);
+            state[Field::velocity_excess][i] = texel(changed.excess_before);
         }
+    }
 }
 
 void Twin::run_step(const Step& step, const FrameInputs& inputs) {

@@ -6,6 +6,7 @@
 #define DRAPE_END_VELOCITY_H
 
 #include "include/vector.h"
+#include "shared/closed_loop_types.h"
 
 /// Largest |e|/|d| where there are colliders, where there are none.
 const float contact_excess = 0.5f, free_excess = 1e9f;
@@ -21,19 +22,21 @@ SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
     return limited;
 }
 
-/// State of a substep `ratio` times as long that ends at the same place with the same velocity and acceleration.
+/// State of a substep of another length that ends at the same place with the same velocity and acceleration.
 struct ChangedStep {
     vec3 displacement;
     vec3 before;  // that of the substep before it
-    vec3 excess;  // of either
+    vec3 excess;
+    vec3 excess_before;
 };
 
-SHARED ChangedStep changed_step(vec3 displacement, vec3 excess, float ratio) {
-    precise vec3 velocity = (displacement + excess) * ratio;
-    precise vec3 half_acceleration = excess * (ratio * ratio);
-    precise vec3 moved = velocity - half_acceleration;
-    precise vec3 before = moved - half_acceleration * 2.0f;
-    return ChangedStep(moved, before, half_acceleration);
+SHARED ChangedStep changed_step(vec3 displacement, vec3 excess, StepChange change) {
+    precise vec3 velocity = (displacement + excess) * change.ratio;
+    precise vec3 moved = velocity - excess * change.motion;
+    precise vec3 changed_excess = excess * change.excess;
+    precise vec3 before = moved - changed_excess * 2.0f;
+    precise vec3 excess_before = excess * change.excess_before;
+    return ChangedStep(moved, before, changed_excess, excess_before);
 }
 
 #endif

@@ -11,9 +11,17 @@ namespace drape::glsl {
 /// Rows of particles that one invocation of the comparison joins before its workgroup does.
 const int difference_rows = 8;
 
-/// What the host says of an attempt at a frame.
-struct AttemptInput {
-    float ratio;  // length of its substeps over that of the state's
+/// From the state of one cloth's substeps to that of an attempt's: weights of changed_step (include/end_velocity.h).
+struct StepChange {
+    float ratio;          // of the lengths, new over old
+    float motion;         // on the excess in the displacement; the ratio's square without damping
+    float excess;         // on the excess in itself; likewise
+    float excess_before;  // on the excess in that of the substep before; likewise
+};
+
+struct ChangeStepPush {
+    ivec2 grid;
+    int cloth;
 };
 
 /// Two runs to the same frame: sums over the particles that are not held.

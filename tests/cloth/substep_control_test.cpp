@@ -84,7 +84,7 @@ TEST(SubstepControl, GivesUpOnlyAtTheTop) {
     Verdict verdict = Verdict::again;
     while (verdict == Verdict::again) verdict = loop.judge({.stretch = 2, .motion = 0});
     EXPECT_EQ(verdict, Verdict::give_up);
-    EXPECT_EQ(loop.segment().substeps, 1024u);
+    EXPECT_EQ(loop.segment().substeps, 4096u);
     const double nan = std::nan("");
     SubstepControl broken = control(8);
     broken.begin(6, false);
@@ -114,11 +114,11 @@ Verdict verdict_near_the_top(SubstepControl& loop, double (*motion)(double)) {
 }
 
 TEST(SubstepControl, AtTheTopAQuarterOfItsSubstepsTellWhetherMoreWouldHelp) {
-    SubstepControl chaotic = control(768), resolving = control(768);
+    SubstepControl chaotic = control(3072), resolving = control(3072);
     EXPECT_EQ(verdict_near_the_top(chaotic, [](double) { return 120.0; }), Verdict::unpredictable);
-    EXPECT_EQ(chaotic.segment().substeps, 256u);
-    EXPECT_EQ(verdict_near_the_top(resolving, [](double n) { return std::pow(10000 / n, 2); }), Verdict::give_up);
-    EXPECT_EQ(resolving.segment().substeps, 1024u);
+    EXPECT_EQ(chaotic.segment().substeps, 1024u);
+    EXPECT_EQ(verdict_near_the_top(resolving, [](double n) { return std::pow(40000 / n, 2); }), Verdict::give_up);
+    EXPECT_EQ(resolving.segment().substeps, 4096u);
 }
 
 TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {

@@ -1,0 +1,14 @@
+// What a cloth's state becomes when its substeps get another length (docs/solvers.md, "Steps that change"). Pure.
+#pragma once
+
+#include <vector>
+
+#include "cloth/simulation_model.h"
+#include "shared/closed_loop_types.h"
+
+namespace drape {
+
+/// By cloth, from `before` substeps per frame to `after`.
+std::vector<glsl::StepChange> step_changes(const SimulationModel& model, std::uint32_t before, std::uint32_t after);
+
+}  // namespace drape
