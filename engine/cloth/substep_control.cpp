@@ -113,8 +113,8 @@ bool SubstepControl::futile(const Judgement& judgement) const {
            judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
-/// From two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than the second
-/// order of free motion.
+/// From two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than the
+/// second order of free motion.
 void SubstepControl::learn_order(const Judgement& judgement) {
     const Tried now{static_cast<double>(segment_.substeps), judgement.motion};
     const double seen = std::log(probed_.motion / now.motion) / std::log(now.substeps / probed_.substeps);

@@ -43,8 +43,10 @@ TEST(ClothState, RowsStandInTheOrderOfTheirFieldsUnderNamesOfTheirOwn) {
 TEST(ClothState, ImagesHoldTexelsThatThereAreFormatsFor) {
     const glsl::StructLayout* const texels[] = {&glsl::layout_of<glsl::vec4>(), &glsl::layout_of<float>(),
                                                 &glsl::layout_of<glsl::uint>()};
-    for (const FieldRow& row : cloth_fields())
-        if (row.is_image()) EXPECT_EQ(std::ranges::count(texels, &row.element), 1) << row.name;
+    for (const FieldRow& row : cloth_fields()) {
+        if (!row.is_image()) continue;
+        EXPECT_EQ(std::ranges::count(texels, &row.element), 1) << row.name;
+    }
 }
 
 TEST(ClothState, WhatAFieldStartsWithFillsAnImageAndFitsABuffer) {
