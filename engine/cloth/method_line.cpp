@@ -23,10 +23,12 @@ struct Bdf2Step {
 
 /// In flight under damping the differences of d fall by E = e^(-c h) from substep to substep, and d itself towards
 /// h a/c. With K = f (2/9) (1 - 1/(2 E)) + f (4/9), what the history gives, the step is exact there when
-/// loss = (1 - E) (1 - K/E) and forced = loss/(c h); (2/3) (1 - f) and (4/9) f to second order.
+/// loss = (1 - E) (1 - K/E) and forced = loss/(c h); (2/3) (1 - f) and (4/9) f to second order. Where damping takes
+/// more than most of the velocity in a substep the exact ones amplify whatever else moves (1/E), so there the others
+/// are used.
 Bdf2Step bdf2_step(const ClothGeometry& cloth, const MethodSettings& settings) {
     const double ch = cloth.damping * settings.substep_length, f = 1 / (1 + 2.0 / 3 * ch);
-    if (ch < 1e-6) return {f, 4.0 / 9 * ch, 4.0 / 9 * f};
+    if (ch < 1e-6 || ch > 1) return {f, 2.0 / 3 * (1 - f), 4.0 / 9 * f};
     const double E = std::exp(-ch), K = f * (2.0 / 9 * (1 - 1 / (2 * E)) + 4.0 / 9);
     const double loss = -std::expm1(-ch) * (1 - K / E);
     return {f, loss, loss / ch};
@@ -112,7 +114,10 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
 
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
     plan.second_order = true;
-    plan.start = verlet_start(cloth, settings);
+    const double h = settings.substep_length;
+    const Vec3& v = cloth.velocity;
+    // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
+    plan.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
     plan.prediction = {{StepKind::control, {}}, {StepKind::predict, predict_constants(cloth, settings)}};
 }
 

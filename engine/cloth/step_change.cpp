@@ -1,5 +1,6 @@
 #include "cloth/step_change.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drape {
@@ -13,7 +14,9 @@ namespace {
 glsl::StepChange step_change(double damping, double substep, double ratio) {
     const double ch = damping * substep, growth = std::expm1(ch);
     const auto rounded = [](double value) { return static_cast<float>(value); };
-    if (ch < 1e-6) return {rounded(ratio), rounded(ratio * ratio), rounded(ratio * ratio), rounded(ratio * ratio)};
+    // Beyond, what is left of a velocity would be scaled up without bound.
+    if (ch < 1e-6 || ch * std::max(ratio, 1.0) > 1)
+        return {rounded(ratio), rounded(ratio * ratio), rounded(ratio * ratio), rounded(ratio * ratio)};
     const double G = std::expm1(ch * ratio) / growth;
     return {rounded(ratio), rounded(ratio + 2 * (G - ratio) / growth), rounded(G * G),
             rounded(G * G * std::exp(ch * ratio))};

@@ -51,5 +51,21 @@ INSTANTIATE_TEST_SUITE_P(MethodsSubstepsAndDamping, FreeFlight,
                                                           SolverMethod::line),
                                           testing::Values(1u, 16u, 256u), testing::Values(0.0, 0.5)));
 
+TEST(FreeFlight, DampingOfAnyStrengthIsBounded) {
+    for (const double damping : {30.0, 59.0, 61.0, 180.0, 1000.0}) {
+        SceneDescription scene = test::sheet(3, 3, 1, 1, 1);
+        scene.solver.method = SolverMethod::line;
+        scene.cloths[0].damping = damping;
+        scene.cloths[0].velocity = {1, 2, 3};
+        scene.cloths[0].pins.clear();
+        const SimulationModel model(scene);
+        Twin twin(model);
+        for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
+        const double fallen = model.cloths[0].position[0].y - twin.cloth(0)[Field::position][0].y;
+        const double speed = -std::expm1(-damping) / damping;
+        EXPECT_NEAR(fallen, 9.81 / damping * (1 - speed) - 2 * speed, 0.05) << damping;
+    }
+}
+
 }  // namespace
 }  // namespace drape
