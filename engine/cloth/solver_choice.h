@@ -42,6 +42,7 @@ struct SolverChoice {
 ///   relax     error = F 0.59 n g h^2/(2 l)
 ///   explicit  error = F 0.41 g L/c_s^2, c_s the wave speed that the clamped micro-step follows
 ///   line      cheapest at h sqrt(g L)/l = 1.3 when held by an edge, 0.45 or less otherwise; iterations do the rest
+/// And no substep is longer than 0.0088 sqrt(size / gravity), which a swing needs, or than bending needs.
 SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device);
 
 }  // namespace drape
