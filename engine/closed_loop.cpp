@@ -98,7 +98,9 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         submit_run(slot, run);
         deliver(next_slot_, finished);  // the frame before, while this one is simulated
         judged = take_judged(slot, run.substeps);
-        judgement.stretch = std::max(judgement.stretch, stretch_judgement(model_, judged.statistics));
+        const double implausible = watch_.excess(frame + k, judged.statistics);
+        judgement.plausible = judgement.plausible && implausible <= 1;
+        judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
         if (judgement.stretch > 1 && !control_->at_top()) return judged;
         if (!segment.probes) return judged;
         if (last) judgement.motion = motion_of(slot);
@@ -119,6 +121,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
         judged = run_fine(frame, first, judgement, asked);
         const SubstepControl::Verdict verdict = control_->judge(judgement);
         if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);
+        effort.within_limits = verdict != SubstepControl::Verdict::give_up;
         effort.predictable = verdict != SubstepControl::Verdict::unpredictable;
         if (verdict != SubstepControl::Verdict::again) break;
         if (!control_->segment().probes) continue;
@@ -144,8 +147,8 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
 
 void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {
     control_->keep_anyway();
-    // What is not finite is told of when it is handed out.
-    if (!options_.keep_promises || !std::isfinite(judgement.stretch)) return;
+    // What is not finite, or not plausible, is told of when it is handed out.
+    if (!options_.keep_promises || !std::isfinite(judgement.stretch) || !judgement.plausible) return;
     if (!control_->segment().probes) deliver_all(asked.finished);
     const bool stretch = judgement.stretch > 1;
     const std::string impossible = impossible_pins(model_, frame + control_->segment().frame_count - 1);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "drape/simulation.h"
+#include "frame_checks.h"
 #include "graph/dump.h"
 #include "output/frame_writer.h"
 #include "output/kept_frames.h"
@@ -261,6 +262,14 @@ struct RunFailure {
     std::exception_ptr error;
 };
 
+/// What is said at the end of a run that went on.
+RunFailure kept_failure(const FrameFailure& failure) {
+    const std::string text = failure.reason + "; it and what came after are kept, as --on-failure keep asks";
+    if (failure.kind == FrameFailure::Kind::tolerance)
+        return {"tolerance missed", failure.reason, std::make_exception_ptr(ToleranceMissed(text))};
+    return {"diverged", failure.reason, std::make_exception_ptr(Diverged(text))};
+}
+
 /// Simulates up to the last missing frame and writes the missing ones. Returns whether it was not stopped.
 bool write_frames(Simulation& simulation, Sink& sink, const MissingFrames& missing, std::uint32_t last,
                   const RunRequest& request, RunSummary& summary, std::optional<RunFailure>& failure) {
@@ -278,6 +287,8 @@ bool write_frames(Simulation& simulation, Sink& sink, const MissingFrames& missi
         return simulation.run(
             last, [&](std::uint32_t frame) { return missing.frames.contains(frame); },
             [&](const FinishedFrame& frame) {
+                if (frame.failure && frame.failure->kind == FrameFailure::Kind::not_finite) raise(*frame.failure);
+                if (frame.failure && !failure) failure = kept_failure(*frame.failure);
                 sink.add(frame);
                 progress.frame_done(frame.frame, sink.statistics().note(frame.frame));
                 if (!missing.kept.contains(frame.frame)) ++summary.frame_count;
@@ -333,6 +344,7 @@ RunSummary run_scene(const RunRequest& request) {
         SimulationOptions options = simulation_options(
             request.scene, request.draws(),
             std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; }));
+        options.keep_promises = !request.keep_failed;
         options.on_cut = [&](const Cut& cut) { cut_sink->add_cut(cut); };
         Simulation simulation(scene.description, options, device);
         for (const Compromise& each : simulation.facts().compromises) {

@@ -41,8 +41,9 @@ struct RunRequest {
     std::vector<std::string> formats{"png"};  ///< names of output/frame_writer.h's table
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
-    bool quiet = false;    ///< no progress
-    bool verbose = false;  ///< notes on device, plan and memory through `message`
+    bool keep_failed = false;  ///< go on after a frame that is no result; one that is not finite ends the run anyway
+    bool quiet = false;        ///< no progress
+    bool verbose = false;      ///< notes on device, plan and memory through `message`
     std::vector<std::string> command_line;
     std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
     std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
@@ -60,7 +61,8 @@ struct RunSummary {
 };
 
 /// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
-/// ToleranceMissed, DeviceError; nothing is written before everything that can be checked up front has been.
+/// ToleranceMissed (where failed frames are kept, after the last), DeviceError; nothing is written before everything
+/// that can be checked up front has been.
 ///
 /// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
 /// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the

@@ -33,7 +33,7 @@ inline constexpr std::array<ExitCodeRow, 12> exit_code_rows{{
     {ExitCode::usage, "usage", "the command line is wrong"},
     {ExitCode::scene, "scene", "a scene is wrong"},
     {ExitCode::device, "device", "no usable device, a failing Vulkan call, or not enough memory"},
-    {ExitCode::diverged, "diverged", "the simulation is no longer finite"},
+    {ExitCode::diverged, "diverged", "the simulation is no longer finite, or not plausible"},
     {ExitCode::validation, "validation", "a validation message was reported"},
     {ExitCode::comparison, "comparison", "a comparison or a measurement is over its limit"},
     {ExitCode::tolerance, "tolerance", "a frame misses the tolerance, or what method auto keeps"},

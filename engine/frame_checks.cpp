@@ -22,7 +22,7 @@ std::optional<std::string> divergence(const SimulationModel& model, std::uint32_
 std::optional<std::string> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
                                             const std::vector<ClothStatistics>& cloths) {
     const SolverSettings& solver = model.scene.solver;
-    if (!(model.asked_tolerance > 0) || model.closed_loop()) return std::nullopt;  // a closed loop sees to it
+    if (!(model.asked_tolerance > 0) || model.closed_loop()) return std::nullopt;  // a closed loop judges by more
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const double error = cloths[cloth].stretch_error_rms;
         if (error <= model.asked_tolerance) continue;
@@ -33,6 +33,24 @@ std::optional<std::string> missed_tolerance(const SimulationModel& model, std::u
             solver.iterations);
     }
     return std::nullopt;
+}
+
+std::optional<FrameFailure> frame_failure(const SimulationModel& model, Watch& watch, const FinishedFrame& frame) {
+    using enum FrameFailure::Kind;
+    if (const auto why = divergence(model, frame.frame, frame.statistics)) return FrameFailure{not_finite, *why};
+    if (const std::string why = watch.implausible(frame.frame, frame.statistics); !why.empty())
+        return FrameFailure{implausible, why};
+    if (const auto why = missed_tolerance(model, frame.frame, frame.statistics)) return FrameFailure{tolerance, *why};
+    if (frame.effort.within_limits) return std::nullopt;
+    return FrameFailure{
+        tolerance, fmt::format("the tolerance is missed: frame {} is not within its limits even with {} substeps of "
+                               "method {}, the most that method auto tries",
+                               frame.frame, frame.effort.substeps, model.method().name)};
+}
+
+void raise(const FrameFailure& failure) {
+    if (failure.kind == FrameFailure::Kind::tolerance) throw ToleranceMissed(failure.reason);
+    throw Diverged(failure.reason);
 }
 
 }  // namespace drape

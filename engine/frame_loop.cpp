@@ -29,6 +29,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       model_(model),
       options_(options),
       solver_(device, model_, options.schedule),
+      watch_(model),
       state_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())

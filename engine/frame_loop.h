@@ -15,6 +15,7 @@
 #include "cloth/frame_judgement.h"
 #include "cloth/schedule.h"
 #include "cloth/substep_control.h"
+#include "cloth/watch.h"
 #include "drape/simulation.h"
 #include "frame_copy.h"
 #include "graph/executor.h"
@@ -178,6 +179,7 @@ class FrameLoop {
     std::array<Frame, attempt_step_count> attempts_;
     std::map<std::uint32_t, Rung> rungs_;  ///< by substeps
     std::optional<SubstepControl> control_;
+    Watch watch_;
     std::uint32_t state_substeps_;    ///< that the state's history is of
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;         ///< of the last probe

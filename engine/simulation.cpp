@@ -112,11 +112,13 @@ struct Simulation::Parts {
         : device(given),
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
+          watch(model),
           loop(given.parts_->device, model, loop_options(scene, options)) {}
 
     Device device;
     bool keep_promises;
     SimulationModel model;
+    Watch watch;
     FrameLoop loop;
     FrameCopy kept;
 };
@@ -138,13 +140,14 @@ const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
 bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
     const auto checked = [&](const FinishedFrame& frame) {
-        if (const auto why = divergence(parts_->model, frame.frame, frame.statistics)) throw Diverged(*why);
-        if (const auto why = missed_tolerance(parts_->model, frame.frame, frame.statistics))
-            throw ToleranceMissed(*why);
-        finished(frame);
+        const auto failure = frame_failure(parts_->model, parts_->watch, frame);
+        if (!failure) return finished(frame);
+        if (parts_->keep_promises) raise(*failure);
+        FinishedFrame failed = frame;
+        failed.failure = failure;
+        finished(failed);
     };
-    return parts_->keep_promises ? parts_->loop.run(last, wanted, checked, stop)
-                                 : parts_->loop.run(last, wanted, finished, stop);
+    return parts_->loop.run(last, wanted, checked, stop);
 }
 
 const SceneDescription& Simulation::scene() const { return parts_->model.scene; }

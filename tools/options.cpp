@@ -187,6 +187,14 @@ void add_run_options(CLI::App& command, RunRequest& request) {
                "Write every N-th frame, counted from --start; default: 1. All frames up to\n"
                "the last one are simulated",
                whole(1, [&request](std::uint32_t value) { request.step = value; }));
+    add_option(command, "--on-failure", "stop|keep",
+               "At a frame that is not plausible or misses its tolerance: stop, or keep it and\n"
+               "go on to the end, with the same exit code; default: stop",
+               [&request](const std::string& text) {
+                   if (text != "stop" && text != "keep") return fmt::format("expected stop or keep, got '{}'", text);
+                   request.keep_failed = text == "keep";
+                   return std::string();
+               });
     add_export_option(command, request);
     CLI::Option* overwrite = command.add_flag_callback(
         "--overwrite", [&request] { request.existing = ExistingFiles::overwrite; },

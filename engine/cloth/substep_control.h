@@ -18,9 +18,10 @@ std::uint32_t first_rung(const Method& method, double substeps);
 /// An attempt as judged: errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not finite
 /// counts as infinite.
 struct Judgement {
-    double stretch = 0;         ///< RMS or worst spring, whichever is worse
+    double stretch = 0;         ///< RMS, worst spring or what the watch looks at, whichever is worse
     double motion = 0;          ///< of a probe
     double coarse_stretch = 0;  ///< of its run with half the substeps
+    bool plausible = true;      ///< to the watch (cloth/watch.h)
 };
 
 /// Frames that are judged, kept or done again together: a single one, or the few of a probe, which are run with half

@@ -46,6 +46,7 @@ TwinLoop::TwinLoop(const SimulationModel& model)
     : model_(model),
       control_(row_of(model.scene.solver.method), model.scene.solver.substeps, model.choice.least_substeps,
                probe_length(model)),
+      watch_(model),
       state_(model),
       state_substeps_(model.scene.solver.substeps) {}
 
@@ -88,13 +89,15 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     };
     const auto run = [&](Twin& twin, std::uint32_t k, std::uint32_t substeps) {
         twin.run_frame(frame + k);
-        return stretch_judgement(model_, statistics(twin, frame + k, at(substeps)));
+        const std::vector<ClothStatistics> found = statistics(twin, frame + k, at(substeps));
+        return std::pair(stretch_judgement(model_, found), watch_.excess(frame + k, found));
     };
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
     for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)
-        judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2));
+        judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2).first);
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
-        judgement.stretch = std::max(judgement.stretch, run(fine, k, segment.substeps));
+        const auto [stretch, implausible] = run(fine, k, segment.substeps);
+        judgement.stretch = std::max({judgement.stretch, stretch, implausible});
         if (judgement.stretch > 1 && !control_.at_top()) return judgement;
         frames.push_back(fine);
     }

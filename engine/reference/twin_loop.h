@@ -8,6 +8,7 @@
 
 #include "cloth/frame_judgement.h"
 #include "cloth/substep_control.h"
+#include "cloth/watch.h"
 #include "drape/simulation.h"
 #include "reference/twin.h"
 
@@ -32,6 +33,7 @@ class TwinLoop {
     const SimulationModel& model_;
     std::map<std::uint32_t, std::unique_ptr<SimulationModel>> runs_;
     SubstepControl control_;
+    Watch watch_;
     Twin state_;
     std::uint32_t next_ = 1, state_substeps_;
     double motion_error_ = 0;

@@ -58,5 +58,38 @@ TEST(Divergence, WithNoFrameBeforeLeavesNothing) {
     EXPECT_THAT(names_in(folder.path()), ElementsAre("scene.json"));
 }
 
+/// Gravity that one relaxed substep of these springs cannot carry.
+const std::vector<std::string> absurd = {"--set", "/gravity=[0,-5000,0]", "--set", "/solver/substeps=1"};
+
+std::vector<std::string> simulate_absurd(const SceneFolder& folder) {
+    std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "-q"};
+    arguments.insert(arguments.end(), absurd.begin(), absurd.end());
+    return arguments;
+}
+
+TEST(Divergence, WhatIsFiniteButNotPlausibleIsNoResult) {
+    const SceneFolder folder(small_scene(9));
+    const Outcome outcome = drape(simulate_absurd(folder));
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("not plausible: in frame 1, cloth 'sheet', the stretch error of a spring"),
+                                   HasSubstr("(1 of 9 frames)")));
+    EXPECT_THAT(read_text(folder / "out/positions.npy"), HasSubstr("'shape': (1, 6, 8, 3)"));
+}
+
+TEST(Divergence, FailedFramesAreKeptWhereThatIsAskedForAndStillEndWithTheirCode) {
+    const SceneFolder folder(small_scene(9));
+    std::vector<std::string> arguments = simulate_absurd(folder);
+    arguments.insert(arguments.end(), {"--on-failure", "keep"});
+    const Outcome outcome = drape(arguments);
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("not plausible: in frame 1"), HasSubstr("--on-failure keep")));
+    EXPECT_THAT(read_text(folder / "out/positions.npy"), HasSubstr("'shape': (9, 6, 8, 3)"));
+    EXPECT_THAT(read_text(folder / "out/manifest.json"),
+                AllOf(HasSubstr("\"status\": \"diverged\""), HasSubstr("\"failure\"")));
+    const Outcome overflown = run_overflowing(SceneFolder(small_scene(9)), {"--on-failure", "keep"});
+    EXPECT_EQ(overflown.code, 5);
+    EXPECT_THAT(overflown.err, HasSubstr("(2 of 9 frames)"));
+}
+
 }  // namespace
 }  // namespace drape

@@ -321,7 +321,9 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValues) {
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], run.record(state, 1));
     EXPECT_EQ(statistics.non_finite_count, 0u);
     EXPECT_FALSE(divergence(model, 1, {statistics}).has_value());
-    const FrameValues values = frame_values(model.scene, {.statistics = {statistics}});
+    FinishedFrame frame;
+    frame.statistics = {statistics};
+    const FrameValues values = frame_values(model.scene, frame);
     EXPECT_FALSE(values.contains("sheet/distance_max_m"));
     EXPECT_TRUE(values.contains("sheet/kinetic_energy_j"));
     for (const auto& [name, value] : values) EXPECT_TRUE(std::isfinite(value)) << name;

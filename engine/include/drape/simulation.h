@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,15 @@ struct FrameEffort {
     /// Method `auto`: false where that is above its limit because more substeps do not reduce it. Cloth that crumples
     /// parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;
+    /// Method `auto`: false where the most substeps that it tries miss a limit (handed out without keep_promises only).
+    bool within_limits = true;
+};
+
+/// Why a frame is no result.
+struct FrameFailure {
+    enum class Kind { not_finite, implausible, tolerance };
+    Kind kind;
+    std::string reason;  ///< one sentence
 };
 
 /// Particles are numbered row * columns + column.
@@ -46,7 +56,8 @@ struct FinishedFrame {
     std::vector<std::span<const float>> normals;    ///< per cloth, when wanted: unit x y z of the front, and 0
     std::vector<ClothStatistics> statistics;        ///< per cloth, when wanted
     FrameEffort effort;
-    std::vector<StageTime> timings;  ///< empty where the device has no timestamps
+    std::optional<FrameFailure> failure;  ///< with statistics
+    std::vector<StageTime> timings;       ///< empty where the device has no timestamps
 };
 
 /// A cut found at the end of a frame; it acts from the next frame on.
@@ -66,7 +77,7 @@ struct SimulationOptions {
     bool normals = false;
     bool statistics = true;
     bool keep_promises =
-        true;          ///< with statistics: throw Diverged and ToleranceMissed instead of handing out the frame
+        true;  ///< with statistics: throw Diverged and ToleranceMissed instead of handing out a frame that failed
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
     Timings timings = Timings::stages;
     Schedule schedule = Schedule::automatic;  ///< DeviceError where the device has not what it needs

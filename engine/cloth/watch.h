@@ -1,0 +1,61 @@
+// What no result of a scene exceeds: bounds from what acts on the cloth, far above what it ever does. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cloth/simulation_model.h"
+#include "drape/statistics.h"
+
+namespace drape {
+
+/// Something of a frame over its bound.
+struct Implausible {
+    double excess = 0;  ///< value over bound: 1 is the most there can be
+    std::string what;   ///< "the fastest particle moves at 8e+03 m/s, where at most 120 m/s are explained"
+};
+
+class Watch {
+  public:
+    /// `model` must outlive this.
+    explicit Watch(const SimulationModel& model);
+
+    /// What a closed loop does again with more substeps, of the worst cloth:
+    ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; of
+    ///   held
+    ///             cloth g t ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
+    ///             comes back at the speed of waves
+    ///   distance  from the origin: the start's, twice the stretched diagonal, the travel of pins and colliders, and
+    ///             what free cloth may have flown at twice these speeds
+    ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
+    ///             tenth of v0^2 m/2 + m g d
+    double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
+
+    /// What makes a frame no result: the same and, for methods whose frames are not judged, a stretch error above
+    /// 0.25 RMS or 1 in a single spring (or the scene's own tolerance). One sentence; empty: it is plausible.
+    std::string implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
+
+  private:
+    /// What moves a cloth, from the start to the end of each frame.
+    struct Drive {
+        std::vector<double> speed;   ///< m/s, largest so far
+        std::vector<double> travel;  ///< m
+    };
+    /// Of a cloth, at rest.
+    struct Start {
+        double distance;             ///< m, of the farthest particle from the origin
+        std::array<double, 3> mean;  ///< m, centre of mass
+        double diagonal;             ///< m
+        bool held;                   ///< for good
+    };
+    void extend(std::uint32_t frame);
+    double drive_speed(std::size_t cloth, double from, double to) const;
+    Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+
+    const SimulationModel& model_;
+    std::vector<Start> starts_;
+    std::vector<Drive> drives_;
+    bool passive_;
+};
+
+}  // namespace drape

@@ -1,0 +1,129 @@
+// What a scene can do to its cloth, and that nothing beyond passes for a result.
+#include "cloth/watch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A sheet of 1 m and 1 kg that hangs by its top from the origin, in 60 frames a second.
+SceneDescription hanging() {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 4);
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    scene.cloths[0].areal_density = 1;
+    scene.time.frame_count = 100;
+    return scene;
+}
+
+/// At rest where it started: the centre of mass 0.5 m below the origin.
+ClothStatistics resting() {
+    ClothStatistics statistics;
+    statistics.mass = 1;
+    statistics.potential_energy = -9.81 * 0.5;
+    statistics.largest_distance = 1.5;
+    statistics.stretch = {40, 0.001, 0.01, -0.01};
+    return statistics;
+}
+
+std::string said(const SceneDescription& scene, std::uint32_t frame, const ClothStatistics& statistics) {
+    const SimulationModel model(scene);
+    return Watch(model).implausible(frame, {statistics});
+}
+
+TEST(WatchTest, WhatHangsAtRestIsPlausible) { EXPECT_THAT(said(hanging(), 60, resting()), IsEmpty()); }
+
+TEST(WatchTest, HeldClothDoesNotFallFasterTheLongerItHangs) {
+    ClothStatistics fast = resting();
+    fast.largest_speed = 90;  // 10 x 2 sqrt(9.81 sqrt(2)) = 74.5
+    fast.potential_energy -= 0.1;
+    EXPECT_THAT(said(hanging(), 6000 / 60, fast), HasSubstr("frame 100, cloth 'sheet', the fastest particle"));
+    SceneDescription free = hanging();
+    free.cloths[0].pins.clear();
+    EXPECT_THAT(said(free, 6000 / 60, fast), IsEmpty());  // 10 x 16 m/s
+}
+
+TEST(WatchTest, PinsCollidersAndWindExplainSpeed) {
+    ClothStatistics fast = resting();
+    fast.largest_speed = 200;
+    fast.potential_energy -= 0.1;
+    EXPECT_THAT(said(hanging(), 60, fast), HasSubstr("m/s are explained"));
+    SceneDescription windy = hanging(), pulled = hanging(), pushed = hanging();
+    windy.wind.velocity = {20, 0, 0};
+    pulled.cloths[0].pins[0].path.keys = {{0.0, {0, 0, 0}, {0, 0, 0}}, {1.0, {20, 0, 0}, {0, 0, 0}}};
+    pushed.colliders.push_back({Sphere{}});
+    pushed.colliders[0].path.keys = {{0.0, {0, 0, 0}, {0, 0, 0}}, {1.0, {10, 0, 0}, {0, 0, 0}}};
+    for (const SceneDescription& scene : {windy, pulled, pushed}) EXPECT_THAT(said(scene, 60, fast), IsEmpty());
+    fast.largest_speed = 1e5;
+    for (const SceneDescription& scene : {windy, pulled, pushed})
+        EXPECT_THAT(said(scene, 60, fast), HasSubstr("the fastest particle moves at 1e+05 m/s"));
+}
+
+TEST(WatchTest, NoParticleLeavesWhatItsClothReaches) {
+    ClothStatistics far = resting();
+    far.largest_distance = 6;  // the farthest starts sqrt(2) m off, and twice the diagonal is 2.86 m
+    EXPECT_THAT(said(hanging(), 60, far), HasSubstr("a particle is 6 m from the origin"));
+    far.largest_distance = 4;
+    EXPECT_THAT(said(hanging(), 60, far), IsEmpty());
+}
+
+TEST(WatchTest, EnergyDoesNotComeFromNowhere) {
+    ClothStatistics lively = resting();
+    lively.kinetic_energy = 2;
+    EXPECT_THAT(said(hanging(), 60, lively), HasSubstr("it has gained 2 J"));
+    lively.potential_energy -= 1;
+    EXPECT_THAT(said(hanging(), 60, lively), IsEmpty());  // a tenth of m g d = 1.39 J
+    lively.kinetic_energy = 50;
+    SceneDescription windy = hanging();
+    windy.wind.velocity = {20, 0, 0};
+    EXPECT_THAT(said(windy, 60, lively), IsEmpty());
+}
+
+TEST(WatchTest, StretchErrorsBeyondAnyUseAreNoResult) {
+    ClothStatistics stretched = resting();
+    stretched.stretch_error_rms = 0.3;
+    EXPECT_THAT(said(hanging(), 1, stretched), HasSubstr("the stretch error is 0.3 RMS"));
+    SceneDescription asked = hanging();
+    asked.solver.tolerance = 0.4;
+    EXPECT_THAT(said(asked, 1, stretched), IsEmpty());
+    stretched.stretch_error_rms = 0.1;
+    stretched.stretch_error_max = 2.2;
+    EXPECT_THAT(said(hanging(), 1, stretched), HasSubstr("of a spring is 2.2"));
+}
+
+TEST(WatchTest, TheWorstOfTheClothsCounts) {
+    SceneDescription scene = hanging();
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "second";
+    const SimulationModel model(scene);
+    Watch watch(model);
+    ClothStatistics bad = resting();
+    bad.largest_distance = 1e6;
+    EXPECT_LE(watch.excess(60, {resting(), resting()}), 1);
+    EXPECT_GT(watch.excess(60, {resting(), bad}), 1e5);
+    EXPECT_GT(watch.excess(60, {bad, resting()}), 1e5);
+    EXPECT_THAT(watch.implausible(60, {resting(), bad}), HasSubstr("cloth 'second'"));
+}
+
+TEST(WatchTest, WhatOverflowedInSinglePrecisionIsJudgedByWhatItIsAtLeast) {
+    ClothStatistics overflown = resting();
+    overflown.largest_speed = std::numeric_limits<double>::infinity();
+    const SimulationModel model(hanging());
+    EXPECT_GT(Watch(model).excess(1, {overflown}), 1e15);
+    SceneDescription heavy = hanging();
+    heavy.gravity = {0, -3e38, 0};
+    heavy.cloths[0].pins.clear();
+    overflown.potential_energy = -1.5e38;
+    const SimulationModel falling(heavy);
+    EXPECT_LT(Watch(falling).excess(1, {overflown}), 1);
+}
+
+}  // namespace
+}  // namespace drape
