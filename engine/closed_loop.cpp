@@ -121,7 +121,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
         judged = run_fine(frame, first, judgement, asked);
         const SubstepControl::Verdict verdict = control_->judge(judgement);
         if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);
-        effort.within_limits = verdict != SubstepControl::Verdict::give_up;
+        effort.within_limits = verdict != SubstepControl::Verdict::give_up || !judgement.plausible;
         effort.predictable = verdict != SubstepControl::Verdict::unpredictable;
         if (verdict != SubstepControl::Verdict::again) break;
         if (!control_->segment().probes) continue;

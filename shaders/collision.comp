@@ -29,7 +29,8 @@ void main() {
     bool touched = false;
     // Out of one collider may be into another: repeat until nothing is touched any more.
     for (int round = 0; round < round_count; ++round) {
-        Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y, true);
+        Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
+                                           push.contact.w, true);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
         if (!(contact.depth > push.contact.z)) break;

@@ -64,7 +64,7 @@ StatisticsRecord statistics_of(ivec2 texel) {
     // The deepest contact that the collision pass would find. It does not move held particles, so those are no measure.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     if (at.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, push.reference.w, 0.0f, false).depth;
+        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, push.reference.w, 0.0f, 1.0e30f, false).depth;
 #endif
     return record;
 }

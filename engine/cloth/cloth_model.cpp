@@ -51,7 +51,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     const Vec3& o = cloth.placement.origin;
     const double extent = std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
-                  static_cast<float>(2.4e-7 * extent), 0},
+                  static_cast<float>(2.4e-7 * extent), static_cast<float>(recovery_speed * h)},
                  grid.size(),
                  0,
                  0};

@@ -17,6 +17,10 @@ struct ModelOptions {
     bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
 };
 
+/// At which contact resolves an overlap that it did not see coming (cloth that starts inside a collider), m/s: slow
+/// enough to leave little speed and elastic energy behind (a sheet that starts across a ball).
+inline constexpr double recovery_speed = 0.1;
+
 struct ClothModel : ClothGeometry {
     /// The scene's method must be chosen: `auto` is resolved by SimulationModel.
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});

@@ -242,8 +242,9 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
         for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
             float deepest = 0.0f;
             for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
-                const Contact contact = collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k],
-                                                         start, displacement, push.contact.x, push.contact.y);
+                const Contact contact =
+                    collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k], start,
+                                     displacement, push.contact.x, push.contact.y, push.contact.w);
                 displacement = contact.displacement;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }

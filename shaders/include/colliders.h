@@ -170,15 +170,11 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
     return now;
 }
 
-/// Contact with a surface whose nearest point has `normal` (world) at signed `distance`; `local` is the
-/// particle in the collider's frame.
-SHARED Contact resolve_contact(ColliderRecord collider, vec3 local, vec3 normal, float distance, vec3 displacement,
-                               float thickness, float friction) {
-    precise float depth = thickness - distance;
-    if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
-    precise float pair_friction = friction * collider.shape.w;
-    vec3 surface = surface_displacement(collider, local);
-    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth);
+/// How deep contact leaves a particle that was `before` deep when the substep began: what it has not run into now is
+/// resolved by `recovery` (m) a substep, so that an overlap does not become speed. 0 for all that began outside.
+SHARED float kept_depth(float before, float recovery) {
+    precise float kept = before - recovery;
+    return kept > 0.0f ? kept : 0.0f;
 }
 
 /// Signed distance and normal of a shape other than the plane, in its own frame.
@@ -189,22 +185,37 @@ SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     return ellipsoid_surface(local, size);
 }
 
+/// Signed distance and normal (of a plane the world's, else local) of the collider's point nearest to one that is
+/// `world`, in its frame `local`.
+SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local) {
+    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    if (kind != kind_plane) return shape_surface(kind, local, size);
+    precise vec3 from_foot = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+    return SurfacePoint(size, ordered_dot(from_foot, size));
+}
+
 /// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
-/// literal kind, so that each loop holds one shape's code alone.
+/// literal kind, so that each loop holds one shape's code alone. `depth` is by how much it is pushed.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
-                                float friction) {
+                                float friction, float recovery) {
     vec3 now = moved_position(start, displacement);
     vec3 local = local_point(collider, now);
-    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-    if (kind == kind_plane) {
-        precise vec3 from_foot = now - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
-        float above = ordered_dot(from_foot, size);
-        return resolve_contact(collider, local, size, above, displacement, thickness, friction);
-    }
-    if (kind == kind_ellipsoid && beyond_bounds(local, size, thickness)) return Contact(displacement, 0.0f);
-    SurfacePoint surface = shape_surface(kind, local, size);
-    vec3 normal = world_direction(collider, surface.normal);
-    return resolve_contact(collider, local, normal, surface.distance, displacement, thickness, friction);
+    if (kind == kind_ellipsoid &&
+        beyond_bounds(local, vec3(collider.shape.x, collider.shape.y, collider.shape.z), thickness))
+        return Contact(displacement, 0.0f);
+    SurfacePoint found = collider_surface(kind, collider, now, local);
+    precise float inside = thickness - found.distance;
+    if (!(inside > 0.0f)) return Contact(displacement, 0.0f);
+    // Where it began, carried along by the collider.
+    vec3 surface = surface_displacement(collider, local);
+    vec3 carried = moved_position(start, surface);
+    precise float before =
+        thickness - collider_surface(kind, collider, carried, local_point(collider, carried)).distance;
+    precise float depth = inside - kept_depth(before, recovery);
+    if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
+    vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
+    precise float pair_friction = friction * collider.shape.w;
+    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth);
 }
 
 #ifndef __cplusplus
@@ -217,16 +228,18 @@ layout(constant_id = 3) const int ellipsoids_end = 0;
 layout(constant_id = 4) const int capsules_end = 0;
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 
-#define CONTACTS(kind, begin, end)                                                                                \
-    for (int i = begin; i < end; ++i) {                                                                           \
-        Contact contact = collider_contact(kind, colliders[first + i], start, displacement, thickness, friction); \
-        if (in_turn) displacement = contact.displacement;                                                         \
-        deepest = contact.depth > deepest ? contact.depth : deepest;                                              \
+#define CONTACTS(kind, begin, end)                                                                            \
+    for (int i = begin; i < end; ++i) {                                                                       \
+        Contact contact =                                                                                     \
+            collider_contact(kind, colliders[first + i], start, displacement, thickness, friction, recovery); \
+        if (in_turn) displacement = contact.displacement;                                                     \
+        deepest = contact.depth > deepest ? contact.depth : deepest;                                          \
     }
 
 /// Contact with every collider from `first` on. `in_turn`: each takes the displacement that those before it left, else
 /// the given one, and only the depth counts.
-Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, bool in_turn) {
+Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
+                         bool in_turn) {
     float deepest = 0.0f;
     CONTACTS(kind_plane, 0, planes_end)
     CONTACTS(kind_sphere, planes_end, spheres_end)

@@ -78,7 +78,8 @@ struct WindPush {
 
 struct CollisionPush {
     vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction
-                   // coefficient; z: depth, m, under which a contact asks for no further round; w unused
+                   // coefficient; z: depth, m, under which a contact asks for no further round; w: of an
+                   // overlap that was there before, m that a substep resolves
     ivec2 grid;    // columns, rows
     int first;     // first collider of this substep
     int unused;
