@@ -89,6 +89,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
     const Segment& segment = control_->segment();
     const Finished& finished = segment.probes ? withhold_ : asked.finished;
     Judged judged;
+    attempt_statistics_.clear();
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const bool last = k + 1 == segment.frame_count;
         const std::uint32_t slot = take_slot(finished);
@@ -98,6 +99,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         submit_run(slot, run);
         deliver(next_slot_, finished);  // the frame before, while this one is simulated
         judged = take_judged(slot, run.substeps);
+        attempt_statistics_.push_back(judged.statistics);
         const double implausible = watch_.excess(frame + k, judged.statistics);
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
@@ -109,7 +111,15 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
     return judged;
 }
 
+/// A frame that is the one before it.
+void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
+    simulated_ = frame + 1;
+    submit_output(frame, {attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}}, asked.wanted(frame),
+                  asked.finished);
+}
+
 void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
+    if (sleep_.asleep(frame)) return sleep_through(frame, asked);
     control_->begin(probe_room(model_, frame), eventful(model_, frame));
     if (control_->segment().probes) deliver_all(asked.finished);  // then only what is withheld is in flight
     FrameEffort effort{.attempts = 0};
@@ -137,6 +147,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
 /// `single`: the frame, unless the segment is a probe; its effort is the segment's.
 void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& asked) {
     const Segment& segment = control_->segment();
+    for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, segment.substeps);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
     if (!segment.probes)

@@ -30,6 +30,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       options_(options),
       solver_(device, model_, options.schedule),
       watch_(model),
+      sleep_(model),
       state_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())

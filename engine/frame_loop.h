@@ -14,6 +14,7 @@
 
 #include "cloth/frame_judgement.h"
 #include "cloth/schedule.h"
+#include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
 #include "drape/simulation.h"
@@ -159,6 +160,7 @@ class FrameLoop {
     /// Simulates the frames from `frame` on that are judged together until the control keeps them, or throws
     /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
     void simulate_segment(std::uint32_t frame, const Asked& asked);
+    void sleep_through(std::uint32_t frame, const Asked& asked);
     void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
     Judged run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked);
     double motion_of(std::uint32_t slot);
@@ -180,6 +182,9 @@ class FrameLoop {
     std::map<std::uint32_t, Rung> rungs_;  ///< by substeps
     std::optional<SubstepControl> control_;
     Watch watch_;
+    Sleep sleep_;
+    /// Of the frames of the last attempt, in order.
+    std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     std::uint32_t state_substeps_;    ///< that the state's history is of
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;         ///< of the last probe

@@ -59,6 +59,7 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         values["motion_error_m_s"] = frame.effort.motion_error;
         if (!frame.effort.predictable) values["motion_unpredictable"] = 1;
     }
+    if (frame.effort.asleep) values["asleep"] = 1;
     double kinetic = 0, potential = 0, elastic = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         add_cloth(values, scene.cloths[cloth].name, cloths[cloth]);
@@ -98,6 +99,7 @@ std::string RunStatistics::note(std::uint32_t frame) const {
         parts.push_back(fmt::format("motion error {:.3g} mm/s", 1000 * error->second));
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
+    if (values.contains("asleep")) parts.push_back("asleep");
     if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
     if (const auto depth = worst(values, "/penetration_m"))
         parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));

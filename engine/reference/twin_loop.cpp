@@ -47,6 +47,7 @@ TwinLoop::TwinLoop(const SimulationModel& model)
       control_(row_of(model.scene.solver.method), model.scene.solver.substeps, model.choice.least_substeps,
                probe_length(model)),
       watch_(model),
+      sleep_(model),
       state_(model),
       state_substeps_(model.scene.solver.substeps) {}
 
@@ -90,11 +91,13 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     const auto run = [&](Twin& twin, std::uint32_t k, std::uint32_t substeps) {
         twin.run_frame(frame + k);
         const std::vector<ClothStatistics> found = statistics(twin, frame + k, at(substeps));
+        attempt_statistics_.push_back(found);
         return std::pair(stretch_judgement(model_, found), watch_.excess(frame + k, found));
     };
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
     for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)
         judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2).first);
+    attempt_statistics_.clear();  // of the coarse run
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const auto [stretch, implausible] = run(fine, k, segment.substeps);
         judgement.stretch = std::max({judgement.stretch, stretch, implausible});
@@ -109,6 +112,10 @@ void TwinLoop::run(std::uint32_t last,
                    const std::function<void(std::uint32_t, const Twin&, const FrameEffort&)>& finished) {
     using Verdict = SubstepControl::Verdict;
     while (next_ <= last) {
+        if (sleep_.asleep(next_)) {
+            finished(next_++, state_, {.attempts = 0, .asleep = true});
+            continue;
+        }
         control_.begin(probe_room(model_, next_), eventful(model_, next_));
         FrameEffort effort{.attempts = 0};
         std::vector<Twin> frames;
@@ -121,6 +128,7 @@ void TwinLoop::run(std::uint32_t last,
         }
         effort.substeps = state_substeps_ = control_.segment().substeps;
         if (control_.segment().probes) effort.motion_error = motion_error_;
+        for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, state_substeps_);
         state_ = frames.back();
         for (const Twin& twin : frames) finished(next_++, twin, effort);
     }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cloth/frame_judgement.h"
+#include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
 #include "drape/simulation.h"
@@ -34,6 +35,8 @@ class TwinLoop {
     std::map<std::uint32_t, std::unique_ptr<SimulationModel>> runs_;
     SubstepControl control_;
     Watch watch_;
+    Sleep sleep_;
+    std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     Twin state_;
     std::uint32_t next_ = 1, state_substeps_;
     double motion_error_ = 0;

@@ -43,6 +43,7 @@ struct Seen {
 
 bool same(const FrameEffort& a, const FrameEffort& b) {
     return a.substeps == b.substeps && a.attempts == b.attempts && a.predictable == b.predictable &&
+           a.asleep == b.asleep &&
            (a.motion_error == b.motion_error || (std::isnan(a.motion_error) && std::isnan(b.motion_error)));
 }
 
@@ -152,6 +153,25 @@ TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
         EXPECT_NE(std::string(error.what()).find("stretch error"), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("4096 substeps"), std::string::npos) << error.what();
     }
+}
+
+TEST(ClosedLoop, StillClothSleepsUntilSomethingMoves) {
+    // Hangs flat and damped from its edge; after 2.5 s the edge is moved.
+    SceneDescription scene = test::sheet(9, 8, 0.4, 0.3, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins = {test::pin_top(cloth)};
+    cloth.pins[0].path.keys = {{2.5, {0, 0, 0}, {0, 0, 0}}, {3.0, {0.1, 0, 0}, {0, 0, 0}}};
+    cloth.damping = 8;
+    scene.time.fps = 20;
+    scene = automatic(scene, 60);
+    const Seen seen = compare_loops(scene);
+    const auto asleep = [&](std::uint32_t frame) { return seen.efforts[frame - 1].asleep; };
+    EXPECT_FALSE(asleep(1));
+    ASSERT_TRUE(asleep(50));  // ends at 2.5 s
+    EXPECT_EQ(seen.positions[49], seen.positions[48]);
+    EXPECT_FALSE(asleep(51));
+    EXPECT_NE(seen.positions[51], seen.positions[49]);
+    EXPECT_FALSE(asleep(60));
 }
 
 class Flight : public testing::TestWithParam<double> {};

@@ -1,0 +1,61 @@
+#include "cloth/sleep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/cut_topology.h"
+#include "cloth/frame_judgement.h"
+
+namespace drape {
+
+namespace {
+
+/// Speed at which cloth counts as still, over motion_limit.
+constexpr double still_share = 0.01;
+constexpr double rounding = 4 * 0x1p-24;  ///< of coordinates, relative
+
+bool constant(const MotionPath& path, double from, double to) {
+    return !path.moves() || to <= path.keys.front().time || from >= path.keys.back().time;
+}
+
+std::size_t frames_of_a_second(const SimulationModel& model) {
+    return static_cast<std::size_t>(std::max(std::ceil(model.scene.time.fps), 10.0));
+}
+
+}  // namespace
+
+bool quiet(const SimulationModel& model, std::uint32_t frame) {
+    const SceneDescription& scene = model.scene;
+    const double to = frame / scene.time.fps, from = to - 1 / scene.time.fps;
+    if (model.windy && scene.wind.gust.amplitude != 0) return false;
+    if (eventful(model, frame) || cutters_active(scene.cutters, from, to)) return false;
+    // The step after the last key still sees its motion in the velocities of pins and surfaces.
+    const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };
+    return std::ranges::all_of(scene.colliders, still, &Collider::path) &&
+           std::ranges::all_of(model.cloths, [&](const ClothModel& cloth) {
+               return std::ranges::all_of(cloth.dynamic_pins, still, &DynamicPin::path);
+           });
+}
+
+void Sleep::saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps) {
+    double worst = 0;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        // What rounding the displacements of a substep alone may look like.
+        const double noise = rounding * cloths[cloth].largest_distance * substeps * model_.scene.time.fps;
+        const double speed = std::max(cloths[cloth].largest_speed - noise, 0.0);
+        worst = std::max(worst, speed / (still_share * motion_limit(model_, cloth)));
+    }
+    speeds_.push_back(worst);
+    if (speeds_.size() > frames_of_a_second(model_)) speeds_.pop_front();
+}
+
+bool Sleep::asleep(std::uint32_t frame) {
+    if (!quiet(model_, frame)) {
+        speeds_.clear();
+        return false;
+    }
+    return speeds_.size() == frames_of_a_second(model_) && speeds_.back() <= speeds_.front() &&
+           std::ranges::all_of(speeds_, [](double speed) { return speed <= 1; });
+}
+
+}  // namespace drape
