@@ -1,6 +1,7 @@
 #include "streams.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,8 +32,25 @@ void print_data(std::string_view text) {
     throw system_error_at("write to", "stdout", error);
 }
 
+namespace {
+
+/// Names and texts from files may hold what a terminal obeys.
+std::string harmless(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if ((byte >= 0x20 && byte != 0x7f) || c == '\n')
+            result += c;
+        else
+            result += fmt::format("\\x{:02x}", byte);
+    }
+    return result;
+}
+
+}  // namespace
+
 void print_message(std::string_view text) {
-    const std::string line = std::string(text) + '\n';  // one write: whole lines where processes share a log
+    const std::string line = harmless(text) + '\n';  // one write: whole lines where processes share a log
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -92,6 +92,31 @@ std::string Range::words() const {
     return fmt::format("number in {}{}, {}]", above_low ? '(' : '[', low, high);
 }
 
+bool ErrorList::earlier(const Found& a, const Found& b) {
+    return a.error.offset != b.error.offset ? a.error.offset < b.error.offset : a.order < b.order;
+}
+
+void ErrorList::add(const SceneDocument& document, std::size_t offset, const std::string& pointer,
+                    std::string message) {
+    const std::size_t order = count_++;
+    const bool full = first_.size() == most;
+    if (full && offset >= first_.front().error.offset) return;  // before its place is looked up: there may be a million
+    first_.push_back({order, document.place(offset, pointer, std::move(message))});
+    std::ranges::push_heap(first_, earlier);
+    if (!full) return;
+    std::ranges::pop_heap(first_, earlier);
+    first_.pop_back();
+}
+
+std::vector<SceneError> ErrorList::told() const {
+    std::vector<Found> sorted = first_;
+    std::ranges::sort(sorted, earlier);
+    std::vector<SceneError> errors;
+    for (Found& found : sorted) errors.push_back(std::move(found.error.error));
+    if (count_ > most) errors.push_back({errors.front().file, 0, 0, "", fmt::format("and {} more", count_ - most)});
+    return errors;
+}
+
 SceneNode::SceneNode(SceneReport& report, const Json::Value& root)
     : SceneNode(report, &root, static_cast<std::size_t>(root.getOffsetStart()), "") {}
 
@@ -111,9 +136,8 @@ bool SceneNode::open_object(const Definition& definition) const {
         const std::string key = it.name();
         if (definition.has_key(key)) continue;
         SceneDocument& document = report_->document;
-        report_->errors.push_back(
-            document.place(document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
-                           fmt::format("{}, got the unknown key \"{}\"", key_hint(definition, key), shortened(key))));
+        report_->errors.add(document, document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
+                            fmt::format("{}, got the unknown key \"{}\"", key_hint(definition, key), shortened(key)));
     }
     return true;
 }
@@ -192,12 +216,12 @@ bool SceneNode::fail_expected(std::string_view what) const {
 }
 
 bool SceneNode::fail(std::string message) const {
-    report_->errors.push_back(report_->document.place(offset_, pointer_, std::move(message)));
+    report_->errors.add(report_->document, offset_, pointer_, std::move(message));
     return false;
 }
 
 void SceneNode::warn(std::string message) const {
-    report_->warnings.push_back(report_->document.place(offset_, pointer_, std::move(message)));
+    report_->warnings.add(report_->document, offset_, pointer_, std::move(message));
 }
 
 std::string SceneNode::describe() const {

@@ -17,10 +17,30 @@
 namespace drape {
 
 /// Errors and warnings of one reading.
+/// The first so many errors of a text, in its order, and how many there are. Of the rest nothing is kept.
+class ErrorList {
+  public:
+    static constexpr std::size_t most = 100;
+    void add(const SceneDocument& document, std::size_t offset, const std::string& pointer, std::string message);
+    bool empty() const { return count_ == 0; }
+    /// In the order of the text; the last one, without a place, counts those that are not told.
+    std::vector<SceneError> told() const;
+
+  private:
+    struct Found {
+        std::size_t order;  ///< of one place they are told as they were found
+        PlacedError error;
+    };
+    static bool earlier(const Found& a, const Found& b);
+
+    std::vector<Found> first_;  ///< a heap, the last of them in front
+    std::size_t count_ = 0;
+};
+
 struct SceneReport {
     SceneDocument& document;
-    std::vector<PlacedError> errors;
-    std::vector<PlacedError> warnings;
+    ErrorList errors;
+    ErrorList warnings;
 };
 
 /// Numbers a field may have. The kernels work in single precision, so "finite" means finite there.

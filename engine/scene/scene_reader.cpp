@@ -70,8 +70,8 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
     SceneReport report{document, {}, {}};
     SceneDescription scene;
     read_scene_object(SceneNode(report, document.root()), scene);
-    result.errors = in_text_order(std::move(report.errors));
-    result.warnings = in_text_order(std::move(report.warnings));
+    result.errors = report.errors.told();
+    result.warnings = report.warnings.told();
     if (result.errors.empty()) result.scene = std::move(scene);
     return result;
 }

@@ -43,6 +43,33 @@ TEST_P(BadScenes, AreRefusedAndNothingIsTouched) {
     }
 }
 
+/// A row of pins that are wrong in the same way.
+std::string many_bad_pins(int count) {
+    std::string pins;
+    for (int k = 0; k < count; ++k) pins += std::string(k > 0 ? "," : "") + "{\"edge\": \"up\"}";
+    return cloth("\"pins\": [" + pins + "]");
+}
+
+TEST(SceneErrorText, TellsTheFirstHundredErrorsAndCountsTheRest) {
+    const SceneFolder folder(many_bad_pins(100000));
+    const Outcome outcome = drape({"check", "scene.json"}, {.folder = folder.path()});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("/cloths/0/pins/0/edge: "));
+    EXPECT_THAT(outcome.err, HasSubstr("/cloths/0/pins/99/edge: "));
+    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("/cloths/0/pins/100/edge: ")));
+    EXPECT_THAT(outcome.err, testing::EndsWith("scene.json: and 99900 more\n"));
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 101);
+}
+
+TEST(SceneErrorText, LetsNoControlCharacterReachTheTerminal) {
+    const SceneFolder folder(
+        "{\"cloths\": [{\"name\": \"a\"}, {\"name\": \"\\u001b[2Ja\", \"grid\": 1}], \"\\u0007\": 1}");
+    const Outcome outcome = drape({"check", "scene.json"}, {.folder = folder.path()});
+    EXPECT_EQ(outcome.code, 3);
+    for (const char c : outcome.err) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("\\x07"));
+}
+
 const BadScene bad_scenes[] = {
     {"Malformed", "{\"cloths\": [{}]\n,}", {"2:2: Missing '}' or object member name"}},
     {"UnknownKey",
