@@ -1,0 +1,136 @@
+// Every spring once: its pull is added to one end and subtracted from the other, in the order of every sum over springs
+// (include/explicit.h).
+#include "native_vectors.h"
+
+namespace drape::native {
+
+namespace {
+
+struct RowView {
+    Vectors position, displacement;
+};
+
+RowView row_of(const SheetView& sheet, int y) {
+    return {sheet.position.from(sheet.place(0, y)), sheet.displacement.from(sheet.place(0, y))};
+}
+
+/// Springs from the first `count` particles of a row to those `offset` further in another; also those that do not
+/// exist.
+template <bool advance>
+void pull(const RowView& a, const RowView& b, int offset, int count, float rest_length, const float* stiffness,
+          float strain_damping, const Vectors& out) {
+#pragma GCC ivdep
+    for (int x = 0; x < count; ++x) {
+        const vec3 start = load(a.position, x), end = load(b.position, x + offset);
+        const vec3 moved_start = load(a.displacement, x), moved_end = load(b.displacement, x + offset);
+        const vec3 edge = advance ? spring_edge(start, end, moved_start, moved_end) : end - start;
+        store(out, x, add_pull(no_pull, edge, moved_end - moved_start, rest_length, stiffness[x], strain_damping));
+    }
+}
+
+/// Springs from a row to the one below: down, down-right, down-left.
+template <bool advance>
+void pull_down(const SheetView& sheet, const ExplicitPush& push, const RowView& a, const RowView& b,
+               const ExplicitScratch& scratch, const Vectors (&out)[3]) {
+    const int count = sheet.whole_vectors();
+    pull<advance>(a, b, 0, count, push.rest_length.y, scratch.stiffness[2], push.strain_damping, out[0]);
+    pull<advance>(a, b, 1, count, push.rest_length.z, scratch.stiffness[3], push.strain_damping, out[1]);
+    pull<advance>(a, b, -1, count, push.rest_length.w, scratch.stiffness[3], push.strain_damping, out[2]);
+}
+
+/// Springs that do not exist, beyond the ends of the rows: -0 where particles start them and +0, which is subtracted,
+/// where they end them. Neither changes a bit of a sum.
+void clear_ends(int columns, const Vectors& along, const Vectors& right, const Vectors& left) {
+    const vec3 nothing{0.0f, 0.0f, 0.0f};
+    const Vectors starting[] = {along, right};
+    for (const Vectors& pulls : starting) {
+        store(pulls, -1, nothing);
+        store(pulls, columns - 1, no_pull);
+    }
+    store(left, 0, no_pull);
+    store(left, columns, nothing);
+}
+
+/// Three rows of springs that do not exist.
+void clear(int columns, const Vectors (&rows)[3], float zero) {
+    for (const Vectors& pulls : rows)
+        for (int x = -1; x <= columns; ++x) store(pulls, x, {zero, zero, zero});
+}
+
+template <bool advance>
+void update_row(const SheetView& sheet, const ExplicitPush& push, int y, const ExplicitScratch& scratch) {
+    const std::ptrdiff_t row = sheet.place(0, y);
+    const vec3 gravity{push.gravity_step.x, push.gravity_step.y, push.gravity_step.z};
+    const float force_step = push.force_step, loss = push.damping_loss;  // not loaded under a condition: native_predict
+    const int count = sheet.whole_vectors();
+#pragma GCC ivdep
+    for (int x = 0; x < count; ++x) {
+        vec3 sum = no_pull;
+        sum = sum - load(scratch.above[1], x - 1);
+        sum = sum - load(scratch.above[0], x);
+        sum = sum - load(scratch.above[2], x + 1);
+        sum = sum - load(scratch.along, x - 1);
+        sum = sum + load(scratch.along, x);
+        sum = sum + load(scratch.below[2], x);
+        sum = sum + load(scratch.below[0], x);
+        sum = sum + load(scratch.below[1], x);
+        const std::ptrdiff_t at = row + x;
+        const vec3 displacement = load(sheet.displacement, at);
+        if (advance) advance_particle(sheet, at, load(sheet.position, at), displacement);
+        const vec3 increment =
+            explicit_increment(displacement, gravity, {0.0f, 0.0f, 0.0f}, sum, sheet.weight[at], force_step, loss);
+        step_particle(sheet, at, displacement, increment);
+    }
+}
+
+template <bool advance>
+void step_rows(const SheetView& sheet, const ExplicitPush& push, Rows rows, ExplicitScratch scratch) {
+    for (int y = rows.first; y < rows.last; ++y) {
+        const RowView here = row_of(sheet, y), copied{scratch.next_position, scratch.next_displacement};
+        const float* along = scratch.stiffness[y == 0 || y == sheet.rows - 1 ? 1 : 0];
+        pull<advance>(here, here, 1, sheet.whole_vectors(), push.rest_length.x, along, push.strain_damping,
+                      scratch.along);
+        if (y + 1 < sheet.rows)
+            pull_down<advance>(sheet, push, here, y + 1 < rows.last ? row_of(sheet, y + 1) : copied, scratch,
+                               scratch.below);
+        else
+            clear(sheet.columns, scratch.below, -0.0f);
+        clear_ends(sheet.columns, scratch.along, scratch.below[1], scratch.below[2]);
+        update_row<advance>(sheet, push, y, scratch);
+        for (int k = 0; k < 3; ++k) {
+            const Vectors above = scratch.above[k];
+            scratch.above[k] = scratch.below[k];
+            scratch.below[k] = above;
+        }
+    }
+}
+
+template <bool advance>
+void prepare_rows(const SheetView& sheet, const ExplicitPush& push, Rows rows, const ExplicitScratch& scratch) {
+    if (rows.first > 0)
+        pull_down<advance>(sheet, push, row_of(sheet, rows.first - 1), row_of(sheet, rows.first), scratch,
+                           scratch.above);
+    else
+        clear(sheet.columns, scratch.above, 0.0f);
+    clear_ends(sheet.columns, scratch.along, scratch.above[1], scratch.above[2]);
+    if (rows.last == sheet.rows) return;
+    const RowView next = row_of(sheet, rows.last);
+    for (int x = 0; x < sheet.columns; ++x) {
+        store(scratch.next_position, x, load(next.position, x));
+        store(scratch.next_displacement, x, load(next.displacement, x));
+    }
+}
+
+}  // namespace
+
+void NATIVE_VARIANT::prepare_explicit(const SheetView& sheet, const ExplicitPush& push, bool advance, Rows rows,
+                                      const ExplicitScratch& scratch) {
+    return advance ? prepare_rows<true>(sheet, push, rows, scratch) : prepare_rows<false>(sheet, push, rows, scratch);
+}
+
+void NATIVE_VARIANT::explicit_rows(const SheetView& sheet, const ExplicitPush& push, bool advance, Rows rows,
+                                   const ExplicitScratch& scratch) {
+    return advance ? step_rows<true>(sheet, push, rows, scratch) : step_rows<false>(sheet, push, rows, scratch);
+}
+
+}  // namespace drape::native
