@@ -184,8 +184,9 @@ std::vector<PassWork> Simulation::work() const {
     for (const graph::PlannedPass& planned : parts_->loop.plan(FrameKind::simulate_and_output).passes) {
         const graph::Pass& pass = graph.passes()[planned.pass];
         auto found = std::ranges::find(all, pass.label, &PassWork::name);
-        if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0});
+        if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0, 0});
         ++found->count;
+        found->flops += pass.flops;
         for (const graph::Use& use : pass.uses) found->bytes += graph.resources()[use.handle.resource].byte_count();
     }
     return all;

@@ -235,6 +235,11 @@ void Graph::add_pass(PassName name, const std::function<void(PassSetup&)>& setup
     passes_.push_back(std::move(pass));
 }
 
+void Graph::add_flops(double flops) {
+    if (passes_.empty()) throw GraphError("no pass computes this");
+    passes_.back().flops += flops;
+}
+
 void Graph::compromise(std::string what, std::string reason) {
     compromises_.push_back({std::move(what), std::move(reason)});
 }

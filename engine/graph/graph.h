@@ -106,6 +106,7 @@ struct Pass {
     std::string label;  ///< name without the counters: passes of one label are summed in profiles
     std::vector<Use> uses;
     std::function<void(PassContext&)> execute;
+    double flops = 0;  ///< floating-point operations; 0: not known
 };
 
 struct Skipped {
@@ -154,6 +155,8 @@ class Graph {
     /// Runs `setup` now, keeps `execute` for recording.
     void add_pass(PassName name, const std::function<void(PassSetup&)>& setup,
                   std::function<void(PassContext&)> execute);
+    /// Says what the newest pass computes (more), for profiles.
+    void add_flops(double flops);
     /// Says in every dump that something was left out on purpose, and why.
     void skip(std::string what, std::string reason);
     /// Likewise that something is done only in part.

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "cloth/step_flops.h"
 #include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
 #include "passes/check_pass.h"
@@ -133,11 +134,15 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
+    const auto add = [&](ClothState& state, const Step& step) {
+        add_step(graph, state, step);
+        if (const double flops = step_flops(step, *state.model); flops > 0) graph.add_flops(flops);
+    };
     for (const Step& step : frame_steps(*run_)) {
         if (step.cloth != all_cloths)
-            add_step(graph, cloths_[step.cloth], step);
+            add(cloths_[step.cloth], step);
         else
-            for (ClothState& state : cloths_) add_step(graph, state, step);
+            for (ClothState& state : cloths_) add(state, step);
     }
 }
 

@@ -27,7 +27,8 @@ TEST(Profile, TellsStagesOrPassesAndWritesThreeFiles) {
     arguments.insert(arguments.end(), {"--passes", "--simulate"});
     const Outcome passes = drape(arguments);
     EXPECT_EQ(passes.code, 0) << passes.err;
-    EXPECT_THAT(passes.out, AllOf(HasSubstr("/force "), HasSubstr("of copy"), Not(HasSubstr("raster"))));
+    EXPECT_THAT(passes.out,
+                AllOf(HasSubstr("/force "), HasSubstr("of copy"), HasSubstr("GFLOP/s"), Not(HasSubstr("raster"))));
     const Outcome same = drape({"compare", folder.out("p.json"), folder.out("p.json")});
     EXPECT_EQ(same.code, 0) << same.err;
     EXPECT_THAT(same.out, HasSubstr("within noise"));

@@ -25,7 +25,7 @@ Profile measured(double factor) {
     profile.solver = "line";
     profile.passes = true;
     profile.copy_bandwidth = 10e9;
-    profile.work = {{"relax", "simulate", 4, 30'000'000}};
+    profile.work = {{"relax", "simulate", 4, 30'000'000, 12e6}};
     double at = 0;
     for (int k = 0; k < 11; ++k) {
         const double milliseconds = factor * (10 + k);
@@ -76,11 +76,14 @@ TEST(ProfileRows, FramesThatAreHandedOutTogetherHaveNoTimeOfTheirOwn) {
 
 TEST(ProfileText, SaysWhatAPassMovesAndWhatIsUnavailable) {
     // 30 MB in 6 ms are 5 GB/s, half of what a copy moves.
-    EXPECT_THAT(profile_text(measured(1)), HasSubstr("5.00      50 %"));
+    EXPECT_THAT(profile_text(measured(1)), HasSubstr("5.00      50 %      12.0     2.00\n"));  // 12 Mflop: 2 GFLOP/s
     Profile blind = measured(1);
     for (ProfiledFrame& frame : blind.frames) frame.device.clear();
     EXPECT_THAT(profile_text(blind), HasSubstr("device times: unavailable"));
-    EXPECT_THAT(profile_csv(measured(1)), HasSubstr("\nrelax,6,6,6,6,0,4,30000000,5e+09,0.5\n"));
+    EXPECT_THAT(profile_csv(measured(1)), HasSubstr("\nrelax,6,6,6,6,0,4,30000000,5e+09,0.5,1.2e+07,2e+09\n"));
+    Profile unknown = measured(1);
+    unknown.work[0].flops = 0;
+    EXPECT_THAT(profile_csv(unknown), HasSubstr("\nrelax,6,6,6,6,0,4,30000000,5e+09,0.5,,\n"));
 }
 
 TEST(ProfileJson, HasARepetitionPerFrameAndAggregates) {
@@ -93,7 +96,12 @@ TEST(ProfileJson, HasARepetitionPerFrameAndAggregates) {
         EXPECT_EQ(entry["time_unit"], "ms");
         if (entry["run_type"] == "iteration") ++repetitions;
         if (entry["aggregate_name"] == "median") median = entry["real_time"].asDouble();
+        EXPECT_FALSE(entry.isMember("flops_per_second")) << "a frame is no pass";
     }
+    for (const Json::Value& entry : value["benchmarks"])
+        if (entry["name"] == "relax_median") {
+            EXPECT_NEAR(entry["flops_per_second"].asDouble(), 2e9, 1);
+        }
     EXPECT_EQ(repetitions, 11);
     EXPECT_NEAR(median, 15, 1e-9);
 }

@@ -19,17 +19,20 @@ const PassWork* work_of(const Profile& profile, const Row& row) {
     return found == profile.work.end() ? nullptr : &*found;
 }
 
-/// Bytes per second.
-double rate(const PassWork& work, double milliseconds) {
-    return milliseconds > 0 ? static_cast<double>(work.bytes) / (1e-3 * milliseconds) : 0;
+/// Of bytes or operations, per second.
+double rate(double amount, double milliseconds) { return milliseconds > 0 ? amount / (1e-3 * milliseconds) : 0; }
+double byte_rate(const PassWork& work, double milliseconds) {
+    return rate(static_cast<double>(work.bytes), milliseconds);
 }
 
 std::string work_text(const Profile& profile, const Row& row, double median) {
     const PassWork* work = work_of(profile, row);
     if (!work || median == 0) return {};
-    const double bytes = rate(*work, median);
+    const double bytes = byte_rate(*work, median);
     std::string text = fmt::format("{:>7}{:>12}{:>9.2f}", work->count, graph::size_text(work->bytes), 1e-9 * bytes);
-    if (profile.copy_bandwidth > 0) text += fmt::format("{:>8.0f} %", 100 * bytes / profile.copy_bandwidth);
+    text += profile.copy_bandwidth > 0 ? fmt::format("{:>8.0f} %", 100 * bytes / profile.copy_bandwidth)
+                                       : fmt::format("{:>10}", "-");
+    if (work->flops > 0) text += fmt::format("{:>10.1f}{:>9.2f}", 1e-6 * work->flops, 1e-9 * rate(work->flops, median));
     return text;
 }
 
@@ -85,7 +88,8 @@ Json::Value entry(const std::string& name, double milliseconds) {
     return value;
 }
 
-void add_row(const Row& row, Json::Value& list) {
+/// `work`: what the declarations say of the row, or null.
+void add_row(const Row& row, const PassWork* work, Json::Value& list) {
     for (std::size_t k = 0; k < row.milliseconds.size(); ++k) {
         Json::Value value = entry(row.name, row.milliseconds[k]);
         value["name"] = row.name;
@@ -105,6 +109,11 @@ void add_row(const Row& row, Json::Value& list) {
         value["run_type"] = "aggregate";
         value["aggregate_name"] = aggregate;
         value["aggregate_unit"] = "time";
+        // As Google Benchmark has them: counters are members.
+        if (work && aggregate == std::string("median")) {
+            value["bytes_per_second"] = byte_rate(*work, milliseconds);
+            if (work->flops > 0) value["flops_per_second"] = rate(work->flops, milliseconds);
+        }
         list.append(value);
     }
 }
@@ -144,7 +153,9 @@ std::string profile_text(const Profile& profile) {
     text += fmt::format("\n{:<{}}{:>10}{:>10}{:>10}{:>10}{:>12}", "ms per frame", width + 2, "min", "median", "p95",
                         "p99", "IQR/median");
     const bool work = std::ranges::any_of(rows, [&](const Row& row) { return work_of(profile, row) != nullptr; });
-    if (work) text += fmt::format("{:>7}{:>12}{:>9}{:>10}", "passes", "bytes", "GB/s", "of copy");
+    if (work)
+        text +=
+            fmt::format("{:>7}{:>12}{:>9}{:>10}{:>10}{:>9}", "passes", "bytes", "GB/s", "of copy", "Mflop", "GFLOP/s");
     text += "\n";
     for (const Row& row : rows) {
         const Statistics s = statistics_of(row.milliseconds);
@@ -157,7 +168,9 @@ std::string profile_text(const Profile& profile) {
 }
 
 std::string profile_csv(const Profile& profile) {
-    std::string text = "name,min_ms,median_ms,p95_ms,p99_ms,spread,passes,bytes,bytes_per_second,share_of_copy\n";
+    std::string text =
+        "name,min_ms,median_ms,p95_ms,p99_ms,spread,passes,bytes,bytes_per_second,share_of_copy,flops,flops_per_"
+        "second\n";
     if (profile.frames.empty()) return text;
     for (const Row& row : rows_of(profile)) {
         const Statistics s = statistics_of(row.milliseconds);
@@ -165,13 +178,13 @@ std::string profile_csv(const Profile& profile) {
             fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g}", row.name, s.minimum, s.median, s.p95, s.p99, s.spread);
         const PassWork* work = work_of(profile, row);
         if (!work) {
-            text += ",,,,\n";
+            text += ",,,,,,\n";
             continue;
         }
-        const double bytes = rate(*work, s.median);
+        const double bytes = byte_rate(*work, s.median);
         text += fmt::format(",{},{},{:.6g},", work->count, work->bytes, bytes);
         if (profile.copy_bandwidth > 0) text += fmt::format("{:.4g}", bytes / profile.copy_bandwidth);
-        text += "\n";
+        text += work->flops > 0 ? fmt::format(",{:.6g},{:.6g}\n", work->flops, rate(work->flops, s.median)) : ",,\n";
     }
     return text;
 }
@@ -181,7 +194,7 @@ std::string profile_json(const Profile& profile) {
     value["context"] = context(profile);
     value["benchmarks"] = Json::Value(Json::arrayValue);
     if (!profile.frames.empty())
-        for (const Row& row : rows_of(profile)) add_row(row, value["benchmarks"]);
+        for (const Row& row : rows_of(profile)) add_row(row, work_of(profile, row), value["benchmarks"]);
     return json_text(value);
 }
 

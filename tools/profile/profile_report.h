@@ -8,7 +8,8 @@
 namespace drape::profile {
 
 std::string profile_text(const Profile& profile);
-/// A row per name: name, minimum, median, p95, p99 (ms), spread, and of passes count, bytes, GB/s, share of a copy.
+/// A row per name: name, minimum, median, p95, p99 (ms), spread, and of passes count, bytes, bytes/s, share of a copy,
+/// floating-point operations (step_flops.h), operations/s.
 std::string profile_csv(const Profile& profile);
 /// "context", and in "benchmarks" a repetition per measured frame and the aggregates of each name.
 std::string profile_json(const Profile& profile);

@@ -110,6 +110,7 @@ struct PassWork {
     std::string name, stage;  ///< as in FinishedFrame::timings: of passes, of stages
     std::size_t count = 0;
     std::uint64_t bytes = 0;  ///< of all of them, when each reads and writes all it declares once
+    double flops = 0;         ///< of all of them: + - * / sqrt of what they compute for each element; 0: not known
 };
 
 struct ResourceMemory {
