@@ -122,15 +122,17 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 
 void add_device_option(CLI::App& command, std::string& device) {
     add_option(command, "--device", "DEVICE",
-               "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them);\n"
-               "default: a GPU when there is one",
+               "INDEX, UUID, unique part of the NAME, or cpu\n"
+               "(`drape devices` lists them); default: a GPU when\n"
+               "there is one",
                device);
 }
 
 void add_validate_option(CLI::App& command, bool& validate) {
     add_flag(command, "--validate",
-             "Core and synchronization validation by the Khronos layer: each message on\n"
-             "stderr, and exit code 6 when there was one",
+             "Core and synchronization validation by the Khronos\n"
+             "layer: each message on stderr, and exit code 6\n"
+             "when there was one",
              validate);
 }
 

@@ -198,5 +198,38 @@ TEST(BenchAccuracy, RefusesWhatItCannotDo) {
     EXPECT_THAT(help.out, AllOf(HasSubstr("Usage: drape bench accuracy"), HasSubstr("Exit codes: 0 ok, 1 file")));
 }
 
+TEST(BenchSpeed, MeasuresAndWritesEverything) {
+    const SceneFolder folder(small_scene(2));
+    const Outcome outcome =
+        drape({"bench", "speed", "--short", "--validate", "--filter",
+               "^(line/32$|explicit/(32|64)$|skip/statistics|start/simulate)", "--scenes", DRAPE_SOURCE_DIR "/scenes",
+               "--json", folder.out("s.json"), "--csv", folder.out("s.csv"), "--svg", folder.out("plots")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("a copy moves"), HasSubstr("\nline/32 "), HasSubstr("\nskip/statistics "),
+                                   HasSubstr("cold: pipelines and memory"), HasSubstr("warm: all")));
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr("5/5 "), HasSubstr("5 cases measured, 0 left out"), Not(HasSubstr("VUID"))));
+    EXPECT_THAT(read_text(folder.out("s.json")), HasSubstr("\"format\": \"drape bench speed 1\""));
+    EXPECT_THAT(read_text(folder.out("s.csv")), HasSubstr("\nexplicit/64,solve,4096,8,1,0,\"native, scalar\","));
+    EXPECT_EQ(names_in(folder.out("plots")), std::set<std::string>{"speed_explicit.svg"});
+}
+
+TEST(BenchSpeed, RefusesWhatItCannotDo) {
+    const auto refused = [&](std::vector<std::string> options, int code, const char* message) {
+        options.insert(options.begin(), {"bench", "speed"});
+        const Outcome outcome = drape(options);
+        EXPECT_EQ(outcome.code, code) << message;
+        EXPECT_THAT(outcome.err, HasSubstr(message));
+        EXPECT_THAT(outcome.out, IsEmpty()) << message;
+    };
+    refused({"--filter", "("}, 2, "--filter '('");
+    refused({"--filter", "no such case"}, 2, "matches no case");
+    refused({"--budget", "0"}, 2, "--budget: expected minutes above 0");
+    refused({"--filter", "line/32$", "--device", "no such device"}, 4, "no such device");
+    const Outcome none = drape({"bench", "speed", "-q", "--filter", "skip/pictures", "--scenes", "no such folder"});
+    EXPECT_EQ(none.code, 0) << none.err;
+    EXPECT_THAT(none.out, HasSubstr("Cases were left out"));
+}
+
 }  // namespace
 }  // namespace drape

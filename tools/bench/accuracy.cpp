@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <regex>
 
 #include "bench/bisection.h"
 #include "bench/measure.h"
@@ -31,66 +30,22 @@ struct PlannedSweep {
     Sweep sweep;
 };
 
-/// --filter
-class CaseFilter {
-  public:
-    explicit CaseFilter(const std::string& text) try : text_(text), expression_(text) {
-    } catch (const std::regex_error& error) {
-        throw UsageError(fmt::format("--filter '{}': {}", text, error.what()));
-    }
-    bool accepts(const Problem& problem, std::uint32_t size, const Setting& setting) const {
-        return std::regex_search(case_name(problem, size, setting), expression_);
-    }
-    std::vector<PlannedSweep> planned(const std::vector<Problem>& problems) const;
-
-  private:
-    std::string text_;
-    std::regex expression_;
-};
-
-std::vector<PlannedSweep> CaseFilter::planned(const std::vector<Problem>& problems) const {
+/// The chosen cases. Throws UsageError when there is none.
+std::vector<PlannedSweep> planned(const CaseFilter& filter, const std::vector<Problem>& problems) {
     std::vector<PlannedSweep> plan;
     for (const Problem& problem : problems)
         for (const Sweep& sweep : problem.sweeps) {
             Sweep chosen{sweep.size, {}, sweep.priority};
             for (const Setting& setting : sweep.settings)
-                if (accepts(problem, sweep.size, setting)) chosen.settings.push_back(setting);
+                if (filter.accepts(case_name(problem, sweep.size, setting))) chosen.settings.push_back(setting);
             if (!chosen.settings.empty()) plan.push_back({&problem, chosen});
         }
-    if (plan.empty())
-        throw UsageError(fmt::format("--filter '{}' matches no case; their names are like swing/64/relax/20", text_));
+    if (plan.empty()) filter.refuse("swing/64/relax/20");
     std::ranges::stable_sort(plan, {}, [](const PlannedSweep& p) { return p.sweep.priority; });
     return plan;
 }
 
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw OutputError(fmt::format("cannot make folder '{}': {}", folder.string(), error.message()));
-}
-
-std::string duration(double seconds) {
-    const auto total = static_cast<std::uint64_t>(std::max(0.0, std::ceil(seconds)));
-    return total >= 3600 ? fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60)
-                         : fmt::format("{}:{:02}", total / 60, total % 60);
-}
-
-/// Seconds of a case from its work and the rate of those done so far.
-class Forecast {
-  public:
-    void left(double work) { left_ += work; }
-    void left_out(double work) { left_ -= work; }
-    void done(double work, double seconds) {
-        work_ += work;
-        seconds_ += seconds;
-    }
-    double seconds(double work) const { return work * (work_ > 0 ? seconds_ / work_ : first_rate); }
-    double seconds_left() const { return seconds(left_); }
-
-  private:
-    static constexpr double first_rate = 5e-9;  // s per particle and pass, before anything is measured
-    double left_ = 0, work_ = 0, seconds_ = 0;
-};
+constexpr double first_rate = 5e-9;  // s per particle and pass, before anything is measured
 
 class AccuracyRun {
   public:
@@ -102,10 +57,11 @@ class AccuracyRun {
           store_(fs::path(request.folder) / "results.jsonl"),
           references_(
               fs::path(request.folder) / "references", [this](const std::string& what) { begin_reference(what); },
-              [this](double fraction) { show_reference(fraction); }) {
+              [this](double fraction) { show_reference(fraction); }),
+          budget_(request.budget_minutes, first_rate) {
         for (const PlannedSweep& p : plan_)
             for (const Setting& setting : p.sweep.settings) {
-                forecast_.left(case_work(device_.info(), *p.problem, p.sweep.size, setting));
+                budget_.left(case_work(device_.info(), *p.problem, p.sweep.size, setting));
                 ++case_count_;
             }
     }
@@ -125,25 +81,26 @@ class AccuracyRun {
     const std::map<std::string, std::string>& notes() const { return notes_; }
 
     void begin_reference(const std::string& what) {
-        say(what);
+        request_.say(what);
         reference_start_ = last_line_ = now();
         reference_before_ = reference_seconds_;
     }
 
     void show_reference(double fraction) {
-        if (stopped()) throw Stopped{};
+        if (request_.stopped()) throw Stopped{};
         const double time = now(), spent = time - reference_start_;
         reference_seconds_ = reference_before_ + spent;
         if (time - last_line_ < 10 || fraction <= 0) return;
         last_line_ = time;
-        say(fmt::format("  reference {:.0f} %, {} left", 100 * fraction, duration(spent / fraction - spent)));
+        request_.say(
+            fmt::format("  reference {:.0f} %, {} left", 100 * fraction, duration_text(spent / fraction - spent)));
     }
 
   private:
     void run_sweep(const PlannedSweep& p, AccuracySummary& summary) {
         bool at_floor = false;
         for (const Setting& setting : p.sweep.settings) {
-            forecast_.left_out(case_work(device_.info(), *p.problem, p.sweep.size, setting));
+            budget_.left_out(case_work(device_.info(), *p.problem, p.sweep.size, setting));
             ++case_number_;
             if (!at_floor && run_setting(p, setting, summary)) at_floor = is_at_floor(*p.problem, results_.back());
         }
@@ -156,7 +113,7 @@ class AccuracyRun {
         if (std::optional<CaseResult> kept = store_.find(key)) {
             ++summary.kept_count;
             results_.push_back(std::move(*kept));
-        } else if (over_budget(forecast_.seconds(work))) {
+        } else if (!budget_.allows(work)) {
             ++summary.left_out_count;
             return false;
         } else {
@@ -189,26 +146,27 @@ class AccuracyRun {
             const std::optional<std::uint32_t> count = next_count(points);
             if (!count) return;
             (by_iterations ? setting.iterations : setting.substeps) = *count;
-            if (!filter_.accepts(*p.problem, p.sweep.size, setting)) return;
+            if (!filter_.accepts(case_name(*p.problem, p.sweep.size, setting))) return;
             ++case_number_, ++case_count_;
             if (!run_setting(p, setting, summary)) return;
         }
     }
 
     void measure(const PlannedSweep& p, const Setting& setting, double work) {
-        if (stopped()) throw Stopped{};
+        if (request_.stopped()) throw Stopped{};
         const double start = now(), before = reference_seconds_;
         results_.push_back(
-            run_case(device_, *p.problem, p.sweep.size, setting, references_, [this] { return stopped(); }));
+            run_case(device_, *p.problem, p.sweep.size, setting, references_, [this] { return request_.stopped(); }));
         store_.add(results_.back());
-        forecast_.done(work, now() - start - (reference_seconds_ - before));
+        budget_.done(work, now() - start - (reference_seconds_ - before));
         const CaseResult& result = results_.back();
         const auto error = result.metrics.find(p.problem->metric);
-        say(fmt::format("{}/{} {}: {:.3g} ms/frame, {}; {:.1f} s, ETA {}", case_number_, case_count_, result.name,
-                        case_milliseconds(result),
-                        error == result.metrics.end() ? std::string(result.diverged ? "diverged" : "no reference")
-                                                      : fmt::format("{} {:.2e}", p.problem->metric, error->second),
-                        result.seconds, duration(forecast_.seconds_left())));
+        request_.say(fmt::format("{}/{} {}: {:.3g} ms/frame, {}; {:.1f} s, ETA {}", case_number_, case_count_,
+                                 result.name, case_milliseconds(result),
+                                 error == result.metrics.end()
+                                     ? std::string(result.diverged ? "diverged" : "no reference")
+                                     : fmt::format("{} {:.2e}", p.problem->metric, error->second),
+                                 result.seconds, duration_text(budget_.seconds_left())));
     }
 
     /// The reference is farther off than what is wanted.
@@ -223,27 +181,17 @@ class AccuracyRun {
         return error != result.metrics.end() && error->second < floor;
     }
 
-    bool over_budget(double seconds) const {
-        return request_.budget_minutes && now() - start_ + seconds > 60 * *request_.budget_minutes;
-    }
-
-    bool stopped() const { return request_.stop && request_.stop(); }
-
-    void say(const std::string& text) const {
-        if (!request_.quiet && request_.message) request_.message(text);
-    }
-
     const AccuracyRequest& request_;
     CaseFilter filter_;
     Device device_;
     std::vector<PlannedSweep> plan_;
     ResultStore store_;
     References references_;
-    Forecast forecast_;
+    Budget budget_;
     std::vector<CaseResult> results_;
     std::map<std::string, std::string> notes_;
     std::size_t case_number_ = 0, case_count_ = 0;
-    double start_ = now(), reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0, last_line_ = 0;
+    double reference_start_ = 0, reference_before_ = 0, reference_seconds_ = 0, last_line_ = 0;
 };
 
 void write_files(AccuracyRequest request, const Report& report, const std::vector<Problem>& problems) {
@@ -279,11 +227,11 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     std::optional<UserScene> user;
     if (!request.scene.empty()) user = read_user_scene(request.scene, request.overrides, request.frames);
     const CaseFilter filter(request.filter);
-    if (!user) filter.planned(all_problems(request.is_short));  // a filter that matches nothing needs no device
+    if (!user) planned(filter, all_problems(request.is_short));  // a filter that matches nothing needs no device
     const Device device(request.device, request.validate ? Validation::print : Validation::off);
     const auto current = std::make_shared<AccuracyRun*>();
     const std::vector<Problem> problems = problems_of(request, user, device, current);
-    std::vector<PlannedSweep> plan = filter.planned(problems);
+    std::vector<PlannedSweep> plan = planned(filter, problems);
     make_folder(request.folder);
     AccuracySummary summary;
     AccuracyRun run(request, device, filter, std::move(plan));

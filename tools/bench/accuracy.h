@@ -1,30 +1,22 @@
 // `drape bench accuracy`: error against work for every solver.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/bench_request.h"
+
 namespace drape::bench {
 
-struct AccuracyRequest {
+struct AccuracyRequest : SelectedCases {
     std::string scene;                   ///< a file to be measured against its own refined runs; empty: the benchmark's
     std::vector<std::string> overrides;  ///< of the scene: "/json/pointer=value"
     std::uint32_t frames = 0;            ///< of the scene, after the first, at most; 0: all
     std::vector<double> errors{1e-1, 1e-2, 1e-3, 1e-4};  ///< m, whose cheapest setting is asked for
     std::uint32_t reference_substeps = 1280;             ///< per frame, at most
-    std::string filter;                    ///< regular expression that a case's name must contain; empty: all
-    bool is_short = false;                 ///< few small cases
-    std::string device;                    ///< selector; empty: the best there is
-    bool validate = false;                 ///< core and synchronization validation
-    std::string folder = "bench";          ///< finished cases and references, kept for the next run
-    std::string json, csv;                 ///< files; empty: none, or for a scene accuracy.json, .csv in `folder`
-    std::string svg;                       ///< folder of plots; empty: none, or for a scene `folder`
-    std::optional<double> budget_minutes;  ///< start no case that would end later
-    bool quiet = false;
-    std::function<void(const std::string&)> message;  ///< progress, one line each
-    std::function<bool()> stop;                       ///< true: end soon; what is finished is kept
+    std::string folder = "bench";                        ///< finished cases and references, kept for the next run
+                                   ///< of a scene also accuracy.json, accuracy.csv and plots unless they go elsewhere
 };
 
 struct AccuracySummary {

@@ -44,7 +44,7 @@ class Trial {
                 results_.push_back(known->second);
                 continue;
             }
-            if (request_.stop && request_.stop()) throw Stopped{};
+            if (request_.stopped()) throw Stopped{};
             run_scene(index, key);
             ++summary.run_count;
             say(k);
@@ -68,8 +68,7 @@ class Trial {
     void run_scene(std::uint32_t index, const std::string& key) {
         SceneDescription scene = find_generator(request_.generator)->scene(request_.seed, index);
         scene.solver.tolerance = request_.tolerance;
-        const auto stop = [this] { return request_.stop && request_.stop(); };
-        TrialResult result = try_scene(device_, scene, request_.reference, stop);
+        TrialResult result = try_scene(device_, scene, request_.reference, [this] { return request_.stopped(); });
         result.name = name_of(index);
         result.key = key;
         file_.add(trial_line(result));
@@ -77,7 +76,6 @@ class Trial {
     }
 
     void say(std::uint32_t done) const {
-        if (request_.quiet || !request_.message) return;
         const TrialResult& result = results_.back();
         std::string text = fmt::format("{}/{} {}: {}", done + 1, request_.count, result.name,
                                        spelling(trial_outcome_spellings, result.outcome));
@@ -90,7 +88,7 @@ class Trial {
         number("substeps_max", "substeps");
         number("error", "position error");
         number("wall_s", "seconds");
-        request_.message(text);
+        request_.say(text);
     }
 
     const TrialRequest& request_;
@@ -111,9 +109,7 @@ TrialSummary run_trial(const TrialRequest& request) {
     if (!find_generator(request.generator))
         throw UsageError(fmt::format("--generator: expected a or b, got '{}'", request.generator));
     const Device device(request.device, request.validate ? Validation::print : Validation::off);
-    std::error_code error;
-    fs::create_directories(request.folder, error);
-    if (error) throw OutputError(fmt::format("cannot make folder '{}': {}", request.folder, error.message()));
+    make_folder(request.folder);
     TrialSummary summary;
     Trial trial(request, device);
     try {

@@ -6,22 +6,18 @@
 #include <optional>
 #include <string>
 
+#include "bench/bench_request.h"
 #include "bench/trial_result.h"
 #include "drape/device.h"
 
 namespace drape::bench {
 
-struct TrialRequest {
+struct TrialRequest : BenchRequest {
     std::string generator = "b";  ///< of `scene_generators`
     std::uint32_t seed = 1, first = 0, count = 100;
     double tolerance = 0;  ///< of every scene; 0: none is asked for
     bool reference = false;
     std::string folder = "bench_auto";  ///< finished scenes, a line each, kept for the next run
-    std::string device;                 ///< selector; empty: the best there is
-    bool validate = false;
-    bool quiet = false;
-    std::function<void(const std::string&)> message;  ///< progress, one line each
-    std::function<bool()> stop;                       ///< true: end soon
 };
 
 struct TrialSummary {

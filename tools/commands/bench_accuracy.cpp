@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "bench/accuracy.h"
+#include "commands/bench_options.h"
 #include "ending.h"
-#include "options.h"
 #include "program.h"
 #include "streams.h"
 
@@ -29,15 +29,6 @@ ExitCode measure(bench::AccuracyRequest request) {
     if (summary.missed_count == 0) return ExitCode::ok;
     print_error(fmt::format("{} of the benchmark's limits, orders and promises not met", summary.missed_count));
     return ExitCode::comparison;
-}
-
-std::string set_minutes(const std::string& text, bench::AccuracyRequest& request) {
-    char* end = nullptr;
-    const double minutes = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != 0 || !(minutes > 0 && minutes < 1e6))
-        return "expected minutes above 0, got '" + text + "'";
-    request.budget_minutes = minutes;
-    return {};
 }
 
 std::string set_errors(const std::string& text, std::vector<double>& errors) {
@@ -74,27 +65,18 @@ void add_user_scene_options(CLI::App& command, bench::AccuracyRequest& request) 
 
 void add_options(CLI::App& command, bench::AccuracyRequest& request) {
     add_user_scene_options(command, request);
-    add_option(command, "--filter", "REGEX",
-               "Only cases whose name contains this regular expression; names are\n"
-               "PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
-               "default: all",
-               request.filter);
-    add_flag(command, "--short", "A few small cases of every problem: under 3 minutes", request.is_short);
     add_option(command, "--folder", "DIR",
                "Where finished cases and references are kept: the same command goes on from\n"
                "there, and only what has changed is measured again; of SCENE also accuracy.json,\n"
                "accuracy.csv and the plots; default: bench",
                request.folder);
-    add_option(command, "--budget", "MINUTES",
-               "Start no case that would end later than after so many minutes, the important\n"
-               "cases first; default: no limit",
-               [&request](const std::string& text) { return set_minutes(text, request); });
-    add_option(command, "--json", "FILE", "Write results, orders, limits and ratios as JSON", request.json);
-    add_option(command, "--csv", "FILE", "Write a row per case", request.csv);
-    add_option(command, "--svg", "DIR", "Write plots of error against time, passes, substeps and N", request.svg);
-    add_device_option(command, request.device);
-    add_validate_option(command, request.validate);
-    add_flag(command, "-q,--quiet", "No progress", request.quiet);
+    add_case_options(
+        command,
+        {"PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
+         "default: all",
+         "A few small cases of every problem: under 3 minutes", "Write results, orders, limits and ratios as JSON",
+         "Write a row per case", "Write plots of error against time, passes, substeps and N"},
+        request);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "bench/auto_trial.h"
+#include "commands/bench_options.h"
 #include "ending.h"
-#include "options.h"
 #include "program.h"
 #include "streams.h"
 
@@ -71,9 +71,7 @@ Examples:
     add_flag(command, "--reference", "Measure position errors and times against other settings (takes long)",
              request->reference);
     add_option(command, "-o,--folder", "DIR", "Where finished scenes are kept; default: bench_auto", request->folder);
-    add_device_option(command, request->device);
-    add_validate_option(command, request->validate);
-    add_flag(command, "-q,--quiet", "No progress", request->quiet);
+    add_bench_options(command, *request);
 }
 
 }  // namespace drape::cli

@@ -1,0 +1,138 @@
+// Cases, tables, fits and plots of `drape bench speed`, on made-up times.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "bench/bench_request.h"
+#include "bench/speed_report.h"
+#include "native/native_run.h"
+
+namespace drape::bench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+SpeedTime time_of(const std::string& name, double median, double spread = 0.1) {
+    return {name, {0.9 * median, median, 1.1 * median, 1.2 * median, spread}};
+}
+
+SpeedResult sheet_result(std::uint32_t size, double frame, double native, double spread = 0.1) {
+    SpeedCase about{.name = fmt::format("line/{}", size), .group = "line", .variable = size, .size = size};
+    return {about, {}, {time_of("frame", frame, spread), time_of("native", native)}, 2e6, 4e6};
+}
+
+SpeedReport report_of(std::vector<SpeedResult> results) {
+    return {"0", "today", "device", "driver", 2, 1e10, false, true, std::move(results)};
+}
+
+TEST(SpeedCases, HaveNamesOfTheirOwnAndScenesThatTheYardstickKnows) {
+    std::set<std::string> names;
+    for (const SpeedCase& each : speed_cases(false)) {
+        EXPECT_TRUE(names.insert(each.name).second) << each.name;
+        if (each.kind == SpeedKind::skip || each.size > 64) continue;
+        const SceneDescription scene = scene_of(each);
+        EXPECT_EQ(scene.cloths.size(), each.cloths);
+        EXPECT_EQ(scene.colliders.size(), each.colliders);
+        const SimulationModel model(scene);
+        if (each.colliders == 0) {
+            EXPECT_NO_THROW(native::NativeRun(model, {})) << each.name;
+        }
+    }
+    for (const char* name : {"explicit/2048", "line/32/64 cloths", "line/128/64 colliders", "picture/64/4 samples",
+                             "start/render", "skip/iterations"})
+        EXPECT_TRUE(names.contains(name)) << name;
+    for (const SpeedCase& each : speed_cases(true)) EXPECT_LE(each.size, 256u);
+}
+
+TEST(SpeedCases, EverySkipNamesAShippedScene) {
+    for (const SkipCase& skip : skip_cases())
+        EXPECT_TRUE(std::ifstream(DRAPE_SOURCE_DIR "/scenes/" + skip.scene)) << skip.scene;
+}
+
+TEST(SpeedResults, RatiosAreOfMediansAndNoneWithoutBoth) {
+    const SpeedResult result = sheet_result(64, 3, 2);
+    EXPECT_DOUBLE_EQ(result.ratio("frame", "native"), 1.5);
+    EXPECT_EQ(result.ratio("frame", "native, scalar"), 0);
+    EXPECT_EQ(result.find("device"), nullptr);
+}
+
+TEST(SpeedResults, ScalingIsFittedToMillisecondsPerSubstepFrom64On) {
+    std::vector<SpeedResult> results{sheet_result(32, 100, 100)};
+    // Twice as many substeps a frame below 1024: what counts is the substep.
+    for (const std::uint32_t size : {64u, 256u, 1024u}) {
+        const double particles = double(size) * size, substeps = size < 1024 ? 8 : 2;
+        results.push_back(sheet_result(size, substeps * 1e-4 * particles, substeps * 1e-6 * std::pow(particles, 1.2)));
+    }
+    const std::vector<ScalingFit> fits = fit_scaling(results);
+    ASSERT_EQ(fits.size(), 2u);
+    EXPECT_EQ(fits[0].time, "frame");
+    EXPECT_NEAR(fits[0].exponent, 1, 1e-9);
+    EXPECT_NEAR(fits[1].exponent, 1.2, 1e-9);
+    EXPECT_EQ(fits[0].points.size(), 3u);
+    results.pop_back();
+    EXPECT_TRUE(fit_scaling(results).empty()) << "two points are no fit";
+}
+
+TEST(SpeedReport, TableHasRatiosRatesAndMarksDoubtfulTimes) {
+    const std::string text = speed_text(report_of({sheet_result(64, 4, 2), sheet_result(128, 8, 1, 0.5)}));
+    EXPECT_THAT(text, AllOf(HasSubstr("a copy moves 10.00 GB/s"), HasSubstr("Solvers, ms per substep"),
+                            Not(HasSubstr("Skips")), Not(HasSubstr("Starts"))));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("line/64")) {  // 0.5 ms of a substep, twice the native; 2 MB in 4 ms
+            EXPECT_THAT(line, AllOf(HasSubstr("0.5000"), HasSubstr("2.00"), HasSubstr("0.5"), HasSubstr("5 %"),
+                                    HasSubstr("1.0"), Not(HasSubstr("doubtful"))));
+        } else if (line.starts_with("line/128")) {
+            EXPECT_THAT(line, AllOf(HasSubstr("8.00"), HasSubstr("time doubtful")));
+        }
+    }
+}
+
+TEST(SpeedReport, SkipsSayWhatTheySave) {
+    SpeedCase about{.name = "skip/pictures", .kind = SpeedKind::skip};
+    const SpeedReport report = report_of({{about, "a.json: pictures", {time_of("frame", 2), time_of("without", 8)}}});
+    EXPECT_THAT(speed_text(report), AllOf(HasSubstr("75 %"), HasSubstr("a.json: pictures")));
+    EXPECT_THAT(speed_json(report), HasSubstr("\"skipped\": \"a.json: pictures\""));
+}
+
+TEST(SpeedReport, JsonAndCsvHaveEveryTime) {
+    const SpeedReport report = report_of({sheet_result(64, 4, 2)});
+    EXPECT_THAT(speed_json(report), AllOf(HasSubstr("\"format\": \"drape bench speed 1\""),
+                                          HasSubstr("\"frame_over_this\": 2"), HasSubstr("\"flops_per_frame\"")));
+    EXPECT_THAT(speed_csv(report), HasSubstr("line/64,solve,4096,8,1,0,\"native\",1.8,2,2.2,0.1,0,2\n"));
+}
+
+TEST(SpeedReport, PlotsHaveUnitsAndASeriesPerSide) {
+    const auto plots = speed_plots(report_of({sheet_result(64, 4, 2), sheet_result(128, 8, 1, 0.5)}));
+    ASSERT_EQ(plots.size(), 1u);
+    EXPECT_EQ(plots[0].first, "speed_line.svg");
+    const LogPlot& plot = plots[0].second;
+    EXPECT_EQ(plot.y_label, "ns per particle and substep");
+    ASSERT_EQ(plot.series.size(), 2u);
+    EXPECT_NEAR(plot.series[0].points[0][1], 1e6 * 4 / 8 / 4096, 1e-9);
+    EXPECT_EQ(plot.series[0].doubtful, (std::vector<bool>{false, true}));
+    EXPECT_TRUE(speed_plots(report_of({sheet_result(64, 4, 2)})).empty()) << "one point is no line";
+}
+
+TEST(Budget, LetsBeginWhatWillEndInTime) {
+    Budget free(std::nullopt, 1);
+    EXPECT_TRUE(free.allows(1e9));
+    Budget budget(1, 0.1);  // a minute; a tenth of a second per unit at first
+    EXPECT_TRUE(budget.allows(500));
+    EXPECT_FALSE(budget.allows(700));
+    budget.done(100, 100);
+    EXPECT_FALSE(budget.allows(500)) << "the measured rate counts";
+    budget.left(30);
+    budget.left_out(10);
+    EXPECT_DOUBLE_EQ(budget.seconds_left(), 20);
+    EXPECT_EQ(duration_text(3723), "1:02:03");
+    EXPECT_EQ(duration_text(60.2), "1:01");
+}
+
+}  // namespace
+}  // namespace drape::bench

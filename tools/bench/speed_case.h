@@ -1,0 +1,45 @@
+// What `drape bench speed` measures: a table of cases, made of a few lists of numbers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drape/scene.h"
+#include "drape/simulation.h"
+
+namespace drape::bench {
+
+enum class SpeedKind { solve, picture, skip, start };
+
+struct SpeedCase {
+    std::string name{};  ///< "line/256": what --filter is matched with
+    SpeedKind kind = SpeedKind::solve;
+    std::string group{};         ///< cases that a line of a plot joins: "line", "line, cloths"
+    std::uint32_t variable = 0;  ///< what they differ in: particles along a side, cloths, colliders
+    SolverMethod method = SolverMethod::line;
+    std::uint32_t size = 64;  ///< particles along both sides of each cloth
+    std::uint32_t cloths = 1, colliders = 0, samples = 4;
+    bool draw = false;
+
+    std::uint32_t substeps() const { return size < 1024 ? 8 : 2; }  ///< per frame
+    double particles() const { return double(size) * size * cloths; }
+};
+
+/// In order of importance. `is_short`: small cloths alone.
+std::vector<SpeedCase> speed_cases(bool is_short);
+
+/// Sheets of 1 m held by an edge, swinging from level; spheres above them, which they do not touch.
+SceneDescription scene_of(const SpeedCase& speed_case);
+
+/// An exact or adaptive skip (README, --no-skip): a shipped scene with and without it.
+struct SkipCase {
+    std::string name, scene;  ///< "skip/pictures"; "flag.json"
+    std::string saved;        ///< what is skipped
+    void (*set)(SceneDescription& scene, SimulationOptions& options, std::uint32_t& every);  ///< with the skip
+    void (*undo)(SceneDescription& scene, SimulationOptions& options, std::uint32_t& every);
+};
+
+const std::vector<SkipCase>& skip_cases();
+
+}  // namespace drape::bench

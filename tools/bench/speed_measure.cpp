@@ -1,0 +1,219 @@
+#include "bench/speed_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <stdexcept>
+#include <thread>
+
+#include "bench/measure.h"
+#include "native/native_run.h"
+#include "passes/cloth_solver.h"
+
+namespace drape::bench {
+
+namespace {
+
+using Times = std::vector<double>;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t warm_up = 3;  // frames: shaders are compiled at their first dispatch
+constexpr const char* thread_variable = "LP_NUM_THREADS";
+
+int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+int frames_of(double milliseconds, const SpeedEffort& effort) {
+    return static_cast<int>(std::clamp(1e3 * effort.seconds / std::max(milliseconds, 1e-3), 2.0, 200.0));
+}
+
+double mean_of(const Times& milliseconds) {
+    return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0) / static_cast<double>(milliseconds.size());
+}
+
+/// Means of the rounds of what a side takes, ms per frame. Single frames would tell less: a host may hear of several at
+/// once.
+struct RoundMeans {
+    std::string name;
+    Times milliseconds{};
+};
+
+/// Drape's side: frames go on from round to round, each of which begins and ends with an idle device.
+class DeviceSide {
+  public:
+    DeviceSide(const Device& device, const SceneDescription& scene, SimulationOptions options,
+               const BenchRequest& request, std::uint32_t every = 1)
+        : request_(request), every_(every), simulation_(scene, options, device) {
+        run(warm_up);
+        means_.clear();
+        run(2);
+        estimate_ = means_[0].milliseconds[0];
+        means_.clear();
+    }
+
+    void round(const SpeedEffort& effort) {
+        const auto count = static_cast<std::uint32_t>(frames_of(estimate_, effort));
+        run((count + every_ - 1) / every_ * every_);
+    }
+    /// "frame", "device" where there are timestamps, then the stages.
+    const std::vector<RoundMeans>& means() const { return means_; }
+    const Simulation& simulation() const { return simulation_; }
+
+  private:
+    void run(std::uint32_t count) {
+        std::vector<StageTime> stages{{"device"}};
+        const auto finished = [&](const FinishedFrame& frame) {
+            for (const StageTime& time : frame.timings) {
+                auto stage = std::ranges::find(stages, time.name, &StageTime::name);
+                if (stage == stages.end()) stage = stages.insert(stage, {time.name});
+                stage->milliseconds += time.milliseconds;
+                stages[0].milliseconds += time.milliseconds;
+            }
+        };
+        const Clock::time_point start = Clock::now();
+        last_ += count;
+        const bool complete = simulation_.run(
+            last_, [this](std::uint32_t frame) { return frame % every_ == 0; }, finished,
+            [this] { return request_.stopped(); });
+        if (!complete) throw Stopped{};
+        put("frame", std::chrono::duration<double, std::milli>(Clock::now() - start).count() / count);
+        if (stages.size() == 1) return;
+        for (const StageTime& stage : stages) put(stage.name, stage.milliseconds / count);
+    }
+    void put(const std::string& name, double milliseconds) {
+        auto found = std::ranges::find(means_, name, &RoundMeans::name);
+        if (found == means_.end()) found = means_.insert(found, {name});
+        found->milliseconds.push_back(milliseconds);
+    }
+
+    const BenchRequest& request_;
+    std::uint32_t every_, last_ = 0;
+    Simulation simulation_;
+    std::vector<RoundMeans> means_;
+    double estimate_ = 0;
+};
+
+/// The native kernels' side, in one way.
+struct NativeSide {
+    NativeSide(std::string side_name, const SimulationModel& model, native::NativeWay way)
+        : means{std::move(side_name)}, run(model, way), estimate(mean_of(run.run(2))) {}
+
+    void round(const SpeedEffort& effort) {
+        means.milliseconds.push_back(mean_of(run.run(frames_of(estimate, effort))));
+    }
+
+    RoundMeans means;
+    native::NativeRun run;
+    double estimate;
+};
+
+std::vector<std::unique_ptr<NativeSide>> native_sides(const SimulationModel& model) {
+    std::vector<std::unique_ptr<NativeSide>> sides;
+    const std::pair<const char*, native::NativeWay> ways[] = {
+        {"native", {core_count(), true}}, {"native, one core", {1, true}}, {"native, scalar", {1, false}}};
+    try {
+        for (const auto& [name, way] : ways) sides.push_back(std::make_unique<NativeSide>(name, model, way));
+    } catch (const std::invalid_argument&) {  // no kernels for this scene
+    }
+    return sides;
+}
+
+SimulationOptions plain_options(bool draw) {
+    SimulationOptions options;
+    options.draw = draw;
+    options.positions = options.statistics = options.keep_promises = false;
+    return options;
+}
+
+void put(SpeedResult& result, const RoundMeans& means) {
+    result.times.push_back({means.name, profile::statistics_of(means.milliseconds)});
+}
+
+void put_work(const Simulation& simulation, SpeedResult& result) {
+    for (const PassWork& work : simulation.work()) {
+        if (work.stage != "simulate") continue;
+        result.bytes += static_cast<double>(work.bytes);
+        result.flops += work.flops;
+    }
+}
+
+}  // namespace
+
+const Device& SpeedDevices::of(const SceneDescription& scene, bool draw) {
+    const bool given = std::getenv(thread_variable) != nullptr;
+    if (!given) prefer_calling_thread(scene, draw);
+    const bool is_calling = !given && std::getenv(thread_variable) != nullptr;
+    std::unique_ptr<Device>& device = devices_[is_calling];
+    if (!device)
+        device = std::make_unique<Device>(request_.device, request_.validate ? Validation::print : Validation::off);
+    if (!given) unsetenv(thread_variable);
+    return *device;
+}
+
+std::uint64_t SpeedDevices::validation_count() const {
+    std::uint64_t count = 0;
+    for (const auto& [is_calling, device] : devices_) count += device->validation_count();
+    return count;
+}
+
+SpeedResult measure_solver(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                           const BenchRequest& request) {
+    const SceneDescription scene = scene_of(speed_case);
+    const Device& device = devices.of(scene, false);
+    const SimulationModel model(scene, {.device = device_kind(device.info())});
+    DeviceSide side(device, scene, plain_options(false), request);
+    std::vector<std::unique_ptr<NativeSide>> natives = native_sides(model);
+    for (int round = 0; round < effort.rounds; ++round) {
+        side.round(effort);
+        for (const std::unique_ptr<NativeSide>& native : natives) {
+            if (request.stopped()) throw Stopped{};
+            native->round(effort);
+        }
+    }
+    SpeedResult result{speed_case};
+    for (const RoundMeans& means : side.means())
+        if (means.name == "frame" || means.name == "device") put(result, means);
+    for (const std::unique_ptr<NativeSide>& native : natives) put(result, native->means);
+    put_work(side.simulation(), result);
+    return result;
+}
+
+SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                            const BenchRequest& request) {
+    const SceneDescription scene = scene_of(speed_case);
+    DeviceSide side(devices.of(scene, true), scene, plain_options(true), request);
+    for (int round = 0; round < effort.rounds; ++round) side.round(effort);
+    SpeedResult result{speed_case};
+    for (const RoundMeans& means : side.means()) put(result, means);
+    return result;
+}
+
+SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, const SkipCase& skip,
+                         const SceneDescription& scene, const SpeedEffort& effort, const BenchRequest& request) {
+    std::vector<std::unique_ptr<DeviceSide>> sides;
+    for (const auto change : {skip.set, skip.undo}) {
+        SceneDescription asked = scene;
+        asked.time.frame_count = 1'000'000;
+        // Every frame does the same work.
+        if (asked.solver.method == SolverMethod::automatic) asked.solver.method = SolverMethod::line;
+        SimulationOptions options = plain_options(false);
+        std::uint32_t every = 1;
+        change(asked, options, every);
+        sides.push_back(std::make_unique<DeviceSide>(devices.of(asked, true), asked, options, request, every));
+    }
+    for (int round = 0; round < effort.rounds; ++round)
+        for (const std::unique_ptr<DeviceSide>& side : sides) side->round(effort);
+    SpeedResult result{speed_case, skip.scene + ": " + skip.saved};
+    put(result, sides[0]->means()[0]);
+    put(result, {"without", sides[1]->means()[0].milliseconds});
+    return result;
+}
+
+double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort) {
+    constexpr double particle_step = 5e-7;  // s
+    const double sides = speed_case.kind == SpeedKind::solve ? 4 : 2;
+    const double least = 3 * speed_case.particles() * speed_case.substeps() * particle_step;
+    return 1 + effort.rounds * std::max(sides * effort.seconds, least);
+}
+
+}  // namespace drape::bench

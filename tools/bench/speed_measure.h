@@ -1,0 +1,48 @@
+// Measures the cases of `drape bench speed`.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "bench/bench_request.h"
+#include "bench/speed_result.h"
+#include "drape/device.h"
+
+namespace drape::bench {
+
+/// How long each side of a comparison is measured. The sides take turns, so that what slows the machine for a while
+/// slows all of them.
+struct SpeedEffort {
+    int rounds = 7;
+    double seconds = 0.2;  ///< of each side in each round; two frames at least
+};
+
+/// A device as a run of a scene opens it (prefer_calling_thread), each kind once.
+class SpeedDevices {
+  public:
+    explicit SpeedDevices(const BenchRequest& request) : request_(request) {}
+    const Device& of(const SceneDescription& scene, bool draw);
+    std::uint64_t validation_count() const;
+
+  private:
+    const BenchRequest& request_;
+    std::map<bool, std::unique_ptr<Device>> devices_;  ///< by whether the calling thread does the work
+};
+
+/// Throws Stopped, DeviceError.
+SpeedResult measure_solver(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                           const BenchRequest& request);
+SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                            const BenchRequest& request);
+/// `scene`: the shipped one.
+SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, const SkipCase& skip,
+                         const SceneDescription& scene, const SpeedEffort& effort, const BenchRequest& request);
+/// In processes of its own, forked: before any other thread runs. A Mesa driver's shader cache is empty at first (cold)
+/// and then full (warm).
+SpeedResult measure_start(const SpeedCase& speed_case, const SpeedEffort& effort, const BenchRequest& request);
+
+/// Seconds that a case takes, about, at a particle's 0.5 us per substep on all sides together.
+double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort);
+
+}  // namespace drape::bench

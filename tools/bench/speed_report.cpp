@@ -1,0 +1,247 @@
+#include "bench/speed_report.h"
+
+#include <fmt/format.h>
+#include <json/value.h>
+
+#include <algorithm>
+
+#include "output/json_text.h"
+
+namespace drape::bench {
+
+namespace {
+
+/// A side that Drape is compared with: its name among the times, the head of its column.
+struct Side {
+    const char *time, *head;
+};
+constexpr Side sides[] = {{"native", "/ native"}, {"native, one core", "/ one core"}, {"native, scalar", "/ scalar"}};
+
+double per_substep(const SpeedResult& result, const char* name) {
+    const SpeedTime* time = result.find(name);
+    return time ? time->statistics.median / result.about.substeps() : 0;
+}
+
+std::string number(double value, int width, int digits) {
+    return value > 0 ? fmt::format("{:>{}.{}f}", value, width, digits) : fmt::format("{:>{}}", "-", width);
+}
+
+bool is_doubtful(const SpeedResult& result) { return std::ranges::any_of(result.times, &SpeedTime::doubtful); }
+
+const char* mark(const SpeedResult& result) { return is_doubtful(result) ? "  time doubtful" : ""; }
+
+/// Of a solver case, per second of the device's time, or the frame's where that is not known.
+double rate(const SpeedResult& result, double amount) {
+    const SpeedTime* time = result.find(result.find("device") ? "device" : "frame");
+    return time && time->statistics.median > 0 ? amount / (1e-3 * time->statistics.median) : 0;
+}
+
+std::string solver_table(const SpeedReport& report) {
+    std::string text = "\nSolvers, ms per substep (medians), and Drape's time over that of native code\n";
+    text += fmt::format("{:<24}{:>9}{:>9}{:>9}{:>9}{:>9}{:>11}{:>12}{:>10}{:>9}{:>8}{:>9}{:>9}{:>7}\n", "case", "Drape",
+                        "device", "native", "1 core", "scalar", sides[0].head, sides[1].head, sides[2].head, "ns/part.",
+                        "GB/s", "of copy", "GFLOP/s", "IQR");
+    bool any = false;
+    for (const SpeedResult& r : report.results) {
+        if (r.about.kind != SpeedKind::solve) continue;
+        any = true;
+        text += fmt::format("{:<24}", r.about.name);
+        for (const char* name : {"frame", "device", sides[0].time, sides[1].time, sides[2].time})
+            text += number(per_substep(r, name), 9, 4);
+        text += number(r.ratio("frame", sides[0].time), 11, 2) + number(r.ratio("frame", sides[1].time), 12, 2) +
+                number(r.ratio("frame", sides[2].time), 10, 2);
+        text += number(1e6 * per_substep(r, "frame") / r.about.particles(), 9, 1);
+        const double bytes = rate(r, r.bytes);
+        text += number(1e-9 * bytes, 8, 1);
+        text += report.copy_bandwidth > 0 ? number(100 * bytes / report.copy_bandwidth, 7, 0) + " %"
+                                          : fmt::format("{:>9}", "-");
+        text += number(1e-9 * rate(r, r.flops), 9, 1);
+        const SpeedTime* frame = r.find("frame");
+        text += fmt::format("{:>5.0f} %{}\n", frame ? 100 * frame->statistics.spread : 0, mark(r));
+    }
+    return any ? text : std::string();
+}
+
+/// Of pictures and starts: every time by its name.
+std::string parts_table(const SpeedReport& report, SpeedKind kind, const char* head) {
+    std::string text;
+    for (const SpeedResult& r : report.results) {
+        if (r.about.kind != kind) continue;
+        text += r.about.name + "\n";
+        for (const SpeedTime& time : r.times)
+            text += fmt::format("  {:<30}{:>10.2f}{:>10.2f}{:>5.0f} %{}\n", time.name, time.statistics.median,
+                                time.statistics.minimum, 100 * time.statistics.spread,
+                                time.doubtful() ? "  time doubtful" : "");
+    }
+    return text.empty() ? text
+                        : fmt::format("\n{}\n{:<32}{:>10}{:>10}{:>7}\n", head, "ms", "median", "min", "IQR") + text;
+}
+
+std::string skip_table(const SpeedReport& report) {
+    std::string text;
+    for (const SpeedResult& r : report.results) {
+        const SpeedTime *with = r.find("frame"), *without = r.find("without");
+        if (r.about.kind != SpeedKind::skip || !with || !without) continue;
+        text += fmt::format("{:<24}{:>9.2f}{:>9.2f}{:>8.0f} %  {}{}\n", r.about.name, with->statistics.median,
+                            without->statistics.median, 100 * (1 - r.ratio("frame", "without")), r.note, mark(r));
+    }
+    return text.empty()
+               ? text
+               : "\nSkips, ms per frame with and without\n" +
+                     fmt::format("{:<24}{:>9}{:>9}{:>10}  {}\n", "case", "with", "without", "saved", "of") + text;
+}
+
+std::string fit_table(const SpeedReport& report) {
+    std::string text;
+    for (const ScalingFit& fit : fit_scaling(report.results))
+        text += fmt::format("{:<28}{:<20}{:>6.2f}  of {}, {:.4g} to {:.4g}\n", fit.group, fit.time, fit.exponent,
+                            fit.variable, fit.points.front()[0], fit.points.back()[0]);
+    return text.empty() ? text : "\nScaling: exponents of the times\n" + text;
+}
+
+const char* kind_name(SpeedKind kind) {
+    constexpr const char* names[] = {"solve", "picture", "skip", "start"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+Json::Value json_of(const SpeedResult& result) {
+    Json::Value value(Json::objectValue);
+    const SpeedCase& about = result.about;
+    value["case"] = about.name;
+    value["kind"] = kind_name(about.kind);
+    if (!result.note.empty()) value["skipped"] = result.note;
+    if (about.kind != SpeedKind::skip) {
+        value["method"] = std::string(named(about.method).name);
+        value["particles"] = about.particles();
+        value["substeps_per_frame"] = about.substeps();
+        value["cloths"] = about.cloths;
+        value["colliders"] = about.colliders;
+    }
+    if (result.bytes > 0) value["bytes_per_frame"] = result.bytes;
+    if (result.flops > 0) value["flops_per_frame"] = result.flops;
+    for (const SpeedTime& time : result.times) {
+        Json::Value& entry = value["ms"][time.name];
+        const profile::Statistics& s = time.statistics;
+        for (const auto& [name, number] :
+             {std::pair{"min", s.minimum}, {"median", s.median}, {"p95", s.p95}, {"iqr_over_median", s.spread}})
+            entry[name] = number;
+        entry["doubtful"] = time.doubtful();
+        const double ratio = result.ratio("frame", time.name);
+        if (time.name != "frame" && ratio > 0) entry["frame_over_this"] = ratio;
+    }
+    return value;
+}
+
+Json::Value json_of(const ScalingFit& fit) {
+    Json::Value value(Json::objectValue);
+    value["group"] = fit.group;
+    value["time"] = fit.time;
+    value["variable"] = fit.variable;
+    value["exponent"] = fit.exponent;
+    for (const auto& [x, y] : fit.points) {
+        Json::Value point(Json::arrayValue);
+        point.append(x);
+        point.append(y);
+        value["ms_per_substep"].append(point);
+    }
+    return value;
+}
+
+/// Points of one time of a group.
+PlotSeries series_of(const std::vector<const SpeedResult*>& group, const char* time, const std::string& name,
+                     bool per_particle) {
+    PlotSeries series{name, {}, {}};
+    for (const SpeedResult* r : group) {
+        const SpeedTime* found = r->find(time);
+        if (!found) continue;
+        const double ms = per_substep(*r, time);
+        series.points.push_back(per_particle ? std::array{r->about.particles(), 1e6 * ms / r->about.particles()}
+                                             : std::array{double(r->about.variable), ms});
+        series.doubtful.push_back(found->doubtful());
+    }
+    return series;
+}
+
+std::string file_name(const std::string& group) {
+    std::string name = "speed_" + group + ".svg";
+    std::erase(name, ',');
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+}  // namespace
+
+std::string speed_text(const SpeedReport& report) {
+    std::string text = fmt::format("drape {} on {} ({}), {} cores, {}\n", report.program_version, report.device,
+                                   report.driver, report.cores, report.created);
+    if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
+    if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
+    return text + solver_table(report) + fit_table(report) +
+           parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
+           skip_table(report) + parts_table(report, SpeedKind::start, "Starts");
+}
+
+std::string speed_json(const SpeedReport& report) {
+    Json::Value value(Json::objectValue);
+    value["format"] = "drape bench speed 1";
+    value["program_version"] = report.program_version;
+    value["created"] = report.created;
+    value["device"] = report.device;
+    value["driver"] = report.driver;
+    value["cores"] = report.cores;
+    if (report.copy_bandwidth > 0) value["copy_bytes_per_second"] = report.copy_bandwidth;
+    value["short"] = report.is_short;
+    value["complete"] = report.complete;
+    value["cases"] = value["scaling"] = Json::Value(Json::arrayValue);
+    for (const SpeedResult& result : report.results) value["cases"].append(json_of(result));
+    for (const ScalingFit& fit : fit_scaling(report.results)) value["scaling"].append(json_of(fit));
+    return json_text(value);
+}
+
+std::string speed_csv(const SpeedReport& report) {
+    std::string text =
+        "case,kind,particles,substeps,cloths,colliders,time,min_ms,median_ms,p95_ms,iqr_over_median,doubtful,"
+        "frame_over_this\n";
+    for (const SpeedResult& r : report.results)
+        for (const SpeedTime& time : r.times) {
+            const profile::Statistics& s = time.statistics;
+            text += fmt::format("{},{},{},{},{},{},\"{}\",{:.6g},{:.6g},{:.6g},{:.4g},{},", r.about.name,
+                                kind_name(r.about.kind), r.about.particles(), r.about.substeps(), r.about.cloths,
+                                r.about.colliders, time.name, s.minimum, s.median, s.p95, s.spread,
+                                time.doubtful() ? 1 : 0);
+            const double ratio = r.ratio("frame", time.name);
+            text += (ratio > 0 ? fmt::format("{:.4g}", ratio) : "") + "\n";
+        }
+    return text;
+}
+
+std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& report) {
+    std::vector<std::pair<std::string, std::vector<const SpeedResult*>>> groups;
+    for (const SpeedResult& r : report.results) {
+        if (r.about.kind != SpeedKind::solve) continue;
+        auto group = std::ranges::find(groups, r.about.group, [](const auto& each) { return each.first; });
+        if (group == groups.end()) group = groups.insert(groups.end(), {r.about.group, {}});
+        group->second.push_back(&r);
+    }
+    std::vector<std::pair<std::string, LogPlot>> plots;
+    for (const auto& [name, group] : groups) {
+        if (group.size() < 2) continue;
+        const bool of_sheets = group[0]->about.cloths == 1 && group[0]->about.colliders == 0;
+        const bool of_cloths = group[0]->about.cloths > 1;
+        LogPlot plot{"Speed: " + name,
+                     of_sheets   ? "particles"
+                     : of_cloths ? "cloths"
+                                 : "colliders",
+                     of_sheets ? "ns per particle and substep" : "ms per substep",
+                     {},
+                     {},
+                     {}};
+        plot.series.push_back(series_of(group, "frame", "Drape", of_sheets));
+        for (const Side& side : sides) plot.series.push_back(series_of(group, side.time, side.time, of_sheets));
+        std::erase_if(plot.series, [](const PlotSeries& series) { return series.points.empty(); });
+        plots.emplace_back(file_name(name), plot);
+    }
+    return plots;
+}
+
+}  // namespace drape::bench

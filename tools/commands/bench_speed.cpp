@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include "bench/speed.h"
+#include "commands/bench_options.h"
+#include "ending.h"
+#include "program.h"
+#include "streams.h"
+
+namespace drape::cli {
+
+namespace {
+
+ExitCode measure(bench::SpeedRequest request) {
+    catch_signals();
+    request.stop = stop_requested;
+    request.message = print_message;
+    const bench::SpeedSummary summary = bench::run_speed(request);
+    if (summary.stopped) return report_stop("nothing was written");
+    print_data(summary.text);
+    if (!request.quiet)
+        print_message(fmt::format("{} cases measured, {} left out", summary.measured_count, summary.left_out_count));
+    return summary.validation_count > 0 ? report_validation(summary.validation_count) : ExitCode::ok;
+}
+
+}  // namespace
+
+void add_bench_speed(Program& program) {
+    const auto request = std::make_shared<bench::SpeedRequest>();
+    CLI::App& command = program.add("bench speed", "Drape's times over those of native C++ and of a memory copy",
+                                    R"text(
+Per substep of every solver: Drape's time, the device's share of it, and that of
+the same arithmetic, to the same bits, in C++ built for this processor: on all
+cores, on one, and on one without vectors. GB/s and GFLOP/s follow from what the
+passes declare; `of copy` is the share of what a copy of 64 MiB between buffers
+moves. Sheets of 32x32 to 2048x2048 particles, up to 64 cloths and 64 colliders;
+pictures; what skips save on the shipped scenes; starts of a program, with an
+empty shader cache (cold) and a full one (warm). The sides of a comparison take
+turns. Medians over rounds; times whose interquartile range is above 30 % are
+marked doubtful.
+
+Examples:
+  drape bench speed --short
+  drape bench speed --filter '^line/' --svg out/plots
+  drape bench speed --budget 20 --json out/speed.json --csv out/speed.csv
+)text",
+                                    [=] { return measure(*request); });
+    add_option(command, "--scenes", "DIR", "Where the shipped scenes are, for skips; default:\nscenes",
+               request->scenes);
+    add_case_options(command,
+                     {"METHOD/N, METHOD/N/COUNT\n"
+                      "cloths or colliders, picture/..., skip/...,\n"
+                      "start/...; default: all",
+                      "Sheets of at most 256x256 and shorter rounds:\nunder 2 minutes on an idle machine",
+                      "Write times, ratios and scaling as JSON", "Write a row per case and time",
+                      "Write plots of time against particles, cloths and\ncolliders"},
+                     *request);
+}
+
+}  // namespace drape::cli
