@@ -38,16 +38,16 @@ double rate(const SpeedResult& result, double amount) {
 
 std::string solver_table(const SpeedReport& report) {
     std::string text = "\nSolvers, ms per substep (medians), and Drape's time over that of native code\n";
-    text += fmt::format("{:<24}{:>9}{:>9}{:>9}{:>9}{:>9}{:>11}{:>12}{:>10}{:>9}{:>8}{:>9}{:>9}{:>7}\n", "case", "Drape",
-                        "device", "native", "1 core", "scalar", sides[0].head, sides[1].head, sides[2].head, "ns/part.",
-                        "GB/s", "of copy", "GFLOP/s", "IQR");
+    text += fmt::format("{:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}{:>10}{:>9}{:>8}{:>9}{:>9}{:>7}\n", "case",
+                        "Drape", "device", "native", "1 core", "scalar", sides[0].head, sides[1].head, sides[2].head,
+                        "ns/part.", "GB/s", "of copy", "GFLOP/s", "IQR");
     bool any = false;
     for (const SpeedResult& r : report.results) {
         if (r.about.kind != SpeedKind::solve) continue;
         any = true;
         text += fmt::format("{:<24}", r.about.name);
         for (const char* name : {"frame", "device", sides[0].time, sides[1].time, sides[2].time})
-            text += number(per_substep(r, name), 9, 4);
+            text += number(per_substep(r, name), 11, 4);
         text += number(r.ratio("frame", sides[0].time), 11, 2) + number(r.ratio("frame", sides[1].time), 12, 2) +
                 number(r.ratio("frame", sides[2].time), 10, 2);
         text += number(1e6 * per_substep(r, "frame") / r.about.particles(), 9, 1);

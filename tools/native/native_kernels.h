@@ -48,12 +48,23 @@ struct ExplicitScratch {
 
 inline constexpr int line_lanes = 16;  ///< lines solved at a time
 
-/// One particle of 16 lines and the spring after it.
+/// One particle of 16 lines and the spring after it: 1 KiB, so that lines of several hundred stay in a core's cache.
 struct alignas(64) LineParticles {
-    float start[3][line_lanes], displacement[3][line_lanes], delta[3][line_lanes], eliminated[4][line_lanes];
+    struct Spring {
+        float normal[3][line_lanes], excess[line_lanes];
+    };
+    union {
+        float start[3][line_lanes];
+        float spring_eliminated[2][line_lanes];  ///< later
+    };
+    union {
+        float eliminated[4][line_lanes];
+        Spring spring;  ///< later
+    };
+    float displacement[3][line_lanes], delta[3][line_lanes];
     float weight[line_lanes], share[line_lanes], tension[line_lanes];
-    float normal[3][line_lanes], excess[line_lanes], spring_eliminated[2][line_lanes];
 };
+static_assert(sizeof(LineParticles) == 1024);
 
 /// The kernels as a compiler made them, with vectors or without.
 struct Kernels {

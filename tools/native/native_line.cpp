@@ -131,8 +131,8 @@ void move_particles(const Lines& lines, LineParticles* particles) {
             put(here.delta, k, delta);
             const LineSpring spring = line_spring(
                 spring_edge(at(here.start, k), at(next.start, k), moved, at(moved_after, k)), lines.push.rest_length);
-            put(here.normal, k, spring.normal);
-            here.excess[k] = spring.excess;
+            put(here.spring.normal, k, spring.normal);
+            here.spring.excess[k] = spring.excess;
             if (first_iteration) here.tension[k] = filtered_tension(here.tension[k], spring);
             put(after, k, delta);
             put(moved_after, k, moved);
@@ -150,10 +150,10 @@ void eliminate_springs(const Lines& lines, LineParticles* particles, float (&lar
         const LineParticles& next = particles[e + 1];
 #pragma GCC ivdep
         for (int k = 0; k < line_lanes; ++k) {
-            const LineSpring spring{at(here.normal, k), 0.0f, here.excess[k]};
+            const LineSpring spring{at(here.spring.normal, k), 0.0f, here.spring.excess[k]};
             largest[k] = larger_excess(largest[k], spring, here.share[k]);
             const vec2 reduced =
-                eliminate_spring({previous[0][k], previous[1][k]}, at(before.normal, k), spring, at(after, k),
+                eliminate_spring({previous[0][k], previous[1][k]}, at(before.spring.normal, k), spring, at(after, k),
                                  here.weight[k], next.weight[k], here.share[k], lines.compliance, here.tension[k]);
             here.spring_eliminated[0][k] = previous[0][k] = reduced.x;
             here.spring_eliminated[1][k] = previous[1][k] = reduced.y;
@@ -174,7 +174,7 @@ void correct(const Lines& lines, LineParticles* particles) {
             const float solved =
                 substitute_spring({here.spring_eliminated[0][k], here.spring_eliminated[1][k]}, change_before[k]);
             const float change = has_spring ? solved : 0.0f;
-            const vec3 normal = chosen(has_spring, at(here.normal, k), {0.0f, 0.0f, 0.0f});
+            const vec3 normal = chosen(has_spring, at(here.spring.normal, k), {0.0f, 0.0f, 0.0f});
             const vec3 correction = line_correction(at(normal_before, k), change_before[k], normal, change);
             put(here.displacement, k,
                 moved_by_both(at(here.displacement, k), at(here.delta, k), correction, here.weight[k]));
