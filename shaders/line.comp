@@ -20,89 +20,121 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 // Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
-// leaves the spring after it.
-layout(set = 0, binding = 3, std430) buffer Scratch { vec4 scratch[]; };
-// Of spring e of a line: eliminated; before, of particle e of a line that bends.
-layout(set = 0, binding = 4, std430) buffer Rows { vec2 rows[]; };
+// leaves the spring after it. An invocation reads what it wrote itself.
+layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D scratch_in;
+coherent VECTOR_OUT(4, ScratchOut, scratch_out);
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
+// xy: of spring e of a line, eliminated; before, x: of particle e of a line that bends.
+layout(set = 0, binding = 9, rgba32f) uniform coherent readonly image2D rows_in;
+coherent VECTOR_OUT(10, RowsOut, rows_out);
+layout(constant_id = 0) const bool first_iteration = true;  // both systems; later iterations repeat the second alone
+
+/// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
+/// them anew, lane by lane, in each of its rounds. For the same reason nothing in the loops below branches.
+struct Line {
+    int index, last;  // place among the lines; of its particles
+    ivec2 step;
+    int columns, seam, channel;
+    float share;  // of all its springs, where no image has them
+    float rest_length, compliance, followed, bend;
+};
 
 struct LineParticle {
     ivec2 at;
     vec4 position;  // w: as its springs feel it, with the wind's drag
-    vec3 displacement;
+    vec4 moved;     // xyz: displacement before this pass; w: what is kept beside it
 };
 
-float share_of(ivec2 first) {
-    if (first.x == push.seam) return 0.0f;
-#ifdef MASKED
-    return imageLoad(spring_share_image, first)[push.channel];
-#else
-    return border_share(first, push.step, push.grid);
-#endif
+Line read_line() {
+    bool second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
+    int index = int(gl_GlobalInvocationID.x);
+    return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel,
+                border_share(line_start(index, push.step), push.step, push.grid), push.rest_length,
+                second_order ? push.compliance_bdf2 : push.compliance,
+                second_order ? push.followed_bdf2 : push.followed, second_order ? push.bend_bdf2 : push.bend);
 }
 
-int place(int line, int index) { return index * push.line_count + line; }
+/// Where the scratch of a particle is: what a subgroup stores at a time lies side by side.
+int place(Line line, int p) {
+    return (int(gl_WorkGroupID.x) * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
+}
+
+/// The scratch images are addressed as if they had only one row.
+ivec2 scratch_texel(int place) { return ivec2(place & (line_scratch_width - 1), place / line_scratch_width); }
+
+#ifdef BUFFERED
+#define STORE_SCRATCH(name, line, p, value) name[place(line, p)] = value
+#else
+#define STORE_SCRATCH(name, line, p, value) imageStore(name, scratch_texel(place(line, p)), value)
+#endif
+#define LOAD_SCRATCH(name, line, p) imageLoad(name, scratch_texel(place(line, p)))
+
+float share_of(Line line, ivec2 first) {
+#ifdef MASKED
+    float share = imageLoad(spring_share_image, first)[line.channel];
+#else
+    float share = line.share;
+#endif
+    return first.x == line.seam ? 0.0f : share;
+}
 
 LineParticle load_particle(ivec2 at) {
     vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
-    return LineParticle(at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved.xyz);
+    return LineParticle(at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved);
+}
+
+LineParticle particle_after(Line line, LineParticle particle) {
+    return load_particle(next_on_line(particle.at, line.step, line.columns));
+}
+
+LineParticle particle_before(Line line, LineParticle particle) {
+    return load_particle(next_on_line(particle.at, -line.step, line.columns));
 }
 
 /// Where the first system puts a particle.
-LineParticle moved_particle(ivec2 at, vec3 delta) {
-    LineParticle particle = load_particle(at);
-    return LineParticle(at, particle.position, moved_by(particle.displacement, delta, 1.0f));
-}
+vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
 
-vec3 edge_between(LineParticle first, LineParticle second) {
-    return spring_edge(first.position.xyz, second.position.xyz, first.displacement, second.displacement);
-}
+float tension_of(Line line, ivec2 first) { return tension_in_use(imageLoad(tension_in, first).x, line.followed); }
 
-LineSpring spring_between(LineParticle first, LineParticle second) {
-    return line_spring(edge_between(first, second), push.rest_length);
-}
-
-float tension_of(ivec2 first, float followed) {
-    return tension_in_use(imageLoad(tension_in, first).x, followed);
-}
-
-float tension_per_length_of(LineParticle first, LineParticle second, float followed) {
+float tension_per_length_of(Line line, LineParticle first, LineParticle second) {
     precise vec3 start_edge = second.position.xyz - first.position.xyz;
-    return tension_per_length(tension_of(first.at, followed), start_edge, push.rest_length);
+    return tension_per_length(tension_of(line, first.at), start_edge, line.rest_length);
+}
+
+vec3 start_edge_of(LineParticle first, LineParticle second) {
+    return spring_edge(first.position.xyz, second.position.xyz, first.moved.xyz, second.moved.xyz);
+}
+
+float stiffness_of(Line line, LineParticle first, LineParticle second, float share) {
+    return geometric_stiffness(tension_per_length_of(line, first, second), share, line.compliance);
 }
 
 #ifdef BENT
-void store_bent(int line, int p, BentParticle particle) {
-    scratch[place(line, p)] = vec4(particle.turn, particle.by_turn);
-    rows[place(line, p)] = vec2(particle.by_shift, 0.0f);
+void store_bent(Line line, int p, BentParticle particle) {
+    STORE_SCRATCH(scratch_out, line, p, vec4(particle.turn, particle.by_turn));
+    STORE_SCRATCH(rows_out, line, p, vec4(particle.by_shift, 0.0f, 0.0f, 0.0f));
 }
 
 /// The first system, from the line's start on.
-void eliminate_particles(int line, float compliance, float followed, float bend) {
-    LineParticle particle = load_particle(line_start(line, push.step));
-    LineParticle next = load_particle(next_on_line(particle.at, push.step, push.grid.x));
-    vec3 edge = edge_between(particle, next);
-    float share = share_of(particle.at);
+void eliminate_particles(Line line) {
+    LineParticle particle = load_particle(line_start(line.index, line.step));
+    LineParticle next = particle_after(line, particle);
+    vec3 edge = start_edge_of(particle, next);
+    float share = share_of(line, particle.at);
     BentLine bent = unbent_line();
-    int last = push.particle_count - 1;
-    for (int p = 0; p < last; ++p) {
-        float stiffness =
-            geometric_stiffness(tension_per_length_of(particle, next, followed), share, compliance);
-        LineParticle after = next;
-        vec3 edge_after = vec3(0.0f, 0.0f, 0.0f);
-        float share_after = 0.0f;
-        if (p + 1 < last) {
-            after = load_particle(next_on_line(next.at, push.step, push.grid.x));
-            edge_after = edge_between(next, after);
-            share_after = share_of(next.at);
-        }
-        BentParticle eliminated = eliminate_bent(bent, edge, stiffness, edge_after,
-                                                 element_bend(bend, share, share_after), particle.position.w);
+    for (int p = 0; p < line.last; ++p) {
+        bool has_element = p + 1 < line.last;
+        LineParticle after = particle_after(line, next);
+        vec3 edge_after = has_element ? start_edge_of(next, after) : vec3(0.0f, 0.0f, 0.0f);
+        float share_after = has_element ? share_of(line, next.at) : 0.0f;
+        BentParticle eliminated =
+            eliminate_bent(bent, edge, stiffness_of(line, particle, next, share), edge_after,
+                           element_bend(line.bend, share, share_after), particle.position.w);
         store_bent(line, p, eliminated);
         bent = eliminated.line;
         edge = edge_after;
@@ -110,133 +142,124 @@ void eliminate_particles(int line, float compliance, float followed, float bend)
         particle = next;
         next = after;
     }
-    store_bent(line, last, eliminate_last_bent(bent, particle.position.w));
+    store_bent(line, line.last, eliminate_last_bent(bent, particle.position.w));
 }
 #else
 /// The first system, from the line's start on.
-void eliminate_particles(int line, float compliance, float followed, float bend) {
-    LineParticle particle = load_particle(line_start(line, push.step));
+void eliminate_particles(Line line) {
+    LineParticle particle = load_particle(line_start(line.index, line.step));
     vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
     float stiffness_before = 0.0f;
-    int last = push.particle_count - 1;
-    for (int p = 0; p <= last; ++p) {
-        LineParticle next = particle;
-        vec3 edge = vec3(0.0f, 0.0f, 0.0f);
-        float stiffness = 0.0f;
-        if (p < last) {
-            next = load_particle(next_on_line(particle.at, push.step, push.grid.x));
-            edge = edge_between(particle, next);
-            stiffness = geometric_stiffness(tension_per_length_of(particle, next, followed), share_of(particle.at),
-                                            compliance);
-        }
+    for (int p = 0; p <= line.last; ++p) {
+        bool has_spring = p < line.last;
+        LineParticle next = particle_after(line, particle);
+        vec3 edge = has_spring ? start_edge_of(particle, next) : vec3(0.0f, 0.0f, 0.0f);
+        float stiffness = stiffness_of(line, particle, next, share_of(line, particle.at));
+        stiffness = has_spring ? stiffness : 0.0f;
         eliminated =
             eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        scratch[place(line, p)] = eliminated;
+        STORE_SCRATCH(scratch_out, line, p, eliminated);
         particle = next;
         edge_before = edge;
         stiffness_before = stiffness;
     }
 }
-
 #endif
 
 /// What the first system changes of particle p, from what it changes of the particle after it; `turn`: how the edge after
 /// that one turns, then its own.
-vec3 delta_of(int line, int p, vec3 delta_after, inout vec3 turn) {
-    if (push.first_iteration == 0) return vec3(0.0f, 0.0f, 0.0f);
+vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
+    if (!first_iteration) return vec3(0.0f, 0.0f, 0.0f);
 #ifdef BENT
-    turn = substitute_turn(scratch[place(line, p)], rows[place(line, p)].x, turn, delta_after);
+    turn = substitute_turn(LOAD_SCRATCH(scratch_in, line, p), LOAD_SCRATCH(rows_in, line, p).x, turn, delta_after);
     return bent_delta(delta_after, turn);
 #else
-    return substitute_particle(scratch[place(line, p)], delta_after);
+    return substitute_particle(LOAD_SCRATCH(scratch_in, line, p), delta_after);
 #endif
 }
 
-float tension_between(LineParticle first, LineParticle second, LineSpring spring, float followed) {
-    if (push.first_iteration == 0) return tension_of(first.at, followed);
-    return filtered_tension(tension_per_length_of(first, second, followed), spring);
+/// Of the spring between two particles after the first system.
+float filtered_tension_of(Line line, LineParticle first, LineParticle second, LineSpring spring) {
+    if (!first_iteration) return tension_of(line, first.at);
+    return filtered_tension(tension_per_length_of(line, first, second), spring);
+}
+
+LineSpring spring_between(Line line, LineParticle first, vec3 moved_first, LineParticle second, vec3 moved_second) {
+    return line_spring(spring_edge(first.position.xyz, second.position.xyz, moved_first, moved_second),
+                       line.rest_length);
 }
 
 /// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C| that it meets.
-float eliminate_springs(int line, float compliance, float followed) {
+float eliminate_springs(Line line) {
     float largest_excess = 0.0f;
-    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f);
+    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f), turn = vec3(0.0f, 0.0f, 0.0f);
     vec2 eliminated = vec2(0.0f, 0.0f);
-    int last = push.particle_count - 2;
-    ivec2 back = -push.step;
-    vec3 turn = vec3(0.0f, 0.0f, 0.0f);
-    vec3 delta = delta_of(line, last + 1, vec3(0.0f, 0.0f, 0.0f), turn);
-    LineParticle second = moved_particle(line_end(line, push.step, push.particle_count, push.grid.x), delta);
-    scratch[place(line, last + 1)] = vec4(delta, 0.0f);
-    delta = delta_of(line, last, delta, turn);
-    LineParticle first = moved_particle(next_on_line(second.at, back, push.grid.x), delta);
-    LineSpring spring = spring_between(first, second);
-    for (int e = last; e >= 0; --e) {
-        LineParticle before = first;
-        LineSpring spring_before = LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
-        vec3 delta_before = delta;
-        if (e > 0) {
-            delta_before = delta_of(line, e - 1, delta, turn);
-            before = moved_particle(next_on_line(first.at, back, push.grid.x), delta_before);
-            spring_before = spring_between(before, first);
-        }
-        float share = share_of(first.at), tension = tension_between(first, second, spring, followed);
+    LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
+    vec3 delta = delta_of(line, line.last, vec3(0.0f, 0.0f, 0.0f), turn);
+    vec3 moved_second = filtered(second, delta);
+    STORE_SCRATCH(scratch_out, line, line.last, vec4(delta, 0.0f));
+    delta = delta_of(line, line.last - 1, delta, turn);
+    LineParticle first = particle_before(line, second);
+    vec3 moved_first = filtered(first, delta);
+    LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
+    for (int e = line.last - 1; e >= 0; --e) {
+        LineParticle before = particle_before(line, first);
+        vec3 delta_before = delta_of(line, e > 0 ? e - 1 : 0, delta, turn);
+        vec3 moved_before = filtered(before, delta_before);
+        LineSpring spring_before = spring_between(line, before, moved_before, first, moved_first);
+        vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
+        float share = share_of(line, first.at), tension = filtered_tension_of(line, first, second, spring);
         largest_excess = larger_excess(largest_excess, spring, share);
-        eliminated = eliminate_spring(eliminated, spring_before.normal, spring, normal_after, first.position.w,
-                                      second.position.w, share, compliance, tension);
-        rows[place(line, e)] = eliminated;
-        scratch[place(line, e)] = vec4(delta, tension);
-        delta = delta_before;
+        eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
+                                      second.position.w, share, line.compliance, tension);
+        STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
+        STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
         normal_after = spring.normal;
         spring = spring_before;
         second = first;
         first = before;
+        moved_first = moved_before;
+        delta = delta_before;
     }
     return largest_excess;
 }
 
-void store_particle(LineParticle particle, vec3 delta, vec3 correction) {
-    vec4 before = imageLoad(displacement_in, particle.at);  // w: lost to drag, kept beside the displacement
-    STORE_VECTOR(displacement_out, particle.at,
-               vec4(moved_by_both(before.xyz, delta, correction, particle.position.w), before.w));
-}
-
 /// From the line's start on: substitutes in the second system; a particle is written once both its springs are known.
-void substitute_springs(int line, float compliance, float followed) {
+void substitute_springs(Line line) {
     float change_before = 0.0f;
     vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
-    vec4 filtered = scratch[place(line, 0)];
-    LineParticle first = moved_particle(line_start(line, push.step), filtered.xyz);
-    for (int e = 0; e < push.particle_count - 1; ++e) {
-        vec4 filtered_after = scratch[place(line, e + 1)];
-        LineParticle second = moved_particle(next_on_line(first.at, push.step, push.grid.x), filtered_after.xyz);
-        vec3 normal = spring_between(first, second).normal;
-        float change = substitute_spring(rows[place(line, e)], change_before);
-        store_particle(first, filtered.xyz, line_correction(normal_before, change_before, normal, change));
-        float tension = changed_tension(filtered.w, change, share_of(first.at), compliance);
-        STORE_SCALAR(tension_out, first.at, stored_tension(tension, followed));
+    LineParticle first = load_particle(line_start(line.index, line.step));
+    vec4 delta = LOAD_SCRATCH(scratch_in, line, 0);  // w: the tension of the spring after it
+    vec3 moved_first = filtered(first, delta.xyz);
+    for (int p = 0; p <= line.last; ++p) {
+        bool has_spring = p < line.last;
+        LineParticle second = particle_after(line, first);
+        vec4 delta_after = LOAD_SCRATCH(scratch_in, line, has_spring ? p + 1 : p);
+        vec3 moved_second = filtered(second, delta_after.xyz);
+        vec3 normal = spring_between(line, first, moved_first, second, moved_second).normal;
+        normal = has_spring ? normal : vec3(0.0f, 0.0f, 0.0f);
+        float change = substitute_spring(LOAD_SCRATCH(rows_in, line, p).xy, change_before);
+        change = has_spring ? change : 0.0f;
+        vec3 correction = line_correction(normal_before, change_before, normal, change);
+        vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
+        STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
+        float tension = changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
+        if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));
         change_before = change;
         normal_before = normal;
-        filtered = filtered_after;
+        delta = delta_after;
         first = second;
+        moved_first = moved_second;
     }
-    store_particle(first, filtered.xyz,
-                   line_correction(normal_before, change_before, vec3(0.0f, 0.0f, 0.0f), 0.0f));
 }
 
 void main() {
-    int line = int(gl_GlobalInvocationID.x);
-    if (line >= push.line_count) return;
-    float compliance = push.compliance, followed = push.followed, bend = push.bend;
-    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
-        compliance = push.compliance_bdf2;
-        followed = push.followed_bdf2;
-        bend = push.bend_bdf2;
-    }
-    if (push.first_iteration != 0) eliminate_particles(line, compliance, followed, bend);
-    float largest_excess = eliminate_springs(line, compliance, followed);
-    substitute_springs(line, compliance, followed);
+    if (int(gl_GlobalInvocationID.x) >= push.line_count) return;
+    Line line = read_line();
+    if (first_iteration) eliminate_particles(line);
+    float largest_excess = eliminate_springs(line);
+    substitute_springs(line);
     imageAtomicMax(control, ivec2(control_violation, 0),
-                   floatBitsToUint(line_violation(largest_excess, push.rest_length)));
+                   floatBitsToUint(line_violation(largest_excess, line.rest_length)));
 }

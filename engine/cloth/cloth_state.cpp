@@ -42,6 +42,8 @@ bool tense(Context c) {
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
+FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
+FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
@@ -71,16 +73,16 @@ const std::vector<FieldRow>& rows() {
         {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
         {Field::displacement_spare, "displacement spare", stored, vector, frame, gathers, particles},
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
-        {Field::line_scratch, "line scratch", buffer, vector, device, line_solved, particle_list},
-        {Field::line_rows, "line rows", buffer, layout_of<glsl::vec2>(), device, line_solved, particle_list},
+        {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
+        {Field::line_rows, "line rows", stored, vector, device, line_solved, line_scratch},
+        {Field::nested_rows, "nested rows", buffer, layout_of<glsl::vec2>(), device, nested, particle_list},
         {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
          [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
         {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
         {Field::end_excess, "end excess", stored, vector, state, judged, particles,
          [](Context c) { return bytes_of(c.cloth.start_excess()); }},
-        {Field::line_control, "line control", image, integer, state, second_order,
-         [](Context) { return FieldExtent{glsl::control_texel_count}; }},
+        {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
@@ -127,6 +129,14 @@ Field tension_of(std::size_t direction) {
 }
 
 std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::max<std::size_t>(count, 64)); }
+
+FieldExtent line_scratch_extent(const Grid& grid) {
+    constexpr std::uint64_t group = glsl::line_group_width, width = glsl::line_scratch_width;
+    const std::uint64_t columns = grid.columns(), rows = grid.rows();
+    const auto in_groups = [](std::uint64_t lines) { return (lines + group - 1) / group * group; };
+    const std::uint64_t places = std::max(in_groups(rows) * columns, in_groups(columns) * rows);
+    return {width, (places + width - 1) / width};
+}
 
 std::uint32_t residual_strip_count(const Grid& grid) {
     constexpr auto rows_per_strip = static_cast<std::uint32_t>(glsl::residual_rows);

@@ -25,6 +25,7 @@ enum class Field : std::uint8_t {
     displacement_spare,
     line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)
     line_rows,                 ///< likewise by spring
+    nested_rows,               ///< likewise by first particle (shaders/nested.comp)
     nested_sweeps,             ///< MethodPlan::nested_table
     displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end
     velocity_excess,           ///< of that substep, h times its end's velocity - displacement, m
@@ -102,6 +103,8 @@ Field tension_of(std::size_t direction);
 /// Elements that a draw list of `count` elements has room for: it grows in powers of two, so that few cuts need
 /// new buffers.
 std::size_t draw_list_capacity(std::size_t count);
+/// Of an image with a texel for each particle of the lines of any direction, filled up to whole workgroups of lines.
+FieldExtent line_scratch_extent(const Grid& grid);
 /// Workgroups of the residual pass, each of which leaves a record.
 std::uint32_t residual_count(const Grid& grid);
 /// Rows of its invocations.

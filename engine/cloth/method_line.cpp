@@ -79,7 +79,6 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
             static_cast<float>(limited(own)),
             followed(euler),
             followed(own),
-            1,
             static_cast<float>(relative_bend),
             static_cast<float>(relative_bend / factor)};
 }

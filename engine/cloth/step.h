@@ -32,7 +32,7 @@ enum class StepKind {
     advance
 };
 
-/// The push structure of a step whose constants are its method's own. SpringPush and LinePush: `first_iteration` is
+/// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
 /// set per iteration.
 using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush,
                                    glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush>;

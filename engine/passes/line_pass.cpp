@@ -38,19 +38,20 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
 }
 
 void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    glsl::LinePush push = step.push<glsl::LinePush>();
-    push.first_iteration = step.iteration == 0 ? 1 : 0;
+    const auto& push = step.push<glsl::LinePush>();
     const auto direction = static_cast<std::size_t>(push.channel);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-        "line.comp", {{"masked", state.masked()}, {"bent", push.bend > 0}, {"buffered", state.buffered}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("line.comp",
+                             {{"masked", state.masked()}, {"bent", push.bend > 0}, {"buffered", state.buffered}}),
+        {{"first_iteration", step.iteration == 0 ? 1u : 0u}});
     const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
-            update_in_place(setup, state[Field::line_scratch], "scratch");
-            update_in_place(setup, state[Field::line_rows], "rows");
+            update(setup, state[Field::line_scratch], "scratch");
+            update(setup, state[Field::line_rows], "rows");
             update(setup, state[tension_of(direction)], "tension");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");

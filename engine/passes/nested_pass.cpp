@@ -20,7 +20,7 @@ void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update_in_place(setup, state[Field::displacement], "displacement");
             setup.read(state[Field::nested_sweeps], graph::Access::compute_read, "table");
-            update_in_place(setup, state[Field::line_rows], "rows");
+            update_in_place(setup, state[Field::nested_rows], "rows");
             update_in_place(setup, state[Field::tension_row], "tension_row");
             update_in_place(setup, state[Field::tension_column], "tension_column");
             if (sheared) {

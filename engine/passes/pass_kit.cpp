@@ -20,11 +20,16 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
 }
 
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid) {
-    for (const VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT}) {
+    const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
+    const std::pair<VkFormat, FieldExtent> images[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
+                                                       {VK_FORMAT_R32_SFLOAT, {width, height}},
+                                                       {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid)}};
+    for (const auto& [format, extent] : images) {
         const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(format);
-        std::string why = graph::buffer_view_obstacle(
-            device, {.name = "state", .format = format, .width = grid.columns(), .height = grid.rows()},
-            (grid.columns() + step - 1) / step * step);
+        const auto columns = static_cast<std::uint32_t>(extent.width), rows = static_cast<std::uint32_t>(extent.height);
+        std::string why =
+            graph::buffer_view_obstacle(device, {.name = "state", .format = format, .width = columns, .height = rows},
+                                        (columns + step - 1) / step * step);
         if (!why.empty()) return why;
     }
     return {};

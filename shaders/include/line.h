@@ -29,6 +29,8 @@ SHARED ivec2 next_on_line(ivec2 particle, ivec2 step, int columns) {
     return ivec2(x < 0 ? columns - 1 : x == columns ? 0 : x, particle.y + step.y);
 }
 
+// Values are chosen, not branched on: the default device would run both sides anyway, under masks.
+
 /// What the second system needs of a spring: its unit edge, its length and how far it is too long, m. The normal is
 /// zero where there is no direction: such a spring pulls on nothing.
 struct LineSpring {
@@ -39,11 +41,11 @@ struct LineSpring {
 
 SHARED LineSpring line_spring(vec3 edge, float rest_length) {
     precise float length_squared = ordered_dot(edge, edge);
-    if (!(length_squared > 0.0f)) return LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
     precise float current = sqrt(length_squared);
     precise vec3 normal = edge / current;
     precise float excess = current - rest_length;
-    return LineSpring(normal, current, excess);
+    bool directed = length_squared > 0.0f;
+    return LineSpring(directed ? normal : vec3(0.0f, 0.0f, 0.0f), directed ? current : 0.0f, directed ? excess : 0.0f);
 }
 
 /// Tension in the solve's own units, an extension by the compliance in use (m), from how it is stored: an extension by
@@ -62,10 +64,9 @@ SHARED float stored_tension(float tension, float followed) {
 /// Tension of the last substep (`tension`: as an extension by the compliance in use, m) per length of the spring where
 /// the substep starts. Springs that push carry nothing over, and the bound by L makes collapsed starts safe.
 SHARED float tension_per_length(float tension, vec3 start_edge, float rest_length) {
-    if (!(tension > 0.0f)) return 0.0f;
     precise float current = sqrt(ordered_dot(start_edge, start_edge));
     precise float per_length = tension / (current > rest_length ? current : rest_length);
-    return per_length;
+    return tension > 0.0f ? per_length : 0.0f;
 }
 
 /// g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
@@ -107,9 +108,8 @@ SHARED bool pulls(LineSpring spring, float share) {
 
 /// |C| (m), what the solve is asked to take back; `largest` or more.
 SHARED float larger_excess(float largest, LineSpring spring, float share) {
-    if (!pulls(spring, share)) return largest;
     float excess = abs(spring.excess);
-    return excess > largest ? excess : largest;
+    return pulls(spring, share) && excess > largest ? excess : largest;
 }
 
 /// |C|/L of the line's worst spring, given its |C|.
@@ -127,7 +127,6 @@ SHARED float line_violation(float largest_excess, float rest_length) {
 /// in project_spring, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
                              float weight_first, float weight_second, float share, float compliance, float tension) {
-    if (!pulls(spring, share)) return vec2(0.0f, 0.0f);
     precise float before = -(share * weight_first) * ordered_dot(normal_before, spring.normal);
     precise float after = -(share * weight_second) * ordered_dot(spring.normal, normal_after);
     precise float diagonal = share * (weight_first + weight_second) + compliance;
@@ -135,7 +134,7 @@ SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring sprin
     precise float pivot = diagonal - after * previous.x;
     precise float lower = before / pivot;
     precise float reduced = (right - after * previous.y) / pivot;
-    return vec2(lower, reduced);
+    return pulls(spring, share) ? vec2(lower, reduced) : vec2(0.0f, 0.0f);
 }
 
 /// Forward substitution: the change of a spring's multiplier from that of the spring before it.
@@ -158,9 +157,8 @@ SHARED vec3 moved_by_both(vec3 displacement, vec3 delta, vec3 correction, float 
 
 /// Tension (m) of a spring whose multiplier changed; 0 where there is none.
 SHARED float changed_tension(float tension, float change, float share, float compliance) {
-    if (!(share > 0.0f)) return 0.0f;
     precise float updated = tension - (compliance / share) * change;
-    return updated;
+    return share > 0.0f ? updated : 0.0f;
 }
 
 #endif

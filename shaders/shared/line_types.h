@@ -10,6 +10,8 @@ namespace drape::glsl {
 
 /// Lines are few and long: one subgroup of the default device per workgroup spreads them over the cores.
 const int line_group_width = 8;
+/// Texels in a row of the lines' scratch image, which is addressed as if it had only one.
+const int line_scratch_width = 1024;
 
 /// All lines of one spring direction (include/line.h).
 struct LinePush {
@@ -24,9 +26,8 @@ struct LinePush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)
     float followed;         // compliance asked for over the one above, 1 = nothing softened
     float followed_bdf2;
-    int first_iteration;  // 1: the tension is the last substep's: both systems; 0: the last iteration's: the second
-    float bend;           // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
-    float bend_bdf2;      // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
+    float bend;       // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
+    float bend_bdf2;  // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
 };
 
 /// Prediction of the line solver in second order (include/bdf2.h).
