@@ -27,5 +27,6 @@ void main() {
 #endif
 #ifdef HOME
     STORE_VECTOR(displacement_out, texel, moved);
+    STORE_VECTOR(displacement_remainder_out, texel, imageLoad(displacement_remainder_in, texel));
 #endif
 }

@@ -61,8 +61,8 @@ vec3 gather(vec3 sum, Particle center, ivec4 around) {
     precise vec3 closing = there.displacement - center.displacement;
     float share = around.w == 1 ? share_of(center, around.xy, around.z) : share_of(there, around.xy, around.z);
     precise float relative_stiffness = push.relative_stiffness[around.z] * share;
-    return add_pull(sum, edge_between(center, there), closing, push.rest_length[around.z], relative_stiffness,
-                    push.strain_damping);
+    return add_pull(sum, spring_pull(edge_between(center, there), closing, push.rest_length[around.z],
+                                     relative_stiffness, push.strain_damping));
 }
 
 vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, int channel, float factor) {
@@ -125,12 +125,15 @@ void main() {
     vec4 position = imageLoad(position_in, texel);
     vec4 moved = imageLoad(displacement_in, texel);
     vec3 displacement = moved.xyz;
-    if (advance)
+    if (advance) {
         advance_position(texel, position, displacement);
-    else
+    } else {
         STORE_VECTOR(position_out, texel, position);
+        STORE_VECTOR(position_remainder_out, texel, imageLoad(position_remainder_in, texel));
+    }
     if (position.w == 0.0f) {
         STORE_VECTOR(displacement_out, texel, vec4(displacement, 0.0f));
+        STORE_VECTOR(displacement_remainder_out, texel, imageLoad(displacement_remainder_in, texel));
         return;
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));

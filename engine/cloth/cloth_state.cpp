@@ -49,7 +49,9 @@ FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
 
-constexpr std::uint64_t size_count = glsl::iteration_size_count;
+FieldExtent residual_list(Context c) { return {residual_count(c.cloth.grid)}; }
+FieldExtent size_list(Context) { return {glsl::iteration_size_count}; }
+FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
 std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
@@ -72,6 +74,9 @@ const std::vector<FieldRow>& rows() {
         {Field::displacement_remainder, "displacement remainder", stored, vector, state, always, particles},
         {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
         {Field::displacement_spare, "displacement spare", stored, vector, frame, gathers, particles},
+        {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
+        {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
+         particles},
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::line_rows, "line rows", stored, vector, device, line_solved, line_scratch},
@@ -95,13 +100,10 @@ const std::vector<FieldRow>& rows() {
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
         {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},
         {Field::tension_shear_down_left, "tension shear down-left", stored, scalar, state, tense<3>, particles},
-        {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive,
-         [](Context c) { return FieldExtent{residual_count(c.cloth.grid)}; }},
-        {Field::iterations, "iterations", buffer, sizes, device, adaptive,
-         [](Context) { return FieldExtent{size_count + 1}; }},
+        {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive, residual_list},
+        {Field::iterations, "iterations", buffer, sizes, device, adaptive, iteration_list},
         // The solver knows them once it has added the passes.
-        {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive,
-         [](Context) { return FieldExtent{size_count}; }},
+        {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive, size_list},
         {Field::triangles, "triangles", buffer, integer, constant, drawn,
          [](Context c) { return FieldExtent{draw_list_room(c, c.topology.indices().size())}; },
          [](Context c) { return bytes_of(c.topology.indices()); }},

@@ -23,6 +23,8 @@ enum class Field : std::uint8_t {
     displacement_remainder,
     position_spare,  ///< where a method that gathers writes the next state, which then is the state
     displacement_spare,
+    position_remainder_spare,
+    displacement_remainder_spare,
     line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)
     line_rows,                 ///< likewise by spring
     nested_rows,               ///< likewise by first particle (shaders/nested.comp)

@@ -18,6 +18,9 @@ RelativeStiffness stiffness_of(const ClothGeometry& cloth, const MethodSettings&
                               settings.strain_damping);
 }
 
+/// What explicit_increment asks for.
+glsl::vec4 without_negative_zeros(glsl::vec4 v) { return {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f, v.w + 0.0f}; }
+
 glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettings& settings,
                                   const RelativeStiffness& used) {
     const glsl::ForcePush force = force_constants(cloth, settings);
@@ -27,7 +30,7 @@ glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettin
     return {cloth.grid.size(),
             force.damping_loss,
             force.force_step,
-            force.gravity_step,
+            without_negative_zeros(force.gravity_step),
             texel(cloth.stiffness_constant.rest_length),
             texel(scaled),
             {static_cast<float>(mean * used.bend[0]), static_cast<float>(mean * used.bend[1])},

@@ -55,6 +55,8 @@ struct Step {
     StepConstants constants{};
     /// Of the frame's last substep; spring, line: of its last iteration too, after which its tension is the frame's.
     bool last = false;
+    /// Explicit steps: how many substeps it takes at once, from `substep` on.
+    std::uint32_t count = 1;
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
 

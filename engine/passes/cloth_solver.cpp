@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "cloth/step_flops.h"
@@ -21,6 +22,7 @@
 #include "passes/tension_pass.h"
 #include "passes/tether_pass.h"
 #include "passes/wind_pass.h"
+#include "shared/stream_types.h"
 
 namespace drape {
 
@@ -71,18 +73,32 @@ graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const Fiel
                         buffered && row.view == FieldView::image_and_buffer});
 }
 
-/// Buffers on a CPU that can. On GPUs nothing was measured; images there, since LINEAR ones may load more slowly.
+/// Why a model cannot run by a schedule other than images; empty when it can.
+std::string schedule_obstacle(const vulkan::Device& device, const SimulationModel& model, Schedule schedule) {
+    for (const ClothModel& cloth : model.cloths) {
+        const std::string obstacle = schedule == Schedule::streams ? streamed_obstacle(device, cloth.grid)
+                                                                   : buffered_obstacle(device, cloth.grid);
+        if (!obstacle.empty()) return fmt::format("cloth '{}': {}", cloth.name, obstacle);
+    }
+    return {};
+}
+
+/// Buffers on a CPU that can, streams where a method has micro-steps. On GPUs nothing was measured; images there, since
+/// LINEAR ones may load more slowly.
 Schedule chosen(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
     if (asked == Schedule::images) return asked;
     if (asked == Schedule::automatic && device_kind(device.info()) != DeviceKind::cpu) return Schedule::images;
-    for (const ClothModel& cloth : model.cloths) {
-        const std::string obstacle = buffered_obstacle(device, cloth.grid);
-        if (obstacle.empty()) continue;
-        if (asked == Schedule::automatic) return Schedule::images;
-        throw vulkan::VulkanError(
-            fmt::format("schedule '{}', cloth '{}': {}", spelling(schedule_spellings, asked), cloth.name, obstacle));
+    const bool gathers =
+        std::ranges::any_of(model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state; });
+    for (const Schedule schedule : {Schedule::streams, Schedule::buffers}) {
+        if (asked != Schedule::automatic && asked != schedule) continue;
+        if (schedule == Schedule::streams && !gathers && asked != schedule) continue;
+        const std::string obstacle = schedule_obstacle(device, model, schedule);
+        if (obstacle.empty()) return schedule;
+        if (asked == schedule)
+            throw vulkan::VulkanError(fmt::format("schedule '{}', {}", spelling(schedule_spellings, asked), obstacle));
     }
-    return Schedule::buffers;
+    return Schedule::images;
 }
 
 }  // namespace
@@ -119,7 +135,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
     state.model = &about.cloth;
     state.topology = &about.topology;
     state.index = index;
-    state.buffered = schedule_ == Schedule::buffers;
+    state.buffered = schedule_ != Schedule::images;
     state.index_count = static_cast<std::uint32_t>(about.topology.indices().size());
     state.iteration_sizes = iteration_sizes_[index];
     for (const FieldRow& row : cloth_fields())
@@ -136,9 +152,11 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
 void ClothSolver::add_simulation(graph::Graph& graph) {
     const auto add = [&](ClothState& state, const Step& step) {
         add_step(graph, state, step);
-        if (const double flops = step_flops(step, *state.model); flops > 0) graph.add_flops(flops);
+        if (const double flops = step_flops(step, *state.model); flops > 0) graph.add_flops(flops * step.count);
     };
-    for (const Step& step : frame_steps(*run_)) {
+    std::vector<Step> steps = frame_steps(*run_);
+    if (schedule_ == Schedule::streams) steps = steps_in_flight(steps, glsl::stream_steps);
+    for (const Step& step : steps) {
         if (step.cloth != all_cloths)
             add(cloths_[step.cloth], step);
         else

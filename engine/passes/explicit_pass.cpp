@@ -1,8 +1,43 @@
 #include "passes/explicit_pass.h"
 
+#include <fmt/format.h>
+
+#include "shared/stream_types.h"
+
 namespace drape {
 
+namespace {
+
+/// Invocations: those of the strips that a grid of so many columns takes.
+std::uint32_t stream_invocations(int columns) {
+    constexpr int halo = 2 * glsl::stream_steps, new_columns = glsl::stream_width - halo;
+    const int strips = columns <= glsl::stream_width ? 1 : (columns - halo + new_columns - 1) / new_columns;
+    return static_cast<std::uint32_t>(strips * glsl::stream_lanes);
+}
+
+/// Several steps at once.
+void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::ExplicitPush>();
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("explicit_stream.comp", {{"masked", state.masked()}}),
+                      {{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u}});
+    graph.add_pass(
+        state.step_name(fmt::format("{} explicit steps", step.count), step),
+        [&](graph::PassSetup& setup) {
+            write_spare(setup, state);
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
+        },
+        [&pipeline, push](graph::PassContext& context) {
+            context.dispatch(pipeline, push, stream_invocations(push.grid.x), 1);
+        });
+    state.turn();
+}
+
+}  // namespace
+
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    if (step.count > 1) return add_stream(graph, pipelines, state, step);
     const bool wind = state[Field::wind_force].valid();
     const auto& push = step.push<glsl::ExplicitPush>();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,
@@ -14,14 +49,7 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
     graph.add_pass(
         state.step_name("explicit step", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state[Field::position], graph::Access::compute_read, "position_in");
-            state[Field::position_spare] =
-                setup.write(state[Field::position_spare], graph::Access::compute_write, "position_out");
-            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
-            state[Field::displacement_spare] =
-                setup.write(state[Field::displacement_spare], graph::Access::compute_write, "displacement_out");
-            update(setup, state[Field::position_remainder], "position_remainder");
-            update(setup, state[Field::displacement_remainder], "displacement_remainder");
+            write_spare(setup, state);
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");

@@ -40,19 +40,18 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     graph.add_pass(
         state.pass_name("advance", "simulate"),
         [&](graph::PassSetup& setup) {
-            graph::Handle& home = state.away ? state[Field::position_spare] : state[Field::position];
-            setup.read(state[Field::position], graph::Access::compute_read, "position_in");
-            home = setup.write(home, graph::Access::compute_write, "position_out");
-            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
-            update(setup, state[Field::position_remainder], "position_remainder");
-            if (excess) {
-                setup.read(before, graph::Access::compute_read, "displacement_before");
+            // Before the spare images are written: it may be one of them.
+            if (excess) setup.read(before, graph::Access::compute_read, "displacement_before");
+            if (state.away) {
+                write_spare(setup, state);
+            } else {
+                update(setup, state[Field::position], "position");
+                setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
+                update(setup, state[Field::position_remainder], "position_remainder");
+            }
+            if (excess)
                 state[Field::end_excess] =
                     setup.write(state[Field::end_excess], graph::Access::compute_write, "end_excess_out");
-            }
-            if (state.away)
-                state[Field::displacement_spare] =
-                    setup.write(state[Field::displacement_spare], graph::Access::compute_write, "displacement_out");
         },
         [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),

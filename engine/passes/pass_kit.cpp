@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fmt/format.h"
+#include "shared/stream_types.h"
 
 namespace drape {
 
@@ -35,13 +36,18 @@ std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid) {
     return {};
 }
 
+std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid) {
+    constexpr auto lanes = static_cast<std::uint32_t>(glsl::stream_lanes);
+    if (!device.shuffles(lanes)) return fmt::format("the device has no subgroups of {} that shuffle", lanes);
+    return buffered_obstacle(device, grid);
+}
+
 std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
     return cloth.name + "/" + std::string(row.name);
 }
 
 void ClothState::turn() {
-    std::swap((*this)[Field::position], (*this)[Field::position_spare]);
-    std::swap((*this)[Field::displacement], (*this)[Field::displacement_spare]);
+    for (const auto& [field, spare, variable] : spare_fields) std::swap((*this)[field], (*this)[spare]);
     away = !away;
 }
 
@@ -70,6 +76,13 @@ std::vector<vulkan::SpecializationConstant> collider_constants(const SceneDescri
 void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name) {
     setup.read(handle, graph::Access::compute_read, name + "_in");
     handle = setup.write(handle, graph::Access::compute_write, name + "_out");
+}
+
+void write_spare(graph::PassSetup& setup, ClothState& state) {
+    for (const auto& [field, spare, variable] : spare_fields) {
+        setup.read(state[field], graph::Access::compute_read, fmt::format("{}_in", variable));
+        state[spare] = setup.write(state[spare], graph::Access::compute_write, fmt::format("{}_out", variable));
+    }
 }
 
 void update_in_place(graph::PassSetup& setup, graph::Handle& handle, const std::string& name) {

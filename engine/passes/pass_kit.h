@@ -31,6 +31,8 @@ class PipelineCache {
 /// Why a cloth of this size cannot have its state written through buffer views (shaders/include/state_store.h); empty
 /// when it can.
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid);
+/// Likewise why its micro-steps cannot stream.
+std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid);
 
 /// Newest handles of one cloth's resources within the graph being built.
 struct ClothState {
@@ -42,7 +44,7 @@ struct ClothState {
     const graph::Handle& operator[](Field field) const { return handles[static_cast<std::size_t>(field)]; }
     std::array<graph::Handle, field_count> handles;
     bool buffered = false;          ///< passes write the state's images through their buffer views
-    bool away = false;              ///< position and displacement are the spare images, not where the frame starts
+    bool away = false;              ///< the state is in the spare images, not where the frame starts
     std::uint32_t index_count = 0;  ///< of the triangles
     /// What Field::iteration_sizes will hold, gathered while the passes are added.
     std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
@@ -53,6 +55,17 @@ struct ClothState {
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;
     graph::PassName step_name(const std::string& pass, const Step& step) const;
 };
+
+/// What a micro-step reads, and the field that it writes the next of.
+struct SpareField {
+    Field field, spare;
+    const char* variable;  ///< of the shaders, with _in and _out
+};
+inline constexpr SpareField spare_fields[] = {
+    {Field::position, Field::position_spare, "position"},
+    {Field::displacement, Field::displacement_spare, "displacement"},
+    {Field::position_remainder, Field::position_remainder_spare, "position_remainder"},
+    {Field::displacement_remainder, Field::displacement_remainder_spare, "displacement_remainder"}};
 
 /// "<cloth>/<name>": a field's resource.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row);
@@ -70,6 +83,8 @@ std::vector<vulkan::SpecializationConstant> collider_constants(const SceneDescri
 /// Declares read then write of one resource and stores the new handle: by two variables of the shader, NAME_in and
 /// NAME_out, so that synchronization validation sees them apart, or by one.
 void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
+/// Declares that the state is read and its spare images are written, all of them.
+void write_spare(graph::PassSetup& setup, ClothState& state);
 void update_in_place(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
 
 }  // namespace drape

@@ -38,8 +38,8 @@ struct Before {
                 xyz(state[Field::displacement][index(there)]) - xyz(state[Field::displacement][index(here)]);
             const float relative_stiffness =
                 component(push.relative_stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
-            sum = add_pull(sum, edge(here, there), closing, component(push.rest_length, around.z), relative_stiffness,
-                           push.strain_damping);
+            sum = add_pull(sum, spring_pull(edge(here, there), closing, component(push.rest_length, around.z),
+                                            relative_stiffness, push.strain_damping));
         }
         return sum;
     }

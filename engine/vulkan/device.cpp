@@ -98,6 +98,9 @@ void Device::read_limits() {
     max_push_descriptors_ = push.maxPushDescriptors;
     max_buffer_size_ = properties13.maxBufferSize;
     max_allocation_size_ = properties11.maxMemoryAllocationSize;
+    const bool shuffles = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                          (properties11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+    shuffling_lanes_ = shuffles ? properties11.subgroupSize : 0;
 
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     budget_ = MemoryBudget(memory_budget_limit(memory_, properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));

@@ -50,6 +50,8 @@ class Device {
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
+    /// Whether subgroups of compute shaders have so many invocations and can shuffle.
+    bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
     std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
     std::uint64_t max_buffer_size() const { return max_buffer_size_; }
     std::uint64_t max_allocation_size() const { return max_allocation_size_; }
@@ -92,6 +94,7 @@ class Device {
     std::uint32_t queue_family_ = 0;
     std::uint32_t timestamp_valid_bits_ = 0;
     std::uint32_t max_push_descriptors_ = 0;
+    std::uint32_t shuffling_lanes_ = 0;  ///< of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;
     std::uint64_t max_allocation_size_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;

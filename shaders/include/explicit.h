@@ -21,18 +21,23 @@ SHARED ivec4 neighbour(int k) {
     return ivec4(1, 1, 2, 1);
 }
 
-/// `sum` plus the pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa
-/// (du . r)/|r|^2] r, r = `edge` and du = `closing`, the change of r in the last substep (m). With the stiffness times
-/// phi h^2/m_inner the sum is a displacement (m) of an inner particle. From the other end every operation sees the
-/// negated numbers, so the two pulls are opposite to the bit and momentum is kept but for the rounding of the sums.
-/// A spring of zero length has no direction and does not pull.
-SHARED vec3 add_pull(vec3 sum, vec3 edge, vec3 closing, float rest_length, float stiffness, float strain_damping) {
+/// Pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa (du . r)/|r|^2] r, r =
+/// `edge` and du = `closing`, the change of r in the last substep (m). With the stiffness times phi h^2/m_inner it is a
+/// displacement (m) of an inner particle. From the other end every operation sees the negated numbers, so the two pulls
+/// are opposite to the bit (but for the signs of zeros, which explicit_increment loses) and momentum is kept but for
+/// the rounding of the sums. A spring of zero length has no direction and does not pull.
+SHARED vec3 spring_pull(vec3 edge, vec3 closing, float rest_length, float stiffness, float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);
-    if (!(length_squared > 0.0f)) return sum;
     precise float current = sqrt(length_squared);
     precise float strain = (current - rest_length) / current;
     precise float rate = strain_damping * (ordered_dot(closing, edge) / length_squared);
-    precise vec3 total = sum + edge * (stiffness * (strain + rate));
+    precise float pull = stiffness * (strain + rate);
+    precise vec3 total = edge * (length_squared > 0.0f ? pull : 0.0f);
+    return total;
+}
+
+SHARED vec3 add_pull(vec3 sum, vec3 pull) {
+    precise vec3 total = sum + pull;
     return total;
 }
 
@@ -48,7 +53,7 @@ SHARED float gathered_tension(vec3 edge, vec3 closing, float rest_length, float 
 }
 
 /// Increment to the displacement in one micro-step: phi h^2 (g + w (F_wind + F_springs)/m) - q d. `pull` is already a
-/// displacement of an inner particle.
+/// displacement of an inner particle. No component of `gravity_step` is -0, so the sign of a pull of zero is lost.
 SHARED vec3 explicit_increment(vec3 displacement, vec3 gravity_step, vec3 force, vec3 pull, float inverse_mass,
                                float force_step, float damping_loss) {
     precise vec3 forced = gravity_step + (force * force_step + pull) * inverse_mass;

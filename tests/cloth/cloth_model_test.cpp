@@ -1,6 +1,7 @@
 // What a cloth's model holds, and what it leaves out.
 #include "cloth/cloth_model.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,9 @@
 
 namespace drape {
 namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
 
 bool skips(const std::vector<SkippedWork>& list, const std::string& what) {
     return std::ranges::any_of(list, [&](const SkippedWork& work) { return work.what == what; });
@@ -93,6 +97,38 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     EXPECT_EQ(kinds, expected);
     scene.solver.method = SolverMethod::relax;
     EXPECT_EQ(SimulationModel(scene).method().name, "relax");
+}
+
+/// First substeps and counts of a scene's explicit steps with four in flight.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> in_flight(const SceneDescription& scene, std::size_t cloth = 0) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+    for (const Step& step : steps_in_flight(frame_steps(SimulationModel(scene)), 4))
+        if (step.kind == StepKind::explicit_step && step.cloth == cloth) found.emplace_back(step.substep, step.count);
+    return found;
+}
+
+TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 11, 1);
+    scene.solver.method = SolverMethod::explicit_steps;
+    EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "other";
+    for (std::size_t cloth : {0, 1})
+        EXPECT_THAT(in_flight(scene, cloth), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
+}
+
+TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 6, 1);
+    scene.solver.method = SolverMethod::explicit_steps;
+    EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1)));
+    const auto alone = ElementsAre(Pair(0, 1), Pair(1, 1), Pair(2, 1), Pair(3, 1), Pair(4, 1), Pair(5, 1));
+    SceneDescription colliding = scene, windy = scene, bending = scene;
+    colliding.colliders.push_back({Sphere{}});
+    windy.wind.velocity = {1, 0, 0};
+    bending.cloths[0].stiffness.bend = 1e-4;
+    EXPECT_THAT(in_flight(colliding), alone);
+    EXPECT_THAT(in_flight(windy), alone);
+    EXPECT_THAT(in_flight(bending), alone);
 }
 
 TEST(ScheduleTest, LineFramesPredictInSecondOrderWithCollidersToo) {

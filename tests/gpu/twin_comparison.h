@@ -67,7 +67,12 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 inline std::vector<Schedule> schedules(const SimulationModel& model) {
     const bool buffered = std::ranges::all_of(
         model.cloths, [](const ClothModel& cloth) { return buffered_obstacle(gpu().device, cloth.grid).empty(); });
-    return buffered ? std::vector{Schedule::images, Schedule::buffers} : std::vector{Schedule::images};
+    std::vector<Schedule> all{Schedule::images};
+    if (buffered) all.push_back(Schedule::buffers);
+    const bool streamed =
+        buffered && model.cloths[0].plan.spare_state && streamed_obstacle(gpu().device, model.cloths[0].grid).empty();
+    if (streamed) all.push_back(Schedule::streams);
+    return all;
 }
 
 /// On every schedule.

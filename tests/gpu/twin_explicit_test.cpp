@@ -77,6 +77,53 @@ TEST(TwinExplicitTest, PlainHangingSheet) {
     compare(scene);
 }
 
+/// Nothing happens between its micro-steps, so that several of them are in flight; columns, rows.
+class TwinStreamTest : public testing::TestWithParam<std::pair<std::uint32_t, std::uint32_t>> {};
+
+SceneDescription streaming(std::pair<std::uint32_t, std::uint32_t> grid) {
+    SceneDescription scene = test::sheet(grid.first, grid.second, 1.1, 0.9, test::substep_count);
+    scene.solver.method = SolverMethod::explicit_steps;
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0.6, 0.8}};
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.damping = 0.7;
+    cloth.velocity = {0.3, -1.5, 0.2};
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(grid.first - 1, 0, grid.first - 1, grid.second - 1)};
+    return scene;
+}
+
+TEST_P(TwinStreamTest, Plain) { compare(streaming(GetParam())); }
+
+TEST_P(TwinStreamTest, WithoutShearInAnOddNumberOfSteps) {
+    SceneDescription scene = streaming(GetParam());
+    scene.cloths[0].stiffness = {false, 800, 0, 0};
+    scene.solver.substeps = 7;
+    compare(scene);
+}
+
+TEST_P(TwinStreamTest, WithHoles) {
+    SceneDescription scene = streaming(GetParam());
+    const auto [columns, rows] = GetParam();
+    if (columns < 4) GTEST_SKIP() << "no room for a hole";
+    scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    compare(scene);
+}
+
+TEST_P(TwinStreamTest, WithAPinThatLetsGo) {
+    SceneDescription scene = streaming(GetParam());
+    Pin released = test::pin_box(0, 1, 0, 1);
+    released.release = 0.11;
+    scene.cloths[0].pins.push_back(released);
+    compare(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, TwinStreamTest,
+                         testing::Values(std::pair(2u, 2u), std::pair(3u, 3u), std::pair(17u, 33u), std::pair(40u, 3u),
+                                         std::pair(41u, 5u), std::pair(65u, 64u), std::pair(129u, 40u)),
+                         [](const auto& grid) {
+                             return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
+                         });
+
 TEST(TwinExplicitTest, ExactSkipsChangeNoBit) {
     const SceneDescription scene = everything_explicit();
     const SimulationModel lean(scene), full(scene, {.skip = false});

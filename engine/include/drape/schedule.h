@@ -9,8 +9,11 @@ enum class Schedule {
     automatic,  ///< chosen by the device
     images,     ///< passes load and store the state's images
     buffers,    ///< they store through buffers of the same memory, which a CPU does sooner
+    streams,    ///< likewise; explicit micro-steps stream down the rows, several at once where nothing is between them
 };
-inline constexpr Spelling<Schedule> schedule_spellings[] = {
-    {"auto", Schedule::automatic}, {"images", Schedule::images}, {"buffers", Schedule::buffers}};
+inline constexpr Spelling<Schedule> schedule_spellings[] = {{"auto", Schedule::automatic},
+                                                            {"images", Schedule::images},
+                                                            {"buffers", Schedule::buffers},
+                                                            {"streams", Schedule::streams}};
 
 }  // namespace drape

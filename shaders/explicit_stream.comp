@@ -1,0 +1,197 @@
+// Some explicit micro-steps at once, none of them a frame's first, to the bits of as many dispatches of explicit.comp:
+// each subgroup streams down the rows of a strip of columns and keeps in registers, per step in flight, the row whose
+// lower neighbours are still to come. Every spring is evaluated once; its other end sees the negated numbers. Column
+// neighbours across invocations come by shuffle, so a step makes one more column at either end of a strip useless:
+// strips overlap by 2 * `steps`. Loops are left to the driver: spirv-opt, told to unroll, loses what is precise.
+// MASKED: the spring shares come from an image.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#pragma variants MASKED
+#define BUFFERED
+#include "shared/simulation_types.h"
+#include "shared/stream_types.h"
+#include "include/explicit.h"
+#include "include/spring.h"
+#include "include/verlet.h"
+layout(push_constant) uniform Push { ExplicitPush push; };
+#include "include/state_store.h"
+
+layout(local_size_x = stream_lanes) in;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
+VECTOR_OUT(1, PositionOut, position_out);
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
+VECTOR_OUT(3, DisplacementOut, displacement_out);
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
+VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
+VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
+#ifdef MASKED
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+
+layout(constant_id = 0) const bool has_shear = false;
+
+const int columns = stream_columns, steps = stream_steps;
+
+struct Particle {
+    vec3 position;
+    float weight;
+    vec3 displacement;
+    float mark;  // beside the displacement (verlet.h)
+    vec3 position_remainder;
+    vec3 displacement_remainder;
+    vec3 pull;  // of the springs so far
+};
+
+int lesser(int a, int b) { return a < b ? a : b; }
+int greater(int a, int b) { return a > b ? a : b; }
+
+int first_column() {
+    return int(gl_WorkGroupID.x) * (stream_width - 2 * steps) + int(gl_SubgroupInvocationID) * columns;
+}
+
+/// A row of this invocation's particles; what lies outside the grid is a fixed copy of its border.
+void load_row(int y, out Particle row[columns]) {
+    for (int c = 0; c < columns; ++c) {
+        int x = first_column() + c;
+        ivec2 texel = ivec2(lesser(x, push.grid.x - 1), lesser(y, push.grid.y - 1));
+        vec4 position = imageLoad(position_in, texel), moved = imageLoad(displacement_in, texel);
+        row[c].position = position.xyz;
+        row[c].weight = x < push.grid.x && y < push.grid.y ? position.w : 0.0f;
+        row[c].displacement = moved.xyz;
+        row[c].mark = moved.w;
+        row[c].position_remainder = imageLoad(position_remainder_in, texel).xyz;
+        row[c].displacement_remainder = imageLoad(displacement_remainder_in, texel).xyz;
+        row[c].pull = vec3(0.0f);
+    }
+}
+
+void store_row(int y, Particle row[columns]) {
+    int within = int(gl_SubgroupInvocationID) * columns;
+    int first = gl_WorkGroupID.x == 0 ? 0 : steps;
+    int end = gl_WorkGroupID.x + 1 == gl_NumWorkGroups.x ? stream_width : stream_width - steps;
+    for (int c = 0; c < columns; ++c) {
+        ivec2 texel = ivec2(first_column() + c, y);
+        if (within + c < first || within + c >= end || texel.x >= push.grid.x || y < 0) continue;
+        STORE_VECTOR(position_out, texel, vec4(row[c].position, row[c].weight));
+        STORE_VECTOR(displacement_out, texel, vec4(row[c].displacement, 0.0f));
+        STORE_VECTOR(position_remainder_out, texel, vec4(row[c].position_remainder, 0.0f));
+        STORE_VECTOR(displacement_remainder_out, texel, vec4(row[c].displacement_remainder, 0.0f));
+    }
+}
+
+/// Of the springs that a particle owns, by direction: 1 or 0 outside the grid, half along its borders.
+vec4 shares_of(int x, int y) {
+#ifdef MASKED
+    vec4 shares = imageLoad(spring_share_image, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
+#else
+    vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
+                       border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);
+#endif
+    bool right = x + 1 < push.grid.x, below = y >= 0 && y + 1 < push.grid.y;
+    return vec4(right ? shares.x : 0.0f, below ? shares.y : 0.0f, right && below ? shares.z : 0.0f,
+                x > 0 && x < push.grid.x && below ? shares.w : 0.0f);
+}
+
+/// On the first of two particles.
+vec3 pull_between(Particle from, Particle to, int channel, float share) {
+    precise vec3 closing = to.displacement - from.displacement;
+    precise float stiffness = push.relative_stiffness[channel] * share;
+    vec3 edge = spring_edge(from.position, to.position, from.displacement, to.displacement);
+    return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.strain_damping);
+}
+
+/// What another invocation computed; nothing from beyond the strip.
+vec3 pull_of(vec3 pull, int lane) {
+    vec3 other = subgroupShuffle(pull, uint(lane));
+    return lane == int(gl_SubgroupInvocationID) ? vec3(0.0f) : other;
+}
+
+Particle shuffled(Particle particle, int lane) {
+    particle.position = subgroupShuffle(particle.position, uint(lane));
+    particle.displacement = subgroupShuffle(particle.displacement, uint(lane));
+    return particle;
+}
+
+/// Adds the springs between the row above and row `y`, and those along row `y`, in the order of neighbour().
+void add_springs(inout Particle above[columns], inout Particle row[columns], int y) {
+    int lane = int(gl_SubgroupInvocationID), left = greater(lane - 1, 0), right = lesser(lane + 1, stream_lanes - 1);
+    Particle before = shuffled(row[columns - 1], left), after = shuffled(row[0], right);
+    vec3 down_left[columns], down[columns], down_right[columns], ahead[columns];
+    for (int c = 0; c < columns; ++c) {
+        vec4 upper_shares = shares_of(first_column() + c, y - 1), shares = shares_of(first_column() + c, y);
+        Particle next = after, last = before;
+        if (c + 1 < columns) next = row[lesser(c + 1, columns - 1)];
+        if (c > 0) last = row[greater(c - 1, 0)];
+        if (has_shear) {
+            down_left[c] = pull_between(above[c], last, 3, upper_shares.w);
+            down_right[c] = pull_between(above[c], next, 2, upper_shares.z);
+        }
+        down[c] = pull_between(above[c], row[c], 1, upper_shares.y);
+        ahead[c] = pull_between(row[c], next, 0, shares.x);
+    }
+    vec3 upper_left = vec3(0.0f), upper_right = vec3(0.0f);
+    if (has_shear) {
+        upper_left = pull_of(down_right[columns - 1], left);
+        upper_right = pull_of(down_left[0], right);
+    }
+    vec3 behind = pull_of(ahead[columns - 1], left);
+    for (int c = 0; c < columns; ++c) {
+        precise vec3 finished = above[c].pull;
+        precise vec3 sum;
+        if (has_shear) {
+            finished = finished + down_left[c];
+            finished = finished + down[c];
+            finished = finished + down_right[c];
+            sum = -(c > 0 ? down_right[greater(c - 1, 0)] : upper_left);
+            sum = sum - down[c];
+            sum = sum - (c + 1 < columns ? down_left[lesser(c + 1, columns - 1)] : upper_right);
+        } else {
+            finished = finished + down[c];
+            sum = -down[c];
+        }
+        sum = sum - (c > 0 ? ahead[greater(c - 1, 0)] : behind);
+        sum = sum + ahead[c];
+        above[c].pull = finished;
+        row[c].pull = sum;
+    }
+}
+
+Particle stepped(Particle particle, float mark) {
+    Particle next = particle;
+    CompensatedSum advanced = compensated_add(particle.position, particle.displacement, particle.position_remainder);
+    next.position = advanced.value;
+    next.position_remainder = advanced.remainder;
+    vec3 increment = explicit_increment(particle.displacement, push.gravity_step.xyz, vec3(0.0f), particle.pull,
+                                        particle.weight, push.force_step, push.damping_loss);
+    CompensatedSum moved = compensated_add(particle.displacement, released_increment(increment, mark),
+                                           particle.displacement_remainder);
+    if (particle.weight != 0.0f) {
+        next.displacement = moved.value;
+        next.displacement_remainder = moved.remainder;
+    }
+    return next;
+}
+
+void main() {
+    Particle above[steps][columns];
+    for (int s = 0; s < steps; ++s)
+        for (int c = 0; c < columns; ++c)
+            above[s][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f));
+    for (int y = 0; y < push.grid.y + steps; ++y) {
+        Particle row[columns];
+        load_row(y, row);
+        for (int s = 0; s < steps; ++s) {
+            Particle done[columns];
+            add_springs(above[s], row, y - s);
+            for (int c = 0; c < columns; ++c) {
+                done[c] = stepped(above[s][c], s > 0 ? 0.0f : above[s][c].mark);
+                above[s][c] = row[c];
+            }
+            row = done;
+        }
+        store_row(y - steps, row);
+    }
+}
