@@ -24,7 +24,7 @@ void pull(const RowView& a, const RowView& b, int offset, int count, float rest_
         const vec3 start = load(a.position, x), end = load(b.position, x + offset);
         const vec3 moved_start = load(a.displacement, x), moved_end = load(b.displacement, x + offset);
         const vec3 edge = advance ? spring_edge(start, end, moved_start, moved_end) : end - start;
-        store(out, x, add_pull(no_pull, edge, moved_end - moved_start, rest_length, stiffness[x], strain_damping));
+        store(out, x, spring_pull(edge, moved_end - moved_start, rest_length, stiffness[x], strain_damping));
     }
 }
 
