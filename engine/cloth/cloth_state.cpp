@@ -41,7 +41,6 @@ bool tense(Context c) {
 }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
-FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
@@ -80,7 +79,7 @@ const std::vector<FieldRow>& rows() {
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::line_rows, "line rows", stored, vector, device, line_solved, line_scratch},
-        {Field::nested_rows, "nested rows", buffer, layout_of<glsl::vec2>(), device, nested, particle_list},
+        {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
         {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
          [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
         {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
