@@ -59,17 +59,19 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const BoundingSphere extent = scene_extent(scene);
     plane_extent_ = plane_extent(scene, extent);
-    constants_ = frame_constants(scene, extent, width, height);
-    make_pipelines(device, !scene.cloths.empty(), options.cut);
+    constants_ = frame_constants(scene, extent, width, height, options.shift);
+    make_pipelines(device, !scene.cloths.empty(), options.cut, light_count(scene));
 }
 
-void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth) {
+void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth,
+                                std::uint32_t lights) {
     const bool shadow = casts_shadow();
     vulkan::GraphicsState state;
     state.color_format = color_format;
     state.depth_format = depth_format;
     state.samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     vulkan::GraphicsState shadow_state = state;
+    state.constants = {{"light_count", lights}};
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
@@ -91,12 +93,15 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
     shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(colliders_)) {
-        const auto kind = static_cast<std::uint32_t>(range.kind);
-        state.constants = {{"collider_kind", kind}};
+        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
+        state.constants = {shadow_state.constants[0], {"light_count", lights}};
         state.depth_write = range.kind != glsl::kind_backdrop;
+        // What has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that there the
+        // outer side turns the other way.
+        state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        shadow_state.cull = VK_CULL_MODE_FRONT_BIT;
         draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
         if (!shadow || !range.casts_shadow) continue;
-        shadow_state.constants = state.constants;
         shadow_draws_.push_back(
             {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
     }

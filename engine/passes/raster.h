@@ -2,6 +2,7 @@
 // and the copy that the host reads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -32,6 +33,9 @@ struct RasterCloth {
 struct RasterOptions {
     bool shadow = true;
     bool cut = false;  ///< some cloth has cut vertices: their pipelines are made
+    /// Pixels right and down by which the picture is moved: pictures moved by parts of a pixel add up to one of many
+    /// samples.
+    std::array<double, 2> shift{0, 0};
 };
 
 class RasterPass {
@@ -69,7 +73,7 @@ class RasterPass {
     };
     struct Targets;
 
-    void make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth);
+    void make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth, std::uint32_t lights);
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;

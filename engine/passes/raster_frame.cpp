@@ -52,9 +52,7 @@ void add_cloth(const Cloth& cloth, const std::vector<Collider>& colliders, Bound
 }
 
 void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants) {
-    const std::size_t count = std::min<std::size_t>(scene.lights.size(), glsl::light_limit);
-    constants.eye.w = static_cast<float>(count);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < light_count(scene); ++i) {
         const DirectionalLight& light = scene.lights[i];
         const glsl::vec4 color = linear_color(light.color);
         const auto intensity = static_cast<float>(light.intensity);
@@ -80,6 +78,10 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, g
 }
 
 }  // namespace
+
+std::uint32_t light_count(const SceneDescription& scene) {
+    return static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), glsl::light_limit));
+}
 
 BoundingSphere scene_extent(const SceneDescription& scene) {
     Bounds bounds;
@@ -111,9 +113,13 @@ PlaneExtent plane_extent(const SceneDescription& scene, const BoundingSphere& ex
 }
 
 glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent, std::uint32_t width,
-                                     std::uint32_t height) {
+                                     std::uint32_t height, const std::array<double, 2>& shift) {
     glsl::FrameConstants constants{};
-    const Matrix4 matrix = view_projection_matrix(scene.camera, width, height);
+    Matrix4 matrix = view_projection_matrix(scene.camera, width, height);
+    for (std::size_t column = 0; column < 4; ++column) {
+        matrix[column] += 2 * shift[0] / width * matrix[12 + column];
+        matrix[4 + column] += 2 * shift[1] / height * matrix[12 + column];
+    }
     for (std::size_t row = 0; row < 4; ++row)
         constants.clip_from_world[row] =
             texel({matrix[4 * row], matrix[4 * row + 1], matrix[4 * row + 2], matrix[4 * row + 3]});

@@ -1,6 +1,7 @@
 // The frame constants of the raster shaders: camera, lights, backdrop, and the shadow map's fit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "drape/scene.h"
@@ -19,12 +20,15 @@ struct BoundingSphere {
 /// scene's: a sphere around the camera's target.
 BoundingSphere scene_extent(const SceneDescription& scene);
 
+/// Lights that the pictures show.
+std::uint32_t light_count(const SceneDescription& scene);
+
 /// Planes fade into the backdrop over this distance from the camera's target, m.
 double fade_radius(const SceneDescription& scene, const BoundingSphere& extent);
 PlaneExtent plane_extent(const SceneDescription& scene, const BoundingSphere& extent);
 
-/// The shadow map looks along the first light and holds `extent`.
+/// The shadow map looks along the first light and holds `extent`. `shift`: RasterOptions.
 glsl::FrameConstants frame_constants(const SceneDescription& scene, const BoundingSphere& extent, std::uint32_t width,
-                                     std::uint32_t height);
+                                     std::uint32_t height, const std::array<double, 2>& shift);
 
 }  // namespace drape

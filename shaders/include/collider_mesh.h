@@ -15,9 +15,15 @@ ivec2 quad_corner(int vertex) {
     return ivec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1 : 0, vertex == 2 || vertex == 4 || vertex == 5 ? 1 : 0);
 }
 
-MeshVertex ellipsoid_vertex(vec3 radii, int vertex) {
+/// Segment around and from pole to pole, at which a vertex of a round mesh is; seen from outside its triangles run
+/// counter-clockwise, though rows are counted downwards.
+ivec2 round_corner(int vertex) {
     int quad = vertex / 6;
-    ivec2 corner = ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6);
+    return ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6).yx;
+}
+
+MeshVertex ellipsoid_vertex(vec3 radii, int vertex) {
+    ivec2 corner = round_corner(vertex);
     const float pi = 3.14159265358979;
     float polar = pi * float(corner.y) / float(sphere_rows);
     float azimuth = 2.0 * pi * float(corner.x) / float(sphere_columns);
@@ -46,8 +52,7 @@ MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
 
 /// The ball at the upper end from its pole to where the side touches it, the side in one step, the lower ball.
 MeshVertex capsule_vertex(vec3 size, int vertex) {
-    int quad = vertex / 6;
-    ivec2 corner = ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6);
+    ivec2 corner = round_corner(vertex);
     const float pi = 3.14159265358979;
     float touching = acos(clamp((size.y - size.z) / max(2.0 * size.x, 1.0e-20), -1.0, 1.0));
     bool upper = corner.y <= sphere_rows / 2;

@@ -42,8 +42,14 @@ SHARED vec3 light_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     if (!(facing > 0.0f)) return surface.albedo * arriving * (surface.transmission * -facing);
     vec3 halfway = to_light + surface.to_eye;
     float squared = cosine(halfway, halfway);
-    float power = squared > 0.0f ? clamped(cosine(surface.normal, halfway)) / sqrt(squared) : 0.0f;
-    for (int squaring = 0; squaring < 5; ++squaring) power = power * power;
+    float power =
+        squared > 0.0f && surface.gloss > 0.0f ? clamped(cosine(surface.normal, halfway)) / sqrt(squared) : 0.0f;
+    // To the 32nd; no loop, because the default device's compiler unrolls none.
+    power = power * power;
+    power = power * power;
+    power = power * power;
+    power = power * power;
+    power = power * power;
     return (surface.albedo * facing + vec3(1.0f, 1.0f, 1.0f) * (surface.gloss * power)) * arriving;
 }
 

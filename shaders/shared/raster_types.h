@@ -18,7 +18,7 @@ const int shadow_map_size = 2048;
 struct FrameConstants {
     vec4 clip_from_world[4];    // rows
     vec4 shadow_from_world[3];  // rows: x, y in texels, z 0 (near the light) .. 1
-    vec4 eye;                   // xyz: camera position; w: number of lights
+    vec4 eye;                   // xyz: camera position; w: 0
     vec4 ambient;               // xyz: linear; w: size of a shadow texel, m
     vec4 background;            // xyz: linear; w: height of the picture, pixels
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
