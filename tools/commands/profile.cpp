@@ -25,6 +25,8 @@ ExitCode run(Options options) {
     options.request.draw = !options.simulate;
     const profile::Profile result = profile::run_profile(options.request);
     if (result.stopped) return report_stop("no profile was written");
+    if (!result.failure.empty())
+        print_message("warning: these are times of frames that are no result: " + result.failure);
     print_data(profile::profile_text(result));
     if (!options.json.empty()) write_file(options.json, profile::profile_json(result));
     if (!options.csv.empty()) write_file(options.csv, profile::profile_csv(result));

@@ -57,6 +57,7 @@ Profile run_profile(const ProfileRequest& request) {
     options.positions = !request.draw;
     options.skip = request.scene.skip;
     options.schedule = request.scene.schedule;
+    options.keep_promises = false;
     options.timings = request.passes ? Timings::passes : Timings::stages;
     Simulation simulation(scene, options, device);
     describe(request, simulation, device, profile);
@@ -64,6 +65,7 @@ Profile run_profile(const ProfileRequest& request) {
     const auto seconds = [&](Clock::time_point time) { return std::chrono::duration<double>(time - start).count(); };
     const auto finished = [&](const FinishedFrame& frame) {
         const Clock::time_point now = Clock::now();
+        if (frame.failure && profile.failure.empty()) profile.failure = frame.failure->reason;
         if (frame.frame == request.warm_up) start = now;
         if (frame.frame > request.warm_up) {
             ProfiledFrame& one = profile.frames.emplace_back(frame.frame, seconds(before), seconds(now), frame.effort);

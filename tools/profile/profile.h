@@ -36,6 +36,7 @@ struct Profile {
     std::vector<ResourceMemory> memory;
     std::uint64_t memory_used = 0;  ///< bytes
     double copy_bandwidth = 0;      ///< bytes/s; 0: unavailable
+    std::string failure;            ///< why the first frame that is no result is none; its time is a time all the same
     bool stopped = false;
 };
 
