@@ -55,11 +55,14 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     before_ = {};
     top_motion_ = 0;
     hopeless_ = false;
+    only_motion_failed_.reset();
+    turned_back_ = false;
     segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
+    if (turned_back_) return accept_unpredictable(judgement, tried_);
     if (segment_.probes) learn_order(judgement);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     if (worst <= 1) {
@@ -67,6 +70,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
         return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
     }
     if (top_motion_ > 0) return look_back(judgement);
+    if (turn_back(judgement)) return try_again_with(*only_motion_failed_);
     // What more substeps do not buy, fewer may not cost.
     if (futile(judgement)) return accept_unpredictable(judgement, below(began_, 2));
     if (at_top()) {
@@ -87,6 +91,15 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
     tried_ = rung;
     segment_.substeps = rungs_[tried_];
     return Verdict::again;
+}
+
+/// Whether more substeps made nonsense of what with fewer only moved too inexactly: what a long step leaves strained in
+/// rigid cloth becomes speed when the step shrinks a hundredfold.
+bool SubstepControl::turn_back(const Judgement& judgement) {
+    const bool only_motion = judgement.plausible && judgement.stretch <= 1 && std::isfinite(judgement.motion);
+    if (only_motion) only_motion_failed_ = tried_;
+    turned_back_ = !judgement.plausible && only_motion_failed_.has_value();
+    return turned_back_;
 }
 
 /// Of the attempt with a quarter of the top's substeps.

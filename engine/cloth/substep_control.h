@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "cloth/method.h"
@@ -59,6 +60,7 @@ class SubstepControl {
     bool worth_looking_back(const Judgement& judgement) const;
     Verdict try_again_with(std::size_t rung);
     Verdict look_back(const Judgement& judgement);
+    bool turn_back(const Judgement& judgement);
     void succeed(const Judgement& judgement);
     void refine(const Judgement& judgement);
     void learn_order(const Judgement& judgement);
@@ -80,6 +82,9 @@ class SubstepControl {
         probed_;             ///< the last probe
     double top_motion_ = 0;  ///< of the attempt at the top, while one with a quarter of its substeps is tried
     bool hopeless_ = false;  ///< that one was worse: more substeps would help, and there are none
+    /// Of the segment, the finest attempt so far that only its motion let fail.
+    std::optional<std::size_t> only_motion_failed_;
+    bool turned_back_ = false;  ///< to that one
     Segment segment_{};
     std::uint32_t interval_ = 1, until_probe_ = 0;  ///< frames between probes, before the next
     std::uint32_t since_fewer_ = 1000000;           ///< frames since the substeps went down

@@ -100,6 +100,7 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     attempt_statistics_.clear();  // of the coarse run
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const auto [stretch, implausible] = run(fine, k, segment.substeps);
+        judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch, implausible});
         if (judgement.stretch > 1 && !control_.at_top()) return judgement;
         frames.push_back(fine);

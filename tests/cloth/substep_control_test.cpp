@@ -121,6 +121,33 @@ TEST(SubstepControl, AtTheTopAQuarterOfItsSubstepsTellWhetherMoreWouldHelp) {
     EXPECT_EQ(resolving.segment().substeps, 4096u);
 }
 
+TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
+    const auto judged = [](std::uint32_t substeps) {
+        if (substeps > 100) return Judgement{.stretch = 40, .plausible = false};
+        return Judgement{.stretch = 0.1, .motion = std::pow(200.0 / substeps, 2)};
+    };
+    SubstepControl loop = control(16);
+    loop.begin(6, false);
+    Verdict verdict = Verdict::again;
+    std::uint32_t finest = 0, last = 0;
+    for (int attempts = 0; verdict == Verdict::again && attempts < 10; ++attempts) {
+        last = loop.segment().substeps;
+        finest = std::max(finest, last);
+        verdict = loop.judge(judged(last));
+    }
+    EXPECT_EQ(verdict, Verdict::unpredictable);
+    EXPECT_GT(finest, 100u);
+    EXPECT_LE(last, 100u);
+    EXPECT_GE(last, 16u);
+    EXPECT_EQ(loop.begin(6, false).substeps, last);
+    // What was never plausible is not turned back to.
+    SubstepControl hopeless = control(256);
+    hopeless.begin(6, false);
+    for (verdict = Verdict::again; verdict == Verdict::again;)
+        verdict = hopeless.judge(judged(hopeless.segment().substeps));
+    EXPECT_EQ(verdict, Verdict::give_up);
+}
+
 TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
     SubstepControl loop(row_of(SolverMethod::line), 2, 30, 6);
     EXPECT_EQ(loop.segment().substeps, 0u);
