@@ -99,8 +99,9 @@ TEST(StepFlops, OfPredictionsAreCounted) {
 
 TEST(StepFlops, OfSpringsAreCounted) {
     const int closing = vector, share = 1, other_end = vector;
-    EXPECT_EQ(kernel_flops.explicit_spring,
-              closing + share + other_end + operations([] { add_pull(a, spring_pull(spring_edge(a, b, c, c), c, w, s, s)); }));
+    EXPECT_EQ(kernel_flops.explicit_spring, closing + share + other_end + operations([] {
+                                                add_pull(a, spring_pull(spring_edge(a, b, c, c), c, w, s, s));
+                                            }));
     EXPECT_EQ(kernel_flops.spring, operations([] {
                   const Counted first = dragged_weight(w, s), second = dragged_weight(w, s);
                   const SpringResult result = project_spring(spring_edge(a, b, c, c), first + second, s, w, s, s);
