@@ -116,13 +116,16 @@ SceneDescription scene_of(const SpeedCase& speed_case) {
     model_scenes::set_wave_speed(first, 100);
     first.pins = {model_scenes::pin_top(first)};
     for (std::uint32_t k = 1; k < speed_case.cloths; ++k) {
+        const std::uint32_t column = k % 8, row = k / 8;
         Cloth cloth = scene.cloths[0];
         cloth.name = fmt::format("sheet {}", k);
-        cloth.placement.origin = {1.2 * (k % 8), 0, 1.2 * (k / 8)};
+        cloth.placement.origin = {1.2 * column, 0, 1.2 * row};
         scene.cloths.push_back(cloth);
     }
-    for (std::uint32_t k = 0; k < speed_case.colliders; ++k)
-        scene.colliders.push_back({.shape = Sphere{{0.12 * (k % 8), 0.3, 0.12 * (k / 8)}, 0.05}});
+    for (std::uint32_t k = 0; k < speed_case.colliders; ++k) {
+        const std::uint32_t column = k % 8, row = k / 8;
+        scene.colliders.push_back({.shape = Sphere{{0.12 * column, 0.3, 0.12 * row}, 0.05}});
+    }
     return scene;
 }
 

@@ -41,7 +41,7 @@ struct RoundMeans {
 /// Drape's side: frames go on from round to round, each of which begins and ends with an idle device.
 class DeviceSide {
   public:
-    DeviceSide(const Device& device, const SceneDescription& scene, SimulationOptions options,
+    DeviceSide(const Device& device, const SceneDescription& scene, const SimulationOptions& options,
                const BenchRequest& request, std::uint32_t every = 1)
         : request_(request), every_(every), simulation_(scene, options, device) {
         run(warm_up);
