@@ -111,6 +111,10 @@ TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 11, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
+    // Were the last step not kept apart, 5 to 8 would be one.
+    SceneDescription nine = scene;
+    nine.solver.substeps = 9;
+    EXPECT_THAT(in_flight(nine), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1), Pair(6, 1), Pair(7, 1), Pair(8, 1)));
     scene.cloths.push_back(scene.cloths[0]);
     scene.cloths[1].name = "other";
     for (std::size_t cloth : {0, 1})
