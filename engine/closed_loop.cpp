@@ -176,6 +176,7 @@ void FrameLoop::submit_output(std::uint32_t frame, Judged judged, bool wanted, c
     if (!wanted && !cutting) return;
     const std::uint32_t slot = take_slot(finished);
     submit(slot, frame, !wanted ? FrameKind::search_cut : cutting ? FrameKind::output_cut : FrameKind::output, wanted);
+    if (judged.effort.substeps > 0) in_flight_[slot]->substeps = judged.effort.substeps;  // a probe is not kept yet
     in_flight_[slot]->judged = std::move(judged);
     if (cutting) take_cuts_of(slot, frame, finished);
 }

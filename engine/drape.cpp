@@ -1,18 +1,22 @@
 #include "drape.h"
 
 #include <fmt/format.h>
+#include <json/json.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <thread>
 
+#include "contacts.h"
 #include "drape/simulation.h"
 #include "frame_checks.h"
 #include "graph/dump.h"
 #include "output/frame_writer.h"
+#include "output/json_text.h"
 #include "output/kept_frames.h"
 #include "output/manifest.h"
 #include "output/png_sequence.h"
@@ -45,6 +49,7 @@ FrameRange frame_range(const RunRequest& request, const SceneDescription& scene,
 
 struct LoadedScene {
     SceneDescription description;
+    std::string text;  ///< of the file
     std::string hash;  ///< of the text and the overrides: what decides the result besides program and device
     std::vector<std::string> warnings;
 };
@@ -53,14 +58,27 @@ LoadedScene load(const SceneRequest& request) {
     // Read once: what is hashed is what is run, also when the file changes meanwhile or is a pipe.
     SceneResult result = read_scene(request.path, request.overrides);
     if (!result.scene) throw SceneFailure(std::move(result));
-    LoadedScene loaded{std::move(*result.scene), {}, {}};
+    LoadedScene loaded{std::move(*result.scene), {}, {}, {}};
     for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
     std::vector<std::string> hashed{std::move(result.text)};
     hashed.insert(hashed.end(), request.overrides.begin(), request.overrides.end());
     loaded.hash = run_key(hashed);
     if (request.image_size) loaded.description.image.size = *request.image_size;
     if (request.samples) loaded.description.image.samples = *request.samples;
+    loaded.text = std::move(hashed.front());
     return loaded;
+}
+
+/// The scene as it is run, on one line of JSON.
+std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded) {
+    std::vector<std::string> overrides = request.overrides;
+    const ImageSettings& image = loaded.description.image;
+    if (request.image_size) overrides.push_back(fmt::format("/image/size=[{},{}]", image.size[0], image.size[1]));
+    if (request.samples) overrides.push_back(fmt::format("/image/samples={}", image.samples));
+    std::istringstream text(resolved_scene(loaded.text, overrides));
+    Json::Value value;
+    text >> value;
+    return json_line(value);
 }
 
 /// Two runs with the same key give the same bytes for the same frame.
@@ -84,35 +102,33 @@ std::vector<const OutputFormat*> asked_formats(const RunRequest& request) {
     return formats;
 }
 
-WrittenRun written_run(const Simulation& simulation, const FrameRange& range, const std::string& key) {
-    const SceneDescription& scene = simulation.scene();
-    WrittenRun run;
-    run.start = range.start, run.end = range.end, run.step = range.step, run.fps = scene.time.fps;
-    run.cuts = !scene.cutters.empty();
-    run.width = scene.image.size[0], run.height = scene.image.size[1];
-    run.key = key;
-    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
-        const Cloth& description = scene.cloths[cloth];
-        run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
-                              description.grid[1], simulation.triangles(cloth)});
-    }
-    return run;
+void check_stream(const RunRequest& request) {
+    const auto formats = asked_formats(request);
+    if (formats.size() != 1 || !formats[0]->stream)
+        throw UsageError(fmt::format("a stream takes one format, of {}", stream_format_names()));
+    if (request.existing != ExistingFiles::refuse) throw UsageError("a stream cannot be overwritten or resumed");
 }
 
 /// Where finished frames go: the writers of the formats, statistics, times.
 class Sink {
   public:
-    /// `kept`: frames whose pictures are there already.
-    Sink(OutputFolder& folder, const RunRequest& request, const SceneDescription& scene, const WrittenRun& run,
-         const std::map<std::uint32_t, KeptFrame>& kept)
-        : scene_(scene), kept_(kept) {
+    /// `folder`: nothing for a stream; `kept`: frames whose pictures are there already.
+    Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const SceneDescription& scene,
+         const WrittenRun& run, const std::map<std::uint32_t, KeptFrame>& kept)
+        : scene_(scene), kept_(kept), details_(request.details()) {
         for (const OutputFormat* format : asked_formats(request))
-            writers_.push_back({format, format->open(folder, run)});
+            writers_.push_back({format, folder ? format->open(*folder, run) : format->stream(request.stream, run)});
         for (const auto& [frame, picture] : kept) statistics_.add(frame, picture.values);
     }
 
     void add(const FinishedFrame& frame) {
-        const WrittenFrame written{frame.frame, frame.rgba, frame.positions, frame_values(scene_, frame)};
+        const std::vector<std::vector<std::int16_t>> contacts = touched(frame);
+        const WrittenFrame written{frame.frame,
+                                   frame.rgba,
+                                   frame.positions,
+                                   frame.velocities,
+                                   {contacts.begin(), contacts.end()},
+                                   frame_values(scene_, frame)};
         statistics_.add(frame.frame, written.values);
         for (const Writer& writer : writers_)
             if (!writer.format->draws || !kept_.contains(frame.frame)) writer.files->add(written);
@@ -159,8 +175,16 @@ class Sink {
         std::unique_ptr<FrameWriter> files;
     };
 
+    std::vector<std::vector<std::int16_t>> touched(const FinishedFrame& frame) const {
+        std::vector<std::vector<std::int16_t>> all;
+        for (std::size_t cloth = 0; details_ && cloth < frame.positions.size(); ++cloth)
+            all.push_back(touched_colliders(scene_, cloth, frame.frame / scene_.time.fps, frame.positions[cloth]));
+        return all;
+    }
+
     const SceneDescription& scene_;
     const std::map<std::uint32_t, KeptFrame>& kept_;
+    bool details_;
     std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;
     RunStatistics statistics_;
@@ -199,12 +223,68 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     return manifest;
 }
 
-SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions) {
+/// What the run chose, for who reads its arrays alone.
+std::string run_parameters(const SceneDescription& scene, const Manifest& manifest) {
+    Json::Value value(Json::objectValue);
+    value["program_version"] = manifest.program_version;
+    value["device"] = manifest.device.name;
+    value["driver"] = manifest.device.driver + " " + manifest.device.driver_version;
+    value["scene_hash"] = manifest.scene.hash;
+    value["method"] = manifest.solver.method;
+    value["schedule"] = manifest.solver.schedule;
+    value["substeps"] = manifest.solver.substeps;
+    value["iterations"] = manifest.solver.iterations;
+    value["tolerance"] = manifest.solver.tolerance;
+    value["fps"] = manifest.frames.fps;
+    value["frame_step"] = Json::Int64(manifest.frames.step);
+    value["overrides"] = value["colliders"] = Json::Value(Json::arrayValue);
+    for (const std::string& each : manifest.scene.overrides) value["overrides"].append(each);
+    std::map<int, int> counts;
+    for (const Collider& collider : scene.colliders)
+        value["colliders"].append(
+            fmt::format("/colliders/{}/{}", collider_lists[collider.shape.index()], counts[collider.kind()]++));
+    return json_line(value);
+}
+
+WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
+                       const Manifest& manifest) {
+    const SceneDescription& scene = simulation.scene();
+    WrittenRun run;
+    run.start = static_cast<std::uint32_t>(manifest.frames.start);
+    run.end = static_cast<std::uint32_t>(manifest.frames.end);
+    run.step = static_cast<std::uint32_t>(manifest.frames.step);
+    run.fps = scene.time.fps;
+    run.cuts = !scene.cutters.empty();
+    run.width = scene.image.size[0], run.height = scene.image.size[1];
+    run.key = manifest.run_key;
+    run.seed = scene.wind.gust.seed;
+    if (request.details()) {
+        run.scene = resolved_text(request.scene, loaded);
+        run.parameters = run_parameters(scene, manifest);
+    }
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
+        const Cloth& description = scene.cloths[cloth];
+        run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
+                              description.grid[1], simulation.triangles(cloth), description.name});
+    }
+    return run;
+}
+
+SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions, bool velocities) {
     SimulationOptions options;
     options.draw = draw;
     options.positions = positions;
+    options.velocities = velocities;
     options.skip = request.skip;
     options.schedule = request.schedule;
+    return options;
+}
+
+SimulationOptions run_options(const RunRequest& request) {
+    const bool positions =
+        std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; });
+    SimulationOptions options = simulation_options(request.scene, request.draws(), positions, request.details());
+    options.keep_promises = !request.keep_failed;
     return options;
 }
 
@@ -239,10 +319,10 @@ struct MissingFrames {
     std::map<std::uint32_t, KeptFrame> kept;
 };
 
-MissingFrames missing_frames(const OutputFolder& folder, const RunRequest& request, const FrameRange& range,
-                             const std::string& key) {
+MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const RunRequest& request,
+                             const FrameRange& range, const std::string& key) {
     std::map<std::string, KeptFrame> there;
-    if (request.existing == ExistingFiles::resume) there = kept_frames(folder, key);
+    if (folder && request.existing == ExistingFiles::resume) there = kept_frames(*folder, key);
     const bool only_pictures =
         std::ranges::all_of(asked_formats(request), [](const OutputFormat* format) { return format->draws; });
     MissingFrames missing;
@@ -321,6 +401,10 @@ bool RunRequest::draws() const {
     return std::ranges::any_of(asked_formats(*this), [](const OutputFormat* format) { return format->draws; });
 }
 
+bool RunRequest::details() const {
+    return std::ranges::any_of(asked_formats(*this), [](const OutputFormat* format) { return format->details; });
+}
+
 RunSummary run_scene(const RunRequest& request) {
     RunSummary summary;
     const LoadedScene scene = load(request.scene);
@@ -330,7 +414,9 @@ RunSummary run_scene(const RunRequest& request) {
         if (request.message) request.message(text);
     };
     for (const std::string& warning : summary.warnings) say("warning: " + warning);
-    OutputFolder folder(request.output, request.existing);
+    std::optional<OutputFolder> folder;
+    if (request.stream) check_stream(request);
+    if (!request.stream) folder.emplace(request.output, request.existing);
 
     prefer_calling_thread(scene.description, request.draws());
     const Device device = device_of(request.scene);
@@ -341,10 +427,7 @@ RunSummary run_scene(const RunRequest& request) {
     std::optional<RunFailure> failure;
     {
         Sink* cut_sink = nullptr;
-        SimulationOptions options = simulation_options(
-            request.scene, request.draws(),
-            std::ranges::any_of(asked_formats(request), [](const OutputFormat* format) { return !format->draws; }));
-        options.keep_promises = !request.keep_failed;
+        SimulationOptions options = run_options(request);
         options.on_cut = [&](const Cut& cut) { cut_sink->add_cut(cut); };
         Simulation simulation(scene.description, options, device);
         for (const Compromise& each : simulation.facts().compromises) {
@@ -354,7 +437,7 @@ RunSummary run_scene(const RunRequest& request) {
         if (request.verbose) std::ranges::for_each(notes(device, simulation), say);
         manifest = describe_run(request, scene, simulation, device.info(), range);
         manifest.run_key = key;
-        Sink sink(folder, request, simulation.scene(), written_run(simulation, range, key), missing.kept);
+        Sink sink(folder, request, simulation.scene(), written_run(request, scene, simulation, manifest), missing.kept);
         cut_sink = &sink;
         // Frames that a resumed run keeps still cut: the manifest lists every cut.
         const bool to_the_end = !scene.description.cutters.empty();
@@ -377,7 +460,7 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.status = failure->status;
         manifest.failure = failure->reason;
     }
-    if (summary.complete || (failure && summary.frame_count > 0)) write_manifest(folder, manifest);
+    if (folder && (summary.complete || (failure && summary.frame_count > 0))) write_manifest(*folder, manifest);
     if (failure) std::rethrow_exception(failure->error);
     return summary;
 }
@@ -386,7 +469,7 @@ SceneDescription asked_scene(const SceneRequest& request) { return load(request)
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
-    return Simulation(scene, simulation_options(request, draw, !draw), device_of(request)).describe_plan(format);
+    return Simulation(scene, simulation_options(request, draw, !draw, !draw), device_of(request)).describe_plan(format);
 }
 
 }  // namespace drape

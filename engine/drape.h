@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct SceneRequest {
 struct RunRequest {
     SceneRequest scene;
     std::string output;  ///< folder
+    /// Instead of a folder: takes the bytes of the one format, which must be one that can be a stream. No manifest.
+    std::function<void(std::span<const std::byte>)> stream;
     ExistingFiles existing = ExistingFiles::refuse;
     std::vector<std::string> formats{"png"};  ///< names of output/frame_writer.h's table
     std::optional<std::uint32_t> start, end;
@@ -48,7 +51,8 @@ struct RunRequest {
     std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
     std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
 
-    bool draws() const;  ///< some format needs pictures
+    bool draws() const;    ///< some format needs pictures
+    bool details() const;  ///< some format needs velocities and contacts
 };
 
 struct RunSummary {

@@ -16,6 +16,7 @@ class FrameCopy {
         rgba_.assign(frame.rgba.begin(), frame.rgba.end());
         frame_.rgba = rgba_;
         keep(frame.positions, positions_, frame_.positions);
+        keep(frame.velocities, velocities_, frame_.velocities);
         keep(frame.normals, normals_, frame_.normals);
     }
     const FinishedFrame& frame() const { return frame_; }
@@ -34,7 +35,7 @@ class FrameCopy {
 
     FinishedFrame frame_;
     std::vector<std::uint8_t> rgba_;
-    Arrays positions_, normals_;
+    Arrays positions_, velocities_, normals_;
 };
 
 }  // namespace drape

@@ -192,6 +192,11 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }
+    if (has.hands_out && options_.velocities)
+        for (ClothState state : solver_.cloths()) {
+            add_readback(frame.graph, state, state[Field::displacement], "displacement");
+            add_readback(frame.graph, state, state[Field::end_excess], "excess displacement");
+        }
     if (wanted.statistics)
         solver_.add_statistics(frame.graph);
     else if (!options_.statistics)
@@ -208,7 +213,7 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     if (has.searches_cuts) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
     if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
     slots_.submit(slot, frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
-    in_flight_[slot] = InFlight{frame, kind, output, std::nullopt};
+    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
 }
 
 void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
@@ -230,18 +235,36 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
-    const auto read = [&](std::string_view what) {
-        std::vector<std::span<const float>> arrays;
-        for (const ClothModel& cloth : model_.cloths) {
-            const std::span<std::byte> bytes = pool_->buffer(readback_name(cloth, what), slot).mapped();
-            arrays.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
-        }
-        return arrays;
-    };
-    if (done.output && options_.positions) result.positions = read("position");
-    if (done.output && options_.normals) result.normals = read("normal");
+    if (done.output && options_.positions) result.positions = arrays(slot, "position");
+    if (done.output && options_.velocities) result.velocities = velocities(slot, done.substeps);
+    if (done.output && options_.normals) result.normals = arrays(slot, "normal");
     if (done.output && !done.judged && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);
+}
+
+std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::string_view what) const {
+    std::vector<std::span<const float>> views;
+    for (const ClothModel& cloth : model_.cloths) {
+        const std::span<std::byte> bytes = pool_->buffer(readback_name(cloth, what), slot).mapped();
+        views.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
+    }
+    return views;
+}
+
+/// What the statistics take for the velocity (end_velocity.h), over the substep.
+std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
+    const auto moved = arrays(slot, "displacement"), excess = arrays(slot, "excess displacement");
+    const double substeps_per_second = model_.scene.time.fps * substeps;
+    velocities_.resize(moved.size());
+    for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {
+        velocities_[cloth].assign(moved[cloth].size(), 0.0f);
+        for (std::size_t i = 0; i < moved[cloth].size(); ++i)
+            if (i % 4 != 3)  // w of a displacement counts something else
+                velocities_[cloth][i] =
+                    static_cast<float>((static_cast<double>(moved[cloth][i]) + static_cast<double>(excess[cloth][i])) *
+                                       substeps_per_second);
+    }
+    return {velocities_.begin(), velocities_.end()};
 }
 
 void FrameLoop::deliver_all(const Finished& finished) {

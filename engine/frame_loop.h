@@ -35,6 +35,7 @@ struct CutEvent {
 struct FrameLoopOptions {
     bool draw = true;         ///< colour images are wanted
     bool positions = false;   ///< position arrays are wanted
+    bool velocities = false;  ///< arrays of velocities are wanted; needs statistics
     bool normals = false;     ///< arrays of normals are wanted
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
@@ -115,6 +116,7 @@ class FrameLoop {
         std::uint32_t frame = 0;
         FrameKind kind = FrameKind::initial;
         bool output = false;
+        std::uint32_t substeps = 0;  ///< that the state's history is of
         std::optional<Judged> judged;
     };
     /// A closed loop's frame at one number of substeps.
@@ -139,6 +141,8 @@ class FrameLoop {
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
     void deliver(std::uint32_t slot, const Finished& finished);
+    std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
+    std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
     void deliver_all(const Finished& finished);
     /// The slot that is next, free.
     std::uint32_t take_slot(const Finished& finished);
@@ -194,6 +198,7 @@ class FrameLoop {
     vulkan::FrameSlots slots_;
     std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
     std::uint32_t next_frame_ = 0, next_slot_ = 0;
+    std::vector<std::vector<float>> velocities_;  ///< of the frame that is handed out
 };
 
 }  // namespace drape

@@ -52,7 +52,8 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.draw = wanted.draw;
     options.positions = wanted.positions;
     options.normals = wanted.normals;
-    options.statistics = wanted.statistics;
+    options.velocities = wanted.velocities;
+    options.statistics = wanted.statistics || wanted.velocities;
     options.keep_promises = wanted.keep_promises;
     options.schedule = wanted.schedule;
     options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];

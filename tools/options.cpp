@@ -38,38 +38,53 @@ std::string check_override(const std::string& text) {
     return fmt::format("expected /json/pointer=value, got '{}'", text);
 }
 
-std::string check_format(const std::string& name) {
-    const OutputFormat* format = find_output_format(name);
-    return format && !format->draws ? std::string()
-                                    : fmt::format("expected {}, got '{}'", undrawn_format_names(), name);
+/// Words in lines of at most 79 characters, each after the first indented.
+std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
+    std::string lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        const std::string_view word = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const bool breaks = !lines.empty() && column + 1 + word.size() > 79;
+        if (!lines.empty()) lines += breaks ? "\n" + std::string(indent, ' ') : " ";
+        column = (breaks ? indent : column + (lines.empty() ? 0 : 1)) + word.size();
+        lines += word;
+    }
+    return lines;
 }
 
-/// A paragraph per format that needs no picture.
-std::string format_help() {
+/// A paragraph per format that --export takes.
+std::string format_help(bool drawn) {
     std::string text;
-    for (const OutputFormat* format : output_formats()) {
-        std::string help(format->help);
-        for (std::size_t end = help.find('\n'); end != std::string::npos; end = help.find('\n', end + 1))
-            help.insert(end + 1, 5, ' ');
-        if (!format->draws) text += fmt::format("\n{:5}{}", format->name, help);
-    }
+    for (const OutputFormat* format : output_formats())
+        if (exported(*format, drawn))
+            text += fmt::format("\n{:5}{}", format->name,
+                                wrapped(fmt::format("{}: {}", format->files, format->holds), 5, 5));
     return text;
 }
 
 /// --export: beside the pictures, or instead of what `request` has.
 void add_export_option(CLI::App& command, RunRequest& request) {
-    const auto set = [&request](const std::vector<std::string>& names) {
-        if (!request.draws()) request.formats.clear();
+    const bool drawn = request.draws();
+    const auto set = [&request, drawn](const std::vector<std::string>& names) {
+        if (!drawn) request.formats.clear();
         request.formats.insert(request.formats.end(), names.begin(), names.end());
+    };
+    const auto check = [drawn](const std::string& name) {
+        const OutputFormat* format = find_output_format(name);
+        return format && exported(*format, drawn)
+                   ? std::string()
+                   : fmt::format("expected {}, got '{}'", export_format_names(drawn), name);
     };
     command
         .add_option_function<std::vector<std::string>>(
             "--export", set,
-            (request.draws() ? "What to write beside the pictures; default: nothing" : "What to write; default: npy") +
-                format_help())
+            (drawn ? "What to write beside the pictures; default: nothing"
+                   : "What to write; default: " + fmt::format("{}", fmt::join(request.formats, ","))) +
+                format_help(drawn))
         ->delimiter(',')
         ->type_name("FORMAT,...")
-        ->check(check_format, "");
+        ->check(check, "");
 }
 
 }  // namespace
@@ -176,8 +191,12 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     add_scene_options(command, request.scene);
     command
         .add_option("-o,--output", request.output,
-                    "Folder for the results, made when missing; refused when not empty without\n"
-                    "--overwrite or --resume")
+                    request.draws()
+                        ? "Folder for the results, made when missing; refused when not empty without\n"
+                          "--overwrite or --resume. - instead: video on stdout, y4m or what --export says,\n"
+                          "and nothing else"
+                        : "Folder for the results, made when missing; refused when not empty without\n"
+                          "--overwrite or --resume")
         ->required()
         ->type_name("DIR");
     add_option(command, "-s,--start", "FRAME",

@@ -25,6 +25,8 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
             static_cast<float>(w)};
 }
 
+}  // namespace
+
 glsl::ColliderRecord collider_record(const Collider& collider, double before, double now) {
     const ColliderPose pose = collider_pose(collider, now);
     Vec3 size = shape_geometry(collider.shape).size;
@@ -48,6 +50,8 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
     }
     return record;
 }
+
+namespace {
 
 bool any_moves(const std::vector<Collider>& colliders) {
     return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });

@@ -21,6 +21,9 @@ int first_collider(const SceneDescription& scene, std::uint32_t substep);
 /// Colliders of each kind and those before it: where the kind ends in the sorted list.
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
+/// What the device knows of a collider at the time `now`, and of its motion since `before`, s.
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now);
+
 struct FrameInputs {
     std::vector<glsl::vec4> wind;                    ///< per substep, m/s; empty without wind
     std::vector<glsl::ColliderRecord> colliders;     ///< in the scene's order

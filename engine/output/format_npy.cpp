@@ -41,9 +41,11 @@ class NpyFiles : public FrameWriter {
 }  // namespace
 
 extern const OutputFormat npy_format{.name = "npy",
-                                     .help =
-                                         "positions.npy: float32 [frame, row, column, 3], metres; with cutters\n"
-                                         "faces_FRAME.npy, int32 [face, 3], from that frame on",
+                                     .files = "positions.npy",
+                                     .holds =
+                                         "positions, float32 [frame, row, column, 3], metres; with cutters "
+                                         "faces_FRAME.npy too, int32 [face, 3], from that frame on",
+                                     .load = "`numpy.load(\"out/positions.npy\")`",
                                      .frame_files = false,
                                      .owns =
                                          [](std::string_view name) {

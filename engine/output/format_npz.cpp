@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
 #include "output/frame_writer.h"
 #include "output/npy.h"
 #include "output/zip_file.h"
@@ -8,67 +13,157 @@ namespace drape {
 
 namespace {
 
-/// The frames wait in a file beside the archive, as a ZIP's parts cannot grow side by side.
+/// What is there for every particle of every frame.
+struct ParticleArray {
+    std::string_view name;
+    NpyValues values = {};
+};
+constexpr ParticleArray positions{"positions"}, velocities{"velocities"}, contacts{"contacts", {"<i2", 2, 1}};
+constexpr std::array<const ParticleArray*, 3> particle_arrays{&positions, &velocities, &contacts};
+
+/// Numbers about the frames, by name; NaN where a frame has none.
+class FrameNumbers {
+  public:
+    /// Those of a cloth, and those of a frame's effort, which is all cloths'.
+    void add(const FrameValues& values, const std::string& label) {
+        const std::string own = label + "/";
+        for (const auto& [name, value] : values) {
+            if (name.starts_with(own)) set(name.substr(own.size()), value);
+            for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "asleep"})
+                if (name == effort) set(name, value);
+        }
+        ++count_;
+        for (auto& [name, column] : columns_) column.resize(count_, std::numeric_limits<double>::quiet_NaN());
+    }
+
+    const std::map<std::string, std::vector<double>>& columns() const { return columns_; }
+
+  private:
+    void set(const std::string& name, double value) {
+        columns_[name].resize(count_, std::numeric_limits<double>::quiet_NaN());
+        columns_[name].push_back(value);
+    }
+
+    std::size_t count_ = 0;
+    std::map<std::string, std::vector<double>> columns_;
+};
+
+template <class T>
+std::string list_array(const char* type, const std::vector<T>& values) {
+    return npy_array(type, fmt::format("{},", values.size()), std::as_bytes(std::span(values)));
+}
+
+/// The archive of one cloth. Its frames wait in files beside it, as a ZIP's parts cannot grow side by side.
+class NpzFile {
+  public:
+    NpzFile(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)
+        : folder_(folder), run_(run), cloth_(cloth) {
+        for (std::size_t i = 0; i < particle_arrays.size(); ++i) {
+            const ParticleArray& array = *particle_arrays[i];
+            waiting_[i] = std::make_unique<NpyWriter>(folder, cloth_file_name(waiting_stem(array), cloth, "npz"),
+                                                      run.frame_count(), cloth.rows, cloth.columns, array.values);
+        }
+    }
+
+    /// Of the file that never appears under this name.
+    static std::string waiting_stem(const ParticleArray& array) { return fmt::format("frames_of_{}", array.name); }
+
+    void add(const WrittenFrame& frame, std::size_t cloth) {
+        waiting_[0]->append_frame_xyzw(frame.positions[cloth]);
+        waiting_[1]->append_frame_xyzw(frame.velocities[cloth]);
+        waiting_[2]->append_bytes(std::as_bytes(frame.contacts[cloth]));
+        frames_.push_back(frame.number);
+        times_.push_back(frame.number / run_.fps);
+        numbers_.add(frame.values, cloth_.label);
+    }
+
+    void set_faces(std::uint32_t frame, const std::vector<std::uint32_t>& faces) {
+        cut_faces_.emplace_back(fmt::format("faces_{:04}.npy", frame), face_array(faces));
+    }
+
+    FileRecord finish() {
+        ZipFile archive(folder_, cloth_file_name("positions", cloth_, "npz"));
+        for (std::size_t i = 0; i < particle_arrays.size(); ++i)
+            archive.add(fmt::format("{}.npy", particle_arrays[i]->name), waiting_[i]->contents());
+        archive.add("faces.npy", face_array(cloth_.faces));
+        for (const auto& [name, array] : cut_faces_) archive.add(name, array);
+        archive.add("uv.npy", uv_array());
+        archive.add("frames.npy", list_array("<i8", frames_));
+        archive.add("times.npy", list_array("<f8", times_));
+        for (const auto& [name, column] : numbers_.columns()) archive.add(name + ".npy", list_array("<f8", column));
+        const std::int64_t seed = run_.seed;
+        archive.add("seed.npy", npy_array("<i8", "", std::as_bytes(std::span(&seed, 1))));
+        archive.add("parameters.npy", text_array(run_.parameters));
+        archive.add("scene.npy", text_array(run_.scene));
+        return archive.commit();
+    }
+
+  private:
+    std::string uv_array() const {
+        std::vector<std::array<float, 2>> uv;
+        for (std::size_t particle = 0; particle < cloth_.particle_count(); ++particle)
+            uv.push_back(cloth_.uv(particle));
+        return npy_array("<f4", fmt::format("{}, {}, 2", cloth_.rows, cloth_.columns), std::as_bytes(std::span(uv)));
+    }
+
+    OutputFolder& folder_;
+    const WrittenRun& run_;
+    WrittenCloth cloth_;
+    std::array<std::unique_ptr<NpyWriter>, particle_arrays.size()> waiting_;
+    std::vector<std::pair<std::string, std::string>> cut_faces_;  ///< name, array
+    std::vector<std::int64_t> frames_;
+    std::vector<double> times_;  ///< s
+    FrameNumbers numbers_;
+};
+
 class NpzFiles : public FrameWriter {
   public:
-    NpzFiles(OutputFolder& folder, const WrittenRun& run) : folder_(folder), run_(run), cut_faces_(run.cloths.size()) {
+    NpzFiles(OutputFolder& folder, const WrittenRun& run) : run_(run) {
         for (const WrittenCloth& cloth : run_.cloths)
-            positions_.push_back(std::make_unique<NpyWriter>(folder, cloth_file_name("frames", cloth, "npz"),
-                                                             run_.frame_count(), cloth.rows, cloth.columns));
+            archives_.push_back(std::make_unique<NpzFile>(folder, run_, cloth));
     }
 
     void add(const WrittenFrame& frame) override {
-        for (std::size_t cloth = 0; cloth < positions_.size(); ++cloth)
-            positions_[cloth]->append_frame_xyzw(frame.positions[cloth]);
-        times_.push_back(frame.number / run_.fps);
+        for (std::size_t cloth = 0; cloth < archives_.size(); ++cloth) archives_[cloth]->add(frame, cloth);
     }
 
     void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override {
-        cut_faces_[cloth].emplace_back(fmt::format("faces_{:04}.npy", frame), face_array(faces));
+        archives_[cloth]->set_faces(frame, faces);
     }
 
     std::vector<FileRecord> finish() override {
         std::vector<FileRecord> files;
-        for (std::size_t i = 0; i < positions_.size(); ++i) {
-            const WrittenCloth& cloth = run_.cloths[i];
-            ZipFile archive(folder_, cloth_file_name("positions", cloth, "npz"));
-            archive.add("positions.npy", positions_[i]->contents());
-            archive.add("faces.npy", face_array(cloth.faces));
-            for (const auto& [name, array] : cut_faces_[i]) archive.add(name, array);
-            archive.add("uv.npy", uv_array(cloth));
-            archive.add("times.npy",
-                        npy_array("<f8", fmt::format("{},", times_.size()), std::as_bytes(std::span(times_))));
-            files.push_back(archive.commit());
-        }
+        for (const auto& archive : archives_) files.push_back(archive->finish());
         return files;
     }
 
   private:
-    static std::string uv_array(const WrittenCloth& cloth) {
-        std::vector<std::array<float, 2>> uv;
-        for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle) uv.push_back(cloth.uv(particle));
-        return npy_array("<f4", fmt::format("{}, {}, 2", cloth.rows, cloth.columns), std::as_bytes(std::span(uv)));
-    }
-
-    OutputFolder& folder_;
     WrittenRun run_;
-    std::vector<std::unique_ptr<NpyWriter>> positions_;
-    std::vector<std::vector<std::pair<std::string, std::string>>> cut_faces_;  ///< per cloth: name, array
-    std::vector<double> times_;                                                ///< s
+    std::vector<std::unique_ptr<NpzFile>> archives_;
 };
+
+bool owns(std::string_view name) {
+    return is_cloth_file_name(name, "positions", "npz") ||
+           std::ranges::any_of(particle_arrays, [name](const ParticleArray* array) {
+               return is_cloth_file_name(name, NpzFile::waiting_stem(*array), "npz");
+           });
+}
 
 }  // namespace
 
-extern const OutputFormat npz_format{.name = "npz",
-                                     .help =
-                                         "positions.npz: positions as above, faces [face, 3], uv [row, column, 2],\n"
-                                         "times [frame], seconds; after a cut faces_FRAME, from that frame on",
-                                     .frame_files = false,
-                                     .owns =
-                                         [](std::string_view name) {
-                                             return is_cloth_file_name(name, "positions", "npz") ||
-                                                    is_cloth_file_name(name, "frames", "npz");
-                                         },
-                                     .open = open_writer<NpzFiles>};
+extern const OutputFormat npz_format{
+    .name = "npz",
+    .files = "positions.npz",
+    .holds =
+        "positions as in npy; velocities likewise, m/s; contacts [frame, row, column], the number of the collider "
+        "that a particle touches, or -1; faces [face, 3], after a cut faces_FRAME, from that frame on; uv [row, "
+        "column, 2]; frames and times (s) [frame]; the manifest's numbers of each frame, stretch_error_rms, "
+        "kinetic_energy_j and so on [frame]; seed, of the gusts; parameters, what the run chose, and scene, with "
+        "every default, JSON",
+    .load = "`run = numpy.load(\"out/positions.npz\"); scene = json.loads(run[\"scene\"].item())`",
+    .details = true,
+    .frame_files = false,
+    .owns = owns,
+    .open = open_writer<NpzFiles>};
 
 }  // namespace drape

@@ -7,19 +7,19 @@ namespace drape {
 namespace {
 
 /// Every particle, whatever was cut: the numbers stay.
-std::string mesh_text(const WrittenCloth& cloth, std::span<const float> xyzw) {
+std::string mesh_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
     std::vector<std::uint32_t> particles(cloth.particle_count());
     std::iota(particles.begin(), particles.end(), 0u);
-    return obj_text(cloth, xyzw, particles);
+    return obj_text(cloth, mesh.positions, particles);
 }
 
 }  // namespace
 
 extern const OutputFormat obj_format{
     .name = "obj",
-    .help =
-        "mesh_FRAME.obj: every particle, texture coordinates, and the triangles that no\n"
-        "cut has split",
+    .files = "mesh_FRAME.obj",
+    .holds = "every particle, texture coordinates, and the triangles that no cut has split",
+    .load = "any 3D program; `meshio.read(\"out/mesh_0000.obj\")`",
     .frame_files = true,
     .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "obj"); },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {

@@ -91,9 +91,9 @@ class Pc2Writer : public FrameWriter {
 
 extern const OutputFormat pc2_format{
     .name = "pc2",
-    .help =
-        "positions.pc2, a point cache, and positions.obj, the uncut mesh in its first\n"
-        "frame, to play it on: import it so that vertices keep their order",
+    .files = "positions.pc2, positions.obj",
+    .holds = "a point cache, and the uncut mesh in its first frame to play it on",
+    .load = "Blender: import the OBJ so that vertices keep their order, add the modifier Mesh Cache",
     .frame_files = false,
     .owns =
         [](std::string_view name) {

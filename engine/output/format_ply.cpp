@@ -16,7 +16,8 @@ void append(std::string& text, T value) {
     text.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::string ply_text(const WrittenCloth& cloth, std::span<const float> xyzw) {
+std::string ply_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
+    const std::span<const float> xyzw = mesh.positions;
     std::string text = fmt::format(
         "ply\nformat binary_little_endian 1.0\ncomment metres, y up; vertex row * columns + column is that particle\n"
         "element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
@@ -37,7 +38,9 @@ std::string ply_text(const WrittenCloth& cloth, std::span<const float> xyzw) {
 
 extern const OutputFormat ply_format{
     .name = "ply",
-    .help = "mesh_FRAME.ply: the same, binary",
+    .files = "mesh_FRAME.ply",
+    .holds = "the same, binary",
+    .load = "any 3D program; `meshio.read(\"out/mesh_0000.ply\")`",
     .frame_files = true,
     .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "ply"); },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {

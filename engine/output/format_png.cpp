@@ -31,7 +31,9 @@ class PngWriter : public FrameWriter {
 }  // namespace
 
 extern const OutputFormat png_format{.name = "png",
-                                     .help = "frame_0000.png ...: 8-bit sRGB",
+                                     .files = "frame_FRAME.png",
+                                     .holds = "the pictures, 8-bit sRGB",
+                                     .load = "`ffmpeg -framerate 60 -i out/frame_%04d.png flag.mp4`",
                                      .draws = true,
                                      .resumes = true,
                                      .frame_files = true,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@ struct WrittenCloth {
     std::string name;  ///< for its files' names; empty when it is the only one
     std::uint32_t columns = 0, rows = 0;
     std::vector<std::uint32_t> faces;  ///< three particles per triangle, uncut
+    std::string label = {};            ///< what the scene calls it: WrittenFrame::values has "<label>/..."
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
@@ -32,7 +34,9 @@ struct WrittenRun {
     double fps = 60;
     bool cuts = false;  ///< faces may change
     std::uint32_t width = 0, height = 0;
-    std::string key;  ///< kept_frames.h
+    std::string key;                ///< kept_frames.h
+    std::string scene, parameters;  ///< JSON: the scene with its defaults written out; what the run chose
+    std::uint32_t seed = 0;         ///< of the gusts
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };
@@ -40,8 +44,10 @@ struct WrittenRun {
 /// Valid during FrameWriter::add. What the format does not need may be empty.
 struct WrittenFrame {
     std::uint32_t number = 0;
-    std::span<const std::uint8_t> rgba;             ///< rows from the top, sRGB
-    std::vector<std::span<const float>> positions;  ///< per cloth: x y z (m) and w per particle
+    std::span<const std::uint8_t> rgba;                   ///< rows from the top, sRGB
+    std::vector<std::span<const float>> positions;        ///< per cloth: x y z (m) and w per particle
+    std::vector<std::span<const float>> velocities;       ///< per cloth: x y z (m/s) and 0 per particle
+    std::vector<std::span<const std::int16_t>> contacts;  ///< per cloth: the collider that a particle touches, or -1
     FrameValues values;
 };
 
@@ -64,16 +70,26 @@ class FrameWriter {
     virtual std::vector<FileRecord> finish() = 0;
 };
 
+/// Takes a stream's bytes in order; throws what ends the run.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
+/// A row of the table. The command line's help, the check of its options, the README's table (output_formats_test) and
+/// the names that `--overwrite` may remove are made of these.
 struct OutputFormat {
-    std::string_view name;  ///< of --export
-    std::string_view help;  ///< files and what they hold, in lines of at most 79 characters
-    bool draws = false;     ///< needs WrittenFrame::rgba, else positions
-    bool resumes = false;   ///< its files say which run they are of (kept_frames.h); others' are written anew
-    bool frame_files;       ///< a file per frame, each a result; else files that appear when the run is complete
+    std::string_view name;   ///< of --export
+    std::string_view files;  ///< "positions.npy": with one cloth; FRAME stands for at least four digits
+    std::string_view holds;  ///< what is in them
+    std::string_view load;   ///< how to open them, a line of Markdown
+    bool draws = false;      ///< needs WrittenFrame::rgba, else positions
+    bool details = false;    ///< needs velocities and contacts
+    bool resumes = false;    ///< its files say which run they are of (kept_frames.h); others' are written anew
+    bool frame_files;        ///< a file per frame, each a result; else files that appear when the run is complete
     /// Whether the format may give a file this name.
     bool (*owns)(std::string_view file_name);
     /// The folder must outlive the writer.
     std::unique_ptr<FrameWriter> (*open)(OutputFolder& folder, const WrittenRun& run);
+    /// Without a folder, to a stream (`-o -`); null: it cannot.
+    std::unique_ptr<FrameWriter> (*stream)(const ByteSink& sink, const WrittenRun& run) = nullptr;
 };
 
 template <class Writer>
@@ -84,8 +100,12 @@ std::unique_ptr<FrameWriter> open_writer(OutputFolder& folder, const WrittenRun&
 std::span<const OutputFormat* const> output_formats();
 /// Nothing when there is none of that name.
 const OutputFormat* find_output_format(std::string_view name);
-/// "npy, npz, ...": those that need no picture.
-std::string undrawn_format_names();
+/// Whether --export takes it: all but the pictures themselves; `drawn`: also those made of pictures.
+bool exported(const OutputFormat& format, bool drawn);
+/// "npy, npz, ...": those that --export takes.
+std::string export_format_names(bool drawn);
+/// Those that can be a stream: "y4m, rgb".
+std::string stream_format_names();
 
 /// Digits of the frame numbers in file names: enough for the last frame, at least four.
 int frame_digits(std::uint64_t last_frame);

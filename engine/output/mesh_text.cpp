@@ -28,8 +28,11 @@ std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
 void MeshSequence::add(const WrittenFrame& frame) {
     for (std::size_t i = 0; i < run_.cloths.size(); ++i) {
         const WrittenCloth& cloth = run_.cloths[i];
+        WrittenMesh mesh{frame.positions[i], {}, {}};
+        if (!frame.velocities.empty()) mesh.velocities = frame.velocities[i];
+        if (!frame.contacts.empty()) mesh.contacts = frame.contacts[i];
         const std::string name = cloth_frame_file_name("mesh", cloth, frame.number, frame_digits(run_.end), extension_);
-        files_.push_back(write_file(folder_, name, bytes_of(text_(cloth, frame.positions[i]))));
+        files_.push_back(write_file(folder_, name, bytes_of(text_(cloth, mesh))));
     }
 }
 

@@ -5,8 +5,14 @@
 
 namespace drape {
 
-/// The mesh of a cloth: its `faces`, and x y z (m) and w per particle.
-using MeshText = std::string (*)(const WrittenCloth& cloth, std::span<const float> xyzw);
+/// A cloth in a frame, as in WrittenFrame.
+struct WrittenMesh {
+    std::span<const float> positions, velocities;
+    std::span<const std::int16_t> contacts;
+};
+
+/// The mesh of a cloth, with its `faces`.
+using MeshText = std::string (*)(const WrittenCloth& cloth, const WrittenMesh& mesh);
 
 /// Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all that the
 /// faces name, then the faces. Numbers have the fewest digits that read back as the same float.
@@ -22,6 +28,11 @@ class MeshSequence : public FrameWriter {
     void add(const WrittenFrame& frame) override;
     void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override;
     std::vector<FileRecord> finish() override { return std::move(files_); }
+
+  protected:
+    OutputFolder& folder() const { return folder_; }
+    const WrittenRun& run() const { return run_; }
+    const std::vector<FileRecord>& files() const { return files_; }
 
   private:
     OutputFolder& folder_;

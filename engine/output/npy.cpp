@@ -17,13 +17,13 @@ namespace {
 constexpr size_t header_bytes = 128;
 
 std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
-                           std::uint32_t column_count) {
-    const auto frame_bytes = static_cast<long double>(row_count) * column_count * 3 * sizeof(float);
+                           std::uint32_t column_count, const NpyValues& values) {
+    const auto frame_bytes = static_cast<long double>(row_count) * column_count * values.components * values.bytes;
     if (row_count == 0 || column_count == 0 ||
         frame_bytes * static_cast<long double>(frame_count) >
             static_cast<long double>(std::numeric_limits<std::int64_t>::max() - header_bytes)) {
-        throw std::invalid_argument(
-            fmt::format("{}: no array of {} x {} x {} x 3 floats", name, frame_count, row_count, column_count));
+        throw std::invalid_argument(fmt::format("{}: no array of {} x {} x {} x {} values", name, frame_count,
+                                                row_count, column_count, values.components));
     }
     return row_count;
 }
@@ -42,16 +42,18 @@ std::string npy_header(const char* type, const std::string& shape) {
 }  // namespace
 
 NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
-                     std::uint32_t column_count)
+                     std::uint32_t column_count, const NpyValues& values)
     : announced_count_(frame_count),
-      row_count_(checked_rows(name, frame_count, row_count, column_count)),
+      row_count_(checked_rows(name, frame_count, row_count, column_count, values)),
       column_count_(column_count),
+      values_(values),
       file_(folder, name) {
     file_.append(bytes_of(header(frame_count)));
 }
 
 std::string NpyWriter::header(std::uint64_t frame_count) const {
-    return npy_header("<f4", fmt::format("{}, {}, {}, 3", frame_count, row_count_, column_count_));
+    const std::string components = values_.components > 1 ? fmt::format(", {}", values_.components) : "";
+    return npy_header(values_.type, fmt::format("{}, {}, {}{}", frame_count, row_count_, column_count_, components));
 }
 
 std::vector<float> without_w(std::span<const float> xyzw) {
@@ -69,15 +71,22 @@ std::string face_array(std::span<const std::uint32_t> indices) {
     return npy_array("<i4", fmt::format("{}, 3", indices.size() / 3), std::as_bytes(indices));
 }
 
-void NpyWriter::append_frame(std::span<const float> xyz) {
-    const size_t expected = size_t{row_count_} * column_count_ * 3;
-    if (xyz.size() != expected) {
+std::string text_array(std::string_view text) {
+    std::u32string wide(text.begin(), text.end());
+    return npy_array(fmt::format("<U{}", wide.size()).c_str(), "", std::as_bytes(std::span(wide)));
+}
+
+void NpyWriter::append_bytes(std::span<const std::byte> frame) {
+    const size_t expected = size_t{row_count_} * column_count_ * values_.components * values_.bytes;
+    if (frame.size() != expected) {
         throw std::invalid_argument(
-            fmt::format("NPY frame {}: expected {} floats, got {}", written_count_, expected, xyz.size()));
+            fmt::format("NPY frame {}: expected {} bytes, got {}", written_count_, expected, frame.size()));
     }
-    file_.append(std::as_bytes(xyz));
+    file_.append(frame);
     ++written_count_;
 }
+
+void NpyWriter::append_frame(std::span<const float> xyz) { append_bytes(std::as_bytes(xyz)); }
 
 void NpyWriter::append_frame_xyzw(std::span<const float> xyzw) {
     if (xyzw.size() != size_t{row_count_} * column_count_ * 4) {

@@ -18,7 +18,17 @@ std::string npy_array(const char* type, const std::string& shape, std::span<cons
 // A face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
 std::string face_array(std::span<const std::uint32_t> indices);
 
-// Streams positions into a NumPy file: little-endian float32, C order, shape [frame, row, column, 3].
+// A JSON text, or any other of ASCII characters, as a string of no dimension.
+std::string text_array(std::string_view text);
+
+// What a frame's array holds for each particle.
+struct NpyValues {
+    const char* type = "<f4";
+    std::uint32_t bytes = 4;       // of a component
+    std::uint32_t components = 3;  // 1: the array has no axis for them
+};
+
+// Streams frames into a NumPy file: C order, shape [frame, row, column, 3], positions as little-endian float32.
 // Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html (version 1.0). The file
 // appears at finish(); a writer that ends without it leaves nothing.
 class NpyWriter {
@@ -26,8 +36,10 @@ class NpyWriter {
     // Throws std::invalid_argument when rows or columns are 0 or the array would exceed 2^63 bytes,
     // OutputError.
     NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
-              std::uint32_t column_count);
+              std::uint32_t column_count, const NpyValues& values = {});
 
+    // One frame of any type. Throws std::invalid_argument on another size.
+    void append_bytes(std::span<const std::byte> frame);
     // One frame: row_count * column_count particles, x y z each. Throws std::invalid_argument on another
     // size.
     void append_frame(std::span<const float> xyz);
@@ -48,6 +60,7 @@ class NpyWriter {
     std::uint64_t written_count_ = 0;
     std::uint32_t row_count_;
     std::uint32_t column_count_;
+    NpyValues values_;
     AtomicFile file_;
 };
 

@@ -7,17 +7,27 @@
 
 namespace drape {
 
-extern const OutputFormat png_format, npy_format, npz_format, pc2_format, obj_format, ply_format;
+extern const OutputFormat png_format, npy_format, npz_format, pc2_format, obj_format, ply_format, usda_format,
+    vtu_format, y4m_format, rgb_format;
 
 namespace {
 
-constexpr const OutputFormat* table[] = {&png_format, &npy_format, &npz_format, &pc2_format, &obj_format, &ply_format};
+constexpr const OutputFormat* table[] = {&png_format, &npy_format,  &npz_format, &pc2_format, &obj_format,
+                                         &ply_format, &usda_format, &vtu_format, &y4m_format, &rgb_format};
 
 /// What stands between the two; nothing when the name does not begin and end so.
 std::optional<std::string_view> middle(std::string_view name, std::string_view begin, std::string_view end) {
     if (name.size() < begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end))
         return std::nullopt;
     return name.substr(begin.size(), name.size() - begin.size() - end.size());
+}
+
+template <class Wanted>
+std::string names_of(const Wanted& wanted) {
+    std::vector<std::string_view> names;
+    for (const OutputFormat* format : table)
+        if (wanted(*format)) names.push_back(format->name);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -29,12 +39,15 @@ const OutputFormat* find_output_format(std::string_view name) {
     return found == std::end(table) ? nullptr : *found;
 }
 
-std::string undrawn_format_names() {
-    std::vector<std::string_view> names;
-    for (const OutputFormat* format : table)
-        if (!format->draws) names.push_back(format->name);
-    return fmt::format("{}", fmt::join(names, ", "));
+std::string export_format_names(bool drawn) {
+    return names_of([drawn](const OutputFormat& format) { return exported(format, drawn); });
 }
+
+std::string stream_format_names() {
+    return names_of([](const OutputFormat& format) { return format.stream != nullptr; });
+}
+
+bool exported(const OutputFormat& format, bool drawn) { return &format != &png_format && (drawn || !format.draws); }
 
 std::array<float, 2> WrittenCloth::uv(std::size_t particle) const {
     const auto share = [](std::size_t index, std::uint32_t count) {

@@ -142,6 +142,13 @@ bool SceneNode::open_object(const Definition& definition) const {
     return true;
 }
 
+void SceneNode::note_missing(const Definition& definition) const {
+    if (report_->missing == nullptr) return;
+    for (const KeyText& key : definition.keys)
+        if (!key.default_value.empty() && !value_->isMember(std::string(key.name)))
+            report_->missing->push_back({pointer_, key.name, key.default_value});
+}
+
 SceneNode SceneNode::member(std::string_view key) const {
     const bool is_object = value_ != nullptr && value_->isObject();
     return child(is_object ? value_->find(key.data(), key.data() + key.size()) : nullptr, key);

@@ -37,10 +37,18 @@ class ErrorList {
     std::size_t count_ = 0;
 };
 
+/// A key that is not there, which has a published default.
+struct MissingKey {
+    std::string object;  ///< JSON pointer
+    std::string_view key;
+    std::string_view default_value;  ///< JSON
+};
+
 struct SceneReport {
     SceneDocument& document;
     ErrorList errors;
     ErrorList warnings;
+    std::vector<MissingKey>* missing = nullptr;  ///< where they are wanted
 };
 
 /// Numbers a field may have. The kernels work in single precision, so "finite" means finite there.
@@ -74,6 +82,8 @@ class SceneNode {
 
     /// True when there is an object here; reports anything else that is here and every key that it may not have.
     bool open_object(const Definition& definition) const;
+    /// Tells the report which of the object's keys with a default are missing, where that is wanted.
+    void note_missing(const Definition& definition) const;
     /// A member of an object; nothing where there is none.
     SceneNode member(std::string_view key) const;
 

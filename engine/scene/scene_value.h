@@ -196,6 +196,7 @@ class Object {
 
     bool read(const SceneNode& node, T& object) const {
         if (!node.open_object(definition_)) return !node;
+        node.note_missing(definition_);
         Members members(node);
         for (const Key<T>& key : keys_)
             if (!key.read(node.member(key.text.name), object)) members.add_unfit(key.text.name);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "output/frame_writer.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -26,11 +27,16 @@ TEST(Export, FormatsTogetherAreWhatEachIsAlone) {
         return without_manifest(everything_below(folder.out(formats)));
     };
     Files alone;
-    for (const char* format : {"npy", "npz", "pc2", "obj", "ply"}) alone.merge(run(format));
-    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 4 + 4);
-    EXPECT_EQ(run("npy,ply,npz,obj,pc2,ply"), alone);
+    std::string all = "ply";
+    for (const OutputFormat* format : output_formats()) {
+        if (!exported(*format, false)) continue;
+        alone.merge(run(std::string(format->name)));
+        all.insert(0, std::string(format->name) + ",");
+    }
+    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 4 + 4 + 1 + 5);  // npy npz pc2 obj ply usda vtu
+    EXPECT_EQ(run(all), alone);
     EXPECT_EQ(alone.at("positions.pc2").substr(32), alone.at("positions.npy").substr(128));
-    EXPECT_EQ(lasting_manifest(folder.out("npy,ply,npz,obj,pc2,ply"))["files"].size(), alone.size());
+    EXPECT_EQ(lasting_manifest(folder.out(all))["files"].size(), alone.size());
 }
 
 TEST(Export, BesidePicturesChangesNeitherAndResumes) {
@@ -63,6 +69,45 @@ TEST(Export, ResumingLeavesNoMeshOfAnotherRun) {
         drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--export", "obj", "-e", "1", "--resume"}).code,
         0);
     EXPECT_THAT(names_in(folder.out()), testing::ElementsAre("manifest.json", "mesh_0000.obj", "mesh_0001.obj"));
+}
+
+TEST(Export, TheArchiveHasWhatMakesTheRunAgain) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    const SceneFolder folder(small_scene(9));
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--set", "/gravity=[0,-5,0]"}).code, 0);
+    write_text(folder / "check.py", R"(
+import json, numpy
+run, manifest = numpy.load("out/positions.npz"), json.load(open("out/manifest.json"))
+for frame, statistics in enumerate(manifest["statistics"]):
+    for name, value in statistics.items():
+        if name.startswith("sheet/"):
+            assert run[name[6:]][frame] == value, (frame, name)
+speed = numpy.sqrt((run["velocities"].astype(float) ** 2).sum(-1)).max((1, 2))
+assert numpy.allclose(speed, run["speed_max_m_s"], rtol=1e-6), (speed, run["speed_max_m_s"])
+assert speed[-1] > 0.1 and (run["positions"] == numpy.load("out/positions.npy")).all()
+scene = json.loads(run["scene"].item())
+assert scene["gravity"] == [0, -5, 0] and scene["wind"]["air_density"] == 1.2 and scene["cloths"][0]["name"] == "sheet"
+assert "radii" not in scene["colliders"] and json.loads(run["parameters"].item())["substeps"] == 4
+json.dump(scene, open("again.json", "w"))
+)");
+    ASSERT_EQ(std::system(("cd " + folder.path().string() + " && /usr/bin/python3 check.py").c_str()), 0);
+    ASSERT_EQ(drape({"simulate", (folder / "again.json").string(), "-o", folder.out("again"), "-q"}).code, 0);
+    EXPECT_EQ(read_text(folder / "again/positions.npy"), read_text(folder / "out/positions.npy"));
+}
+
+TEST(Video, IsAllThatStdoutGetsAndWhatAFileWouldHave) {
+    const SceneFolder folder(small_scene(4));
+    const Outcome piped = drape({"render", folder.scene(), "-o", "-"}, {.folder = folder.path()});
+    EXPECT_EQ(piped.code, 0) << piped.err;
+    EXPECT_THAT(piped.err, testing::HasSubstr("4 frames to stdout"));
+    EXPECT_THAT(piped.out, testing::StartsWith("YUV4MPEG2 W64 H48 F60:1 "));
+    EXPECT_EQ(piped.out.size(), piped.out.find('\n') + 1 + 4 * (6 + 64 * 48 * 3 / 2));
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
+    const Outcome pixels = drape({"render", folder.scene(), "-o", "-", "-q", "--export", "rgb"});
+    ASSERT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "-q", "--export", "y4m,rgb"}).code, 0);
+    EXPECT_TRUE(piped.out == read_text(folder / "out/video.y4m"));
+    EXPECT_TRUE(pixels.out == read_text(folder / "out/video.rgb"));
+    EXPECT_EQ(lasting_manifest(folder.out())["files"].size(), 6u);
 }
 
 }  // namespace

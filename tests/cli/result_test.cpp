@@ -42,7 +42,7 @@ TEST(Results, ASimulationTwiceGivesTheSameBytes) {
     const SceneFolder folder(small_scene(12));
     run({"simulate", folder.scene(), "-o", folder.out("a")});
     run({"simulate", folder.scene(), "-o", folder.out("b")});
-    EXPECT_THAT(names_in(folder / "a"), ElementsAre("manifest.json", "positions.npy"));
+    EXPECT_THAT(names_in(folder / "a"), ElementsAre("manifest.json", "positions.npy", "positions.npz"));
     EXPECT_EQ(without_manifest(folder / "a"), without_manifest(folder / "b"));
     EXPECT_EQ(lasting_manifest(folder / "a"), lasting_manifest(folder / "b"));
 }
@@ -135,7 +135,8 @@ TEST(Results, SeveralClothsGiveAnArrayEachThatNumPyReads) {
              {"name": "right", "grid": [4, 5], "size": [1, 1], "placement": {"origin": [1, 3, 0]}}]
 })");
     run({"simulate", folder.scene(), "-o", folder.out(), "-j", "2"});
-    EXPECT_THAT(names_in(folder.out()), ElementsAre("manifest.json", "positions_left.npy", "positions_right.npy"));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("manifest.json", "positions_left.npy", "positions_left.npz",
+                                                    "positions_right.npy", "positions_right.npz"));
     EXPECT_THAT(read_text(folder / "out/positions_left.npy"), HasSubstr("'shape': (4, 3, 8, 3)"));
     const std::string python = "/usr/bin/python3";
     if (access(python.c_str(), X_OK) != 0 || Running(python, {"-c", "import numpy"}).wait().code != 0)

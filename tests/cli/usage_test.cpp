@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "exit_code.h"
+#include "output/frame_writer.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -41,6 +42,16 @@ TEST(Help, ExplainsEveryExitCode) {
         EXPECT_THAT(of_a_command, HasSubstr(fmt::format("{} {}", static_cast<int>(row.code), row.name)));
     }
     EXPECT_THAT(read_text(DRAPE_SOURCE_DIR "/README.md"), HasSubstr(exit_code_list(1000)));
+}
+
+TEST(Help, FormatsAreThoseOfTheTable) {
+    const std::string render = drape({"render", "--help"}).out, readme = read_text(DRAPE_SOURCE_DIR "/README.md");
+    for (const OutputFormat* format : output_formats()) {
+        EXPECT_THAT(readme, HasSubstr(fmt::format("\n| `{}` | `{}` | {} | {} |\n", format->name, format->files,
+                                                  format->holds, format->load)));
+        if (!exported(*format, true)) continue;
+        EXPECT_THAT(render, HasSubstr(fmt::format("{:5}{}: ", format->name, format->files)));
+    }
 }
 
 TEST(Help, VersionIsData) {
@@ -105,7 +116,12 @@ const WrongUsage wrong_usages[] = {
     {"QuietAndVerbose", {"render", "SCENE", "-o", "OUT", "-q", "-v"}, "excludes"},
     {"Export",
      {"simulate", "SCENE", "-o", "OUT", "--export", "npy,fbx"},
-     "expected npy, npz, pc2, obj, ply, got 'fbx'"},
+     "expected npy, npz, pc2, obj, ply, usda, vtu, got 'fbx'"},
+    {"ExportOfAnotherCommand", {"simulate", "SCENE", "-o", "OUT", "--export", "y4m"}, "usda, vtu, got 'y4m'"},
+    {"StreamOfNoVideo", {"render", "SCENE", "-o", "-", "--export", "npy"}, "--export takes one of y4m, rgb"},
+    {"StreamOfTwo", {"render", "SCENE", "-o", "-", "--export", "y4m,rgb"}, "--export takes one of y4m, rgb"},
+    {"StreamOfArrays", {"simulate", "SCENE", "-o", "-"}, "only `drape render` writes to stdout"},
+    {"ResumedStream", {"render", "SCENE", "-o", "-", "--resume"}, "a stream cannot be overwritten or resumed"},
     {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text, json or dot, got 'svg'"},
 };
 INSTANTIATE_TEST_SUITE_P(Wrong, Usage, testing::ValuesIn(wrong_usages),

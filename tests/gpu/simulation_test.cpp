@@ -131,6 +131,33 @@ TEST_F(SimulationTest, NormalsAreThoseOfTheTrianglesAround) {
     }
 }
 
+// By each method, with substeps that method auto changes from frame to frame.
+TEST_F(SimulationTest, VelocitiesAreThoseOfTheStatistics) {
+    for (const SolverMethod method :
+         {SolverMethod::automatic, SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
+        SceneDescription scene = cut_sheet();
+        scene.cutters.clear();
+        scene.cloths[0].velocity = {0, 0, 2};
+        scene.solver = {.method = method, .substeps = 12};
+        SimulationOptions options;
+        options.velocities = true;
+        options.statistics = false;  // implied
+        Simulation simulation(scene, options, device());
+        while (simulation.step()) {
+            const FinishedFrame& frame = simulation.frame();
+            double largest = 0;
+            for (std::size_t i = 0; i < frame.velocities[0].size(); i += 4) {
+                const float* v = &frame.velocities[0][i];
+                largest = std::max(largest, std::hypot(static_cast<double>(v[0]), static_cast<double>(v[1]),
+                                                       static_cast<double>(v[2])));
+                EXPECT_EQ(v[3], 0);
+            }
+            EXPECT_NEAR(largest / frame.statistics[0].largest_speed, 1, 1e-6) << frame.frame;
+            EXPECT_GT(largest, 1);
+        }
+    }
+}
+
 TEST_F(SimulationTest, TellsOfCutsAndHasTheTrianglesThatAreLeft) {
     std::vector<Cut> cuts;
     SimulationOptions options;
@@ -154,6 +181,7 @@ TEST_F(SimulationTest, WhatIsNotWantedIsNotThere) {
     ASSERT_TRUE(simulation.step());
     EXPECT_TRUE(simulation.frame().rgba.empty());
     EXPECT_TRUE(simulation.frame().positions.empty());
+    EXPECT_TRUE(simulation.frame().velocities.empty());
     EXPECT_TRUE(simulation.frame().normals.empty());
     EXPECT_TRUE(simulation.frame().statistics.empty());
     const SimulationFacts all = Simulation(cut_sheet(), everything(), device()).facts(), few = simulation.facts();

@@ -11,57 +11,13 @@
 
 #include "output/frame_writer.h"
 #include "temporary_folder.h"
+#include "written_runs.h"
 
 namespace drape {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-using Positions = std::vector<float>;  ///< x y z per particle
-
-/// Two cloths, of 3 x 2 and 2 x 2 particles; the first loses a triangle with frame 12.
-WrittenRun two_cloths() {
-    WrittenRun run;
-    run.start = 10, run.end = 14, run.step = 2, run.fps = 50, run.cuts = true;
-    run.width = 4, run.height = 2, run.key = "key";
-    run.cloths = {{"flag", 3, 2, {0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5}}, {"rag", 2, 2, {0, 2, 1, 1, 2, 3}}};
-    return run;
-}
-
-const std::vector<std::uint32_t> whole_flag = two_cloths().cloths[0].faces, cut_flag{0, 3, 1, 1, 4, 2, 2, 4, 5};
-
-/// Numbers that a decimal detour would round.
-Positions positions_of(std::uint32_t frame, std::size_t particles) {
-    Positions values(particles * 3);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = static_cast<float>((frame + 1.0) / 3 + static_cast<double>(i) * 1e-7 - (i % 3 == 1 ? 2e6 : 0));
-    return values;
-}
-
-/// Writes the run, with the cut; `frames` of them.
-std::vector<FileRecord> write(FrameWriter& writer, std::uint32_t frames = 3, bool finish = true) {
-    const WrittenRun run = two_cloths();
-    for (std::uint32_t frame = run.start; frame < run.start + frames * run.step; frame += run.step) {
-        if (frame == 12) writer.set_faces(12, 0, cut_flag);
-        std::vector<Positions> xyzw;
-        for (const WrittenCloth& cloth : run.cloths) {
-            const Positions xyz = positions_of(frame, cloth.particle_count());
-            xyzw.emplace_back();
-            for (std::size_t i = 0; i < xyz.size(); ++i) {
-                xyzw.back().push_back(xyz[i]);
-                if (i % 3 == 2) xyzw.back().push_back(-9);
-            }
-        }
-        const std::vector<std::uint8_t> rgba(run.width * run.height * 4, static_cast<std::uint8_t>(frame));
-        writer.add({frame, rgba, {xyzw.begin(), xyzw.end()}, {}});
-    }
-    return finish ? writer.finish() : std::vector<FileRecord>{};
-}
-
-std::vector<FileRecord> write(const char* format, OutputFolder& folder) {
-    return write(*find_output_format(format)->open(folder, two_cloths()));
-}
 
 class Format : public testing::TestWithParam<const OutputFormat*> {};
 
@@ -109,7 +65,7 @@ TEST_P(Format, AFullDiskIsSaidAndLeavesNoHalfFile) {
     const TemporaryFolder temporary;
     const pid_t child = start_child([&] {
         OutputFolder folder(temporary.path());
-        const rlimit limit{90, 90};
+        const rlimit limit{60, 60};  // bytes
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
         const std::string text = error_text<OutputError>([&] { write(*GetParam()->open(folder, two_cloths())); });
         return text.starts_with("cannot write '") && text.ends_with("': File too large") ? 0 : 1;
@@ -124,6 +80,9 @@ INSTANTIATE_TEST_SUITE_P(Of, Format, testing::ValuesIn(output_formats().begin(),
 TEST(Formats, HaveNamesOfTheirOwn) {
     for (const OutputFormat* format : output_formats()) EXPECT_EQ(find_output_format(format->name), format);
     EXPECT_EQ(find_output_format("fbx"), nullptr);
+    EXPECT_EQ(export_format_names(false), "npy, npz, pc2, obj, ply, usda, vtu");
+    EXPECT_EQ(export_format_names(true), "npy, npz, pc2, obj, ply, usda, vtu, y4m, rgb");
+    EXPECT_EQ(stream_format_names(), "y4m, rgb");
 }
 
 struct Mesh {
@@ -270,13 +229,24 @@ TEST(Npz, NumpyReadsIt) {
     write("npy", folder);
     write_text(temporary / "check.py", R"(
 import sys, zipfile, numpy as n
+import json
 flag, rag = n.load("positions_flag.npz"), n.load("positions_rag.npz")
-assert sorted(flag) == ["faces", "faces_0012", "positions", "times", "uv"], sorted(flag)
-assert sorted(rag) == ["faces", "positions", "times", "uv"], sorted(rag)
+common = {"positions", "velocities", "contacts", "faces", "uv", "frames", "times", "substeps", "seed", "parameters", "scene"}
+assert set(flag) == common | {"faces_0012", "energy_j", "stretch_error_rms"}, sorted(flag)
+assert set(rag) == common, sorted(rag)
 for name, cloth in (("flag", flag), ("rag", rag)):
     positions = n.load("positions_%s.npy" % name)
     assert cloth["positions"].dtype == n.dtype("<f4") and (cloth["positions"] == positions).all()
+    assert cloth["velocities"].dtype == n.dtype("<f4") and cloth["velocities"].shape == positions.shape
+    assert (cloth["contacts"] == n.arange(positions[0, ..., 0].size).reshape(positions.shape[1:3]) - 1).all()
+    assert cloth["contacts"].dtype == n.int16 and len(cloth["contacts"]) == 3
     assert (cloth["faces"] == n.load("faces_%s_0000.npy" % name)).all()
+assert flag["velocities"][0, 0, 0, 0] == n.float32(12 / 3)
+assert flag["frames"].tolist() == [10, 12, 14] and flag["substeps"].tolist() == [4, 4, 4]
+assert flag["energy_j"].tolist() == [10, 12, 14]
+assert n.isnan(flag["stretch_error_rms"]).tolist() == [True, False, True] and flag["stretch_error_rms"][1] == 0.25
+assert flag["seed"] == 7 and flag["seed"].shape == ()
+assert json.loads(flag["scene"].item()) == {"name": "\u00e9"} and json.loads(str(flag["parameters"])) == {"method": "line"}
 assert flag["positions"].shape == (3, 2, 3, 3) and flag["uv"].shape == (2, 3, 2)
 assert flag["uv"][0, 1].tolist() == [0.5, 1] and flag["uv"][1, 2].tolist() == [1, 0]
 assert (flag["faces_0012"] == n.load("faces_flag_0012.npy")).all() and flag["faces_0012"].shape == (3, 3)

@@ -16,6 +16,7 @@ Examples:
   drape render scenes/flag.json -o out/calm --set '/wind/velocity=[1,0,0]' --set /solver/substeps=40
   drape render scenes/flag.json -o out/flag --resume          after an interruption
   ffmpeg -framerate 60 -i out/flag/frame_%04d.png -pix_fmt yuv420p flag.mp4
+  drape render scenes/flag.json -o - | ffmpeg -i - -colorspace bt709 -color_primaries bt709 -color_trc bt709 flag.mp4
 )text",
                                     run);
     add_run_options(command, *request);

@@ -63,6 +63,10 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
 SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides = {});
 SceneDescription parse_scene(std::string_view text);
 
+/// The JSON of a scene that can be read, with its overrides applied and every missing key that has a published default
+/// written out, so that it says the same when defaults change. Throws SceneFailure.
+std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {});
+
 /// The published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
 std::string scene_schema();
 

@@ -51,12 +51,13 @@ struct FrameFailure {
 
 /// Particles are numbered row * columns + column.
 struct FinishedFrame {
-    std::uint32_t frame = 0;                        ///< shows the time frame / fps; 0 is the initial state
-    std::span<const std::uint8_t> rgba;             ///< empty unless drawn: rows from the top, sRGB
-    std::vector<std::span<const float>> positions;  ///< per cloth, when wanted: x y z (m) and w per particle, w being
-                                                    ///< its inverse mass over an inner particle's; 0: held
-    std::vector<std::span<const float>> normals;    ///< per cloth, when wanted: unit x y z of the front, and 0
-    std::vector<ClothStatistics> statistics;        ///< per cloth, when wanted
+    std::uint32_t frame = 0;                         ///< shows the time frame / fps; 0 is the initial state
+    std::span<const std::uint8_t> rgba;              ///< empty unless drawn: rows from the top, sRGB
+    std::vector<std::span<const float>> positions;   ///< per cloth, when wanted: x y z (m) and w per particle, w being
+                                                     ///< its inverse mass over an inner particle's; 0: held
+    std::vector<std::span<const float>> velocities;  ///< per cloth, when wanted: x y z (m/s) and 0
+    std::vector<std::span<const float>> normals;     ///< per cloth, when wanted: unit x y z of the front, and 0
+    std::vector<ClothStatistics> statistics;         ///< per cloth, when wanted
     FrameEffort effort;
     std::optional<FrameFailure> failure;  ///< with statistics
     std::vector<StageTime> timings;       ///< empty where the device has no timestamps
@@ -76,6 +77,7 @@ enum class Timings { none, stages, passes };
 struct SimulationOptions {
     bool draw = false;  ///< pictures of the scene's size and samples
     bool positions = true;
+    bool velocities = false;  ///< at the frames' ends, as the statistics' energies are; implies statistics
     bool normals = false;
     bool statistics = true;
     bool keep_promises =
