@@ -203,6 +203,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
         count_particles(node.element(i).member("grid"), cloths[i], particle_total);
     }
     warn_of_touching(node, cloths);
+    check_oracles(members["oracles"], scene);
     return true;
 }
 

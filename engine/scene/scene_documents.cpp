@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "drape/scene_reader.h"
+#include "scene/oracle_kinds.h"
 #include "scene/scene_value.h"
 
 namespace drape {
@@ -60,6 +61,19 @@ std::string object_section(const Definition& object) {
     return section;
 }
 
+std::string oracle_section() {
+    std::string section =
+        "\n## oracles\n\nThe checks that a scene may name; every limit of a check must be given. `drape verify` judges "
+        "them.\n\n| check | what it says | limits |\n|---|---|---|\n";
+    for (const OracleKind& kind : oracle_kinds()) {
+        std::string limits;
+        for (const OracleLimit& limit : kind.limits)
+            limits += fmt::format("{}`{}`: {}", limits.empty() ? "" : "; ", limit.name, escaped(limit.help));
+        section += fmt::format("| `{}` | {} | {} |\n", kind.name, escaped(kind.help), limits);
+    }
+    return section;
+}
+
 }  // namespace
 
 std::string scene_schema() {
@@ -87,7 +101,8 @@ std::string scene_format_markdown() {
            "`drape schema` prints the same as a JSON Schema, for editors; `drape check SCENE` says what is wrong with "
            "a "
            "scene.\n" +
-           objects + "\n## values\n\nWhat several keys have.\n\n| value | form | |\n|---|---|---|\n" + values;
+           objects + oracle_section() +
+           "\n## values\n\nWhat several keys have.\n\n| value | form | |\n|---|---|---|\n" + values;
 }
 
 }  // namespace drape

@@ -344,14 +344,15 @@ const Object<ImageSettings> image{"image",
                                       {"background", &ImageSettings::background, color, "sRGB."},
                                   }};
 
-const Object<Oracle> oracle{"oracle",
-                            "A check the scene promises to meet: the scene tests read it, the simulation ignores it.",
-                            {
-                                {"check", &Oracle::check, check_name(), "Name of the check.", "the name of a check"},
-                            },
-                            read_oracle_limits,
-                            "",
-                            R"("type": "number", "description": "A limit of the check.")"};
+const Object<Oracle> oracle{
+    "oracle",
+    "A check the scene promises to meet: `drape verify` judges it, the simulation ignores it.",
+    {
+        {"check", &Oracle::check, check_name(), "Which check; its limits are the other keys.", "the name of a check"},
+    },
+    read_oracle_limits,
+    "",
+    R"("type": "number", "description": "A limit of the check.")"};
 
 const Object<SceneDescription> scene{
     "scene",
@@ -375,7 +376,7 @@ const Object<SceneDescription> scene{
         {"ambient", &SceneDescription::ambient, color, "Linear radiance factor of the light from everywhere."},
         {"image", &SceneDescription::image, image, "The pictures."},
         {"oracles", &SceneDescription::oracles, list<Oracle>(oracle, "an array of checks", 0, 1024),
-         "Checks the scene promises to meet."},
+         "Checks the scene promises to meet, for drape verify."},
     },
     check_scene};
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/oracle_kinds.h"
+
 namespace drape {
 namespace {
 
@@ -96,19 +98,57 @@ bool check_camera(const Members& members, Camera& camera) {
 }
 
 Value<std::string> check_name() {
-    return {{"\"type\": \"string\", \"minLength\": 1", "string"}, [](const SceneNode& node, std::string& name) {
-                if (node.value()->isString() && node.value()->asString().empty())
-                    return node.fail_expected("the name of a check");
-                return node.read(name);
+    std::string names;
+    for (const OracleKind& kind : oracle_kinds()) names += (names.empty() ? "" : ", ") + quoted(kind.name);
+    return {{"\"enum\": [" + names + "]", "a [check](#oracles)"}, [](const SceneNode& node, std::string& name) {
+                if (!node.value()->isString()) return node.fail_expected("the name of a check");
+                name = node.value()->asString();
+                if (find_oracle_kind(name)) return true;
+                const std::string_view nearest = oracle_names().nearest_key(name);
+                std::string all;
+                for (const OracleKind& kind : oracle_kinds()) all += (all.empty() ? "" : ", ") + std::string(kind.name);
+                return node.fail_expected(nearest.empty() ? "the name of a check, one of " + all
+                                                          : "the name of a check, perhaps " + quoted(nearest));
             }};
 }
 
 bool read_oracle_limits(const Members& members, Oracle& oracle) {
-    for (const std::string& key : members.object().value()->getMemberNames()) {
-        double limit = 0.0;
-        if (key != "check" && members[key].read(limit, any_number)) oracle.limits.emplace_back(key, limit);
+    const OracleKind* kind = find_oracle_kind(oracle.check);
+    if (!kind) return true;  // that was said
+    const SceneNode& object = members.object();
+    bool fits = object.open_object(oracle_definition(*kind));
+    for (const OracleLimit& limit : kind->limits) {
+        const SceneNode node = members[limit.name];
+        double value = 0;
+        std::uint32_t count = 0;
+        if (!node)
+            fits = object.fail(
+                fmt::format("expected the limit {} of check {}: {}", quoted(limit.name), kind->name, limit.help));
+        else if (limit.counts ? node.read(count, 0, 0xFFFFFFFFu) : node.read(value, any_number))
+            oracle.limits.emplace_back(limit.name, limit.counts ? count : value);
+        else
+            fits = false;
     }
-    return true;
+    return fits;
+}
+
+void check_oracles(const SceneNode& node, const SceneDescription& scene) {
+    if (!node) return;
+    for (std::size_t i = 0; i < scene.oracles.size(); ++i) {
+        const Oracle& oracle = scene.oracles[i];
+        const OracleKind* kind = find_oracle_kind(oracle.check);
+        if (!kind) continue;
+        const SceneNode element = node.element(i);
+        if (const std::string_view lack = kind->obstacle(scene); !lack.empty())
+            element.warn(fmt::format("check {} says nothing here: {}", kind->name, lack));
+        for (const auto& [name, value] : oracle.limits) {
+            if (name == "cloth" && value >= static_cast<double>(scene.cloths.size()))
+                element.member(name).fail_expected(
+                    fmt::format("the number of one of the {} cloths, from 0", scene.cloths.size()));
+            if ((name == "from_frame" || name == "until_frame") && value >= scene.time.frame_count)
+                element.member(name).warn(fmt::format("the scene's last frame is {}", scene.time.frame_count - 1));
+        }
+    }
 }
 
 }  // namespace drape

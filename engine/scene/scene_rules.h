@@ -35,6 +35,9 @@ bool check_scene(const Members& members, SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);
 bool check_camera(const Members& members, Camera& camera);
+/// The limits of its check: all of them, and no others.
 bool read_oracle_limits(const Members& members, Oracle& oracle);
+/// What the checks need of the whole scene: cloths that are there are an error, what makes a check empty is a warning.
+void check_oracles(const SceneNode& oracles, const SceneDescription& scene);
 
 }  // namespace drape

@@ -20,7 +20,7 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     const Outcome general = drape({"--help"});
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
-    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices", "bench"}) {
+    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices", "bench", "verify"}) {
         EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
@@ -122,6 +122,7 @@ const WrongUsage wrong_usages[] = {
     {"StreamOfTwo", {"render", "SCENE", "-o", "-", "--export", "y4m,rgb"}, "--export takes one of y4m, rgb"},
     {"StreamOfArrays", {"simulate", "SCENE", "-o", "-"}, "only `drape render` writes to stdout"},
     {"ResumedStream", {"render", "SCENE", "-o", "-", "--resume"}, "a stream cannot be overwritten or resumed"},
+    {"VerifyLimit", {"verify", "SCENE", "--stretch", "-1"}, "--stretch: expected a number, not negative, got '-1'"},
     {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text, json or dot, got 'svg'"},
 };
 INSTANTIATE_TEST_SUITE_P(Wrong, Usage, testing::ValuesIn(wrong_usages),

@@ -8,9 +8,10 @@
 
 #include "drape/scene_reader.h"
 #include "gpu_test.h"
+#include "scene/oracle_kinds.h"
 #include "scene_breaks.h"
 #include "scene_files.h"
-#include "scene_oracles.h"
+#include "verify/scene_oracles.h"
 
 namespace drape {
 namespace {
@@ -18,11 +19,11 @@ namespace {
 class SceneOracleTest : public testing::TestWithParam<std::string> {};
 
 /// The unbroken run, as far as the broken one goes, meets the oracle; the broken one does not.
-void expect_noticed(const test::SceneRun& unbroken, const test::SceneRun& broken, const Oracle& oracle,
+void expect_noticed(const verify::SceneRun& unbroken, const verify::SceneRun& broken, const Oracle& oracle,
                     const test::SceneBreak& damage) {
-    const test::Verdict whole = test::judge(unbroken.until(broken.last_frame()), oracle);
+    const verify::Verdict whole = verify::judge(unbroken.until(broken.last_frame()), oracle);
     EXPECT_TRUE(whole.met) << "unbroken until frame " << broken.last_frame() << ": " << whole.text;
-    const test::Verdict verdict = test::judge(broken, oracle);
+    const verify::Verdict verdict = verify::judge(broken, oracle);
     std::printf("[ broken   ] %s: %s\n", damage.what.c_str(), verdict.text.c_str());
     EXPECT_FALSE(verdict.met) << "does not notice: " << damage.what << ": " << verdict.text;
 }
@@ -31,19 +32,20 @@ TEST_P(SceneOracleTest, IsMetAndNoticesABreak) {
     const SceneDescription scene = test::shipped_scene(GetParam());
     const std::uint32_t last = scene.time.frame_count - 1;
     ASSERT_FALSE(scene.oracles.empty());
-    const test::SceneRun run = test::run_frames(scene, SimulationModel(scene), last);
+    const verify::SceneRun run = verify::run_frames(test::gpu().device, scene, SimulationModel(scene), {.last = last});
     ASSERT_EQ(run.frames.size(), scene.time.frame_count);
-    std::map<std::string, test::SceneRun> broken_runs;  // two oracles may share a broken run
+    std::map<std::string, verify::SceneRun> broken_runs;  // two oracles may share a broken run
     for (const Oracle& oracle : scene.oracles) {
-        const test::Verdict verdict = test::judge(run, oracle);
-        std::printf("[ measured ] %s\n", verdict.text.c_str());
-        EXPECT_TRUE(verdict.met) << verdict.text;
+        const verify::Verdict verdict = verify::judge(run, oracle);
+        std::printf("[ measured ] %s: %s\n", oracle.check.c_str(), verdict.text.c_str());
+        EXPECT_TRUE(verdict.met) << oracle.check << ": " << verdict.text;
         for (const test::SceneBreak& damage : test::scene_breaks()) {
             if (!damage.concerns(GetParam(), oracle.check)) continue;
             const std::string key = damage.what + std::to_string(damage.last);
             if (!broken_runs.contains(key)) {
                 const SimulationModel model = damage.model_of(scene);
-                broken_runs.emplace(key, test::run_frames(scene, model, std::min(damage.last, last)));
+                broken_runs.emplace(
+                    key, verify::run_frames(test::gpu().device, scene, model, {.last = std::min(damage.last, last)}));
             }
             expect_noticed(run, broken_runs.at(key), oracle, damage);
         }
@@ -69,12 +71,16 @@ TEST(SceneBreakTest, EveryOracleOfEverySceneHasABreakAndEveryBreakAnOracle) {
             << test::scene_breaks()[i].scene << ": " << test::scene_breaks()[i].check;
 }
 
-TEST(SceneOracleNameTest, UnknownChecksAndLimitsAreRefused) {
-    const SceneDescription scene = test::shipped_scene("hanging_sheet");
-    const test::SceneRun run{scene, {}, {}};
-    EXPECT_THROW(test::judge(run, {"looks_nice", {}}), std::invalid_argument);
-    EXPECT_THROW(test::judge(run, {"stretch_law", {}}), std::invalid_argument);
-    EXPECT_THROW(test::judge(run, {"pins_hold", {{"error", 1}}}), std::invalid_argument);
+TEST(SceneOracleNameTest, EveryCheckThatAFileMayNameIsJudged) {
+    std::vector<std::string_view> judged, named;
+    for (const std::span<const verify::SceneCheck> checks : {verify::shape_checks(), verify::motion_checks()})
+        for (const verify::SceneCheck& check : checks) judged.push_back(check.name);
+    for (const OracleKind& kind : oracle_kinds()) named.push_back(kind.name);
+    std::ranges::sort(judged);
+    std::ranges::sort(named);
+    EXPECT_EQ(judged, named);
+    const verify::SceneRun run{test::shipped_scene("hanging_sheet"), {}, {}};
+    EXPECT_THROW(verify::judge(run, {"looks_nice", {}}), std::invalid_argument);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
-#include "support/surface_distance.h"
+#include "verify/surface_distance.h"
 
 namespace drape {
 namespace {
@@ -43,7 +43,7 @@ Depths drop(const std::vector<Collider>& colliders, const std::function<void(Sce
     for (std::uint32_t frame = 1; frame <= 120; ++frame) {
         twin.run_frame(frame);
         const double time = frame / 60.0;
-        const auto depth = [&](const Vec3& x) { return -test::surface_distance(scene.colliders, time, x); };
+        const auto depth = [&](const Vec3& x) { return -verify::surface_distance(scene.colliders, time, x); };
         const std::vector<glsl::vec4>& x = twin.cloth(0)[Field::position];
         for (const glsl::vec4& p : x) {
             const double d = depth(point(p)) + cloth.thickness;
@@ -166,7 +166,7 @@ Overlap leave_the_ball(SolverMethod method, std::uint32_t frames) {
         for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i) {
             const Vec3 d = test::displacement_of(twin.cloth(0), i);
             speed = std::max(speed, std::hypot(d[0], d[1], d[2]) / model.cloths[0].substep_length);
-            depth = std::max(depth, -test::surface_distance(scene.colliders, 0, test::position_of(twin.cloth(0), i)));
+            depth = std::max(depth, -verify::surface_distance(scene.colliders, 0, test::position_of(twin.cloth(0), i)));
         }
         seen.speed.push_back(speed);
         seen.depth.push_back(depth);

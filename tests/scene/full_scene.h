@@ -42,7 +42,7 @@ inline constexpr const char* full_scene = R"json({
   "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
   "ambient": [0.1, 0.2, 0.3],
   "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1]},
-  "oracles": [{"check": "stretch", "max": 1.05, "frame": 10}]
+  "oracles": [{"check": "falls", "cloth": 0, "from_row": 1, "until_frame": 10, "error": 1.05}]
 }
 )json";
 

@@ -149,10 +149,21 @@ const Malformed setting_cases[] = {
       "2:23: /image/size/1: expected an integer from 1 to 16384, got 16385",
       "2:42: /image/samples: expected 1 or 4, got 2"}},
     {"Oracles",
-     scene("\"oracles\": [{}, {\"check\": \"\"}, {\"check\": \"rest\", \"speed\": \"low\"}]"),
+     scene("\"oracles\": [{}, {\"check\": \"nonsense\", \"speed\": 1}, {\"check\": \"strech\"}, {\"check\": 3}]"),
      {"2:13: /oracles/0/check: expected the name of a check, got nothing",
-      "2:27: /oracles/1/check: expected the name of a check, got \"\"",
-      "2:59: /oracles/2/speed: expected a number of at most 3.4e38 in magnitude, got \"low\""}},
+      "2:27: /oracles/1/check: expected the name of a check, one of stretch, penetration, supported, pins_hold, "
+      "pins_follow, released, drawn, falls, swing, torque, blown, mirror, carried, cut_pieces, mass_kept, stretch_law, "
+      "got \"nonsense\"",
+      "2:62: /oracles/2/check: expected the name of a check, perhaps \"stretch\", got \"strech\"",
+      "2:83: /oracles/3/check: expected the name of a check, got 3"}},
+    {"OracleLimits",
+     scene("\"oracles\": [{\"check\": \"stretch\", \"strian\": 1}, {\"check\": \"falls\", \"cloth\": 1, \"from_row\": "
+           "0.5, \"until_frame\": 0, \"error\": \"low\"}]"),
+     {"2:13: /oracles/0: expected the limit \"strain\" of check stretch: largest RMS strain",
+      "2:34: /oracles/0/strian: expected \"strain\", got the unknown key \"strian\"",
+      "2:76: /oracles/1/cloth: expected the number of one of the 1 cloths, from 0, got 1",
+      "2:91: /oracles/1/from_row: expected an integer from 0 to 4294967295, got 0.5",
+      "2:123: /oracles/1/error: expected a number of at most 3.4e38 in magnitude, got \"low\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Settings, SceneErrors, ::testing::ValuesIn(setting_cases), name_of);
 

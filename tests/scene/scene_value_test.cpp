@@ -31,7 +31,8 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.ambient, (Vec3{0.1, 0.2, 0.3}));
     EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}}));
     ASSERT_EQ(scene.oracles.size(), 1u);
-    EXPECT_EQ(scene.oracles[0], (Oracle{"stretch", {{"frame", 10.0}, {"max", 1.05}}}));
+    EXPECT_EQ(scene.oracles[0],
+              (Oracle{"falls", {{"cloth", 0}, {"from_row", 1}, {"until_frame", 10}, {"error", 1.05}}}));
 }
 
 TEST(SceneValues, ClothOfTheFullScene) {

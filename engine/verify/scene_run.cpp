@@ -1,4 +1,4 @@
-#include "scene_run.h"
+#include "verify/scene_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,10 @@
 #include <iterator>
 #include <map>
 
-#include "frame_loop.h"
-#include "gpu_test.h"
-#include "support/cut_checks.h"
-#include "support/surface_distance.h"
+#include "verify/pieces.h"
+#include "verify/surface_distance.h"
 
-namespace drape::test {
+namespace drape::verify {
 
 Vec3 SceneRun::at(std::size_t frame, std::size_t cloth, std::size_t particle) const {
     const glsl::vec4& x = frames.at(frame).at(cloth).at(particle);
@@ -43,29 +41,33 @@ CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, 
 
 }  // namespace
 
-SceneRun run_frames(const SceneDescription& scene, const SimulationModel& model, std::uint32_t last) {
+SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene, const SimulationModel& model,
+                    const RunOptions& wanted) {
     SceneRun run{scene, {}, {}};
     FrameLoopOptions options;
     options.draw = false;
-    options.positions = true;
+    options.positions = wanted.positions;
+    options.statistics = wanted.frame != nullptr;
     options.timestamps = graph::TimestampMode::none;
-    options.keep_promises = false;  // a broken program keeps none
+    options.keep_promises = false;  // what broke them is what is judged
     options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };
     for (std::size_t cloth = 0; cloth < model.cloths.size() && !scene.cutters.empty(); ++cloth) {
         run.cuts.push_back(cut_record(0, cloth, 0, CutTopology(model.cloths[cloth])));
     }
-    FrameLoop loop(gpu().device, model, options);
+    FrameLoop loop(device, model, options);
+    const auto keep = [&](const FinishedFrame& frame) {
+        if (wanted.frame) wanted.frame(frame);
+        if (!wanted.positions) return;
+        auto& cloths = run.frames.emplace_back();
+        for (const std::span<const float> values : frame.positions) {
+            auto& texels = cloths.emplace_back(values.size() / 4);
+            std::memcpy(texels.data(), values.data(), values.size_bytes());
+        }
+    };
     loop.run(
-        last, [](std::uint32_t) { return true; },
-        [&](const FinishedFrame& frame) {
-            auto& cloths = run.frames.emplace_back();
-            for (const std::span<const float> values : frame.positions) {
-                auto& texels = cloths.emplace_back(values.size() / 4);
-                std::memcpy(texels.data(), values.data(), values.size_bytes());
-            }
-        });
+        wanted.last, [](std::uint32_t) { return true; }, keep, wanted.stop);
     return run;
 }
 
@@ -118,4 +120,4 @@ double stretch_law(const SceneDescription& scene, std::size_t cloth) {
     return links * links * norm(scene.gravity) * h * h / (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
 }
 
-}  // namespace drape::test
+}  // namespace drape::verify

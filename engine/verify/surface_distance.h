@@ -8,7 +8,7 @@
 #include "cloth/collider_pose.h"
 #include "drape/scene.h"
 
-namespace drape::test {
+namespace drape::verify {
 
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -107,4 +107,4 @@ inline double surface_distance(const std::vector<Collider>& colliders, double ti
     return least;
 }
 
-}  // namespace drape::test
+}  // namespace drape::verify

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cloth/schedule.h"
+#include "frame_loop.h"
 
-namespace drape::test {
+namespace drape::verify {
 
 /// A cloth after a cut (or, at frame 0, before any).
 struct CutRecord {
@@ -35,8 +37,17 @@ struct SceneRun {
     SceneRun until(std::size_t last) const;
 };
 
-/// Frames 0 .. last through the frame loop, positions wanted, no picture, on the validated device.
-SceneRun run_frames(const SceneDescription& scene, const SimulationModel& model, std::uint32_t last);
+struct RunOptions {
+    std::uint32_t last = 0;                                ///< frame, from 0 on
+    bool positions = true;                                 ///< false: SceneRun::frames stays empty
+    std::function<void(const FinishedFrame&)> frame = {};  ///< told of every frame, with its statistics
+    std::function<bool()> stop = {};                       ///< asked before each frame
+};
+
+/// A scene through the frame loop, without pictures; frames that fail are kept. `model` is the scene's, or what was
+/// made of it. Throws VulkanError.
+SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene, const SimulationModel& model,
+                    const RunOptions& options);
 
 /// What the oracles need of a cloth, computed anew from the scene's numbers.
 struct ClothMeasure {
@@ -55,4 +66,4 @@ double root_mean_square(const std::vector<double>& values);
 /// only: N^2 g h^2 / (2 K L) (docs/physics.md 2).
 double stretch_law(const SceneDescription& scene, std::size_t cloth);
 
-}  // namespace drape::test
+}  // namespace drape::verify

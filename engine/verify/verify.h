@@ -1,0 +1,52 @@
+// Runs scenes and judges them: what their files promise, and what every run must keep.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drape/scene_reader.h"
+
+namespace drape::verify {
+
+struct Request {
+    std::vector<std::string> overrides;  ///< "/json/pointer=value"
+    std::string device;                  ///< selector; empty: the best there is
+    bool validate = true;                ///< core and synchronization validation, each message a failure
+    /// Limits of every frame and cloth, where they are wanted: RMS strain of the stretch springs; their RMS stretch
+    /// error; m below the surface that contact keeps free.
+    std::optional<double> stretch, stretch_error, penetration;
+    std::function<bool()> stop;  ///< asked before each frame
+};
+
+/// One thing that was judged.
+struct Finding {
+    std::string check;
+    bool met = false;
+    std::string text;  ///< what was measured, against which limit
+};
+
+struct Report {
+    std::string file;
+    std::vector<SceneError> errors;  ///< of the scene; then it was not run
+    bool unreadable = false;         ///< the errors are of reading the file
+    std::uint32_t frame_count = 0;   ///< that were run
+    double seconds = 0;              ///< on the wall
+    std::vector<Finding> findings;
+    bool stopped = false;  ///< by Request::stop, and not judged
+
+    bool met() const;
+};
+
+/// Runs the scene of a file to its end and judges it. What is wrong with the scene is in the report; throws
+/// DeviceError.
+Report verify_scene(const std::string& path, const Request& request);
+
+/// For people, a scene's lines.
+std::string report_text(const Report& report);
+std::string reports_json(const std::vector<Report>& reports);
+/// JUnit's XML: a test suite per scene, a test case per check.
+std::string reports_junit(const std::vector<Report>& reports);
+
+}  // namespace drape::verify
