@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "output/frame_writer.h"
 
@@ -95,6 +97,17 @@ SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set
         if (!value) return fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text);
         set(*value);
         return std::string();
+    };
+}
+
+SetText not_negative(std::optional<double>& value) {
+    return [&value](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (end == text.c_str() || *end != 0 || !std::isfinite(number) || number < 0)
+            return "expected a number, not negative, got '" + text + "'";
+        value = number;
+        return {};
     };
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
 
 /// Takes a whole number, at least `least`, or says what was expected.
 SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set);
+
+/// Takes a number, not negative, or says what was expected. `value` must outlive the parser.
+SetText not_negative(std::optional<double>& value);
 
 /// SCENE..., at least one
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);

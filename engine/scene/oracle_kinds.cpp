@@ -1,6 +1,7 @@
 #include "scene/oracle_kinds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace drape {
@@ -56,15 +57,9 @@ constexpr OracleLimit cloth{"cloth", "number of the cloth, from 0", true};
 constexpr OracleLimit from_frame{"from_frame", "first frame that counts", true};
 constexpr OracleLimit until_frame{"until_frame", "last frame that counts", true};
 
-}  // namespace
-
-const OracleLimit* OracleKind::find_limit(std::string_view limit) const {
-    const auto found = std::ranges::find(limits, limit, &OracleLimit::name);
-    return found == limits.end() ? nullptr : &*found;
-}
-
-std::span<const OracleKind> oracle_kinds() {
-    static const std::vector<OracleKind> kinds{
+/// How the cloth lies and is held.
+std::vector<OracleKind> kinds_of_shape() {
+    return {
         {"stretch",
          "In every frame the RMS strain of the row and column springs of each cloth is small.",
          {{"strain", "largest RMS strain"}},
@@ -96,6 +91,12 @@ std::span<const OracleKind> oracle_kinds() {
          {{"offset", "largest distance of its centre of mass from the pins' centre along x, metres"},
           {"width", "largest width of its hem along x, in units of the pins'"}},
          no_pin},
+    };
+}
+
+/// How it moves, and what cuts and methods do to it.
+std::vector<OracleKind> kinds_of_motion() {
+    return {
         {"falls",
          "Until something holds or touches them, particles fly as gravity and damping make them.",
          {cloth,
@@ -144,6 +145,21 @@ std::span<const OracleKind> oracle_kinds() {
          {{"relative_error", "largest error of mean and RMS strain"}},
          no_relaxation},
     };
+}
+
+}  // namespace
+
+const OracleLimit* OracleKind::find_limit(std::string_view limit) const {
+    const auto found = std::ranges::find(limits, limit, &OracleLimit::name);
+    return found == limits.end() ? nullptr : &*found;
+}
+
+std::span<const OracleKind> oracle_kinds() {
+    static const std::vector<OracleKind> kinds = [] {
+        std::vector<OracleKind> all = kinds_of_shape();
+        std::ranges::move(kinds_of_motion(), std::back_inserter(all));
+        return all;
+    }();
     return kinds;
 }
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "compare/results.h"
 #include "options.h"
 #include "output/output_error.h"
 #include "profile/comparison.h"
@@ -11,6 +13,14 @@ namespace drape::cli {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string before, after;
+    compare::Limits limits;
+    bool json = false;
+};
+
 std::string text_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
@@ -19,7 +29,7 @@ std::string text_of(const std::string& path) {
     return text.str();
 }
 
-ExitCode run(const std::string& before, const std::string& after) {
+ExitCode compare_profiles(const std::string& before, const std::string& after) {
     try {
         const profile::Comparison comparison = profile::compare(text_of(before), before, text_of(after), after);
         print_data(comparison.text());
@@ -30,23 +40,52 @@ ExitCode run(const std::string& before, const std::string& after) {
     }
 }
 
+ExitCode run(const Options& options) {
+    const fs::path before = options.before, after = options.after;
+    std::error_code ignored;
+    const bool folder = fs::is_directory(before, ignored);
+    if (folder != fs::is_directory(after, ignored)) throw UsageError("a folder is compared with a folder");
+    if (!folder && before.extension() != after.extension())
+        throw UsageError("'" + options.before + "' and '" + options.after + "' are not of one kind");
+    if (!folder && !compare::is_result_file(before)) {
+        if (options.json) throw UsageError("--json is of arrays, pictures and folders");
+        return compare_profiles(options.before, options.after);
+    }
+    const std::vector<compare::Row> rows = folder ? compare::compare_folders(before, after, options.limits)
+                                                  : compare::compare_files(before, after, options.limits);
+    print_data(options.json ? compare::rows_json(rows) : compare::rows_text(rows));
+    const bool over = std::ranges::any_of(rows, &compare::Row::over);
+    return over ? ExitCode::comparison : ExitCode::ok;
+}
+
 }  // namespace
 
 void add_compare(Program& program) {
-    struct Files {
-        std::string before, after;
-    };
-    const auto files = std::make_shared<Files>();
-    CLI::App& command = program.add("compare", "Two profiles against their noise", R"text(
-Medians of what both profiles (`drape profile --json`) have, their ratio, and the noise: the larger interquartile range
-over its median, at least 2 %. Exit code 7 when anything is slower by more than that.
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = program.add("compare", "Two runs' arrays, pictures or folders, or two profiles", R"text(
+Arrays (.npy, .npz): largest and RMS difference. Pictures (.png): PSNR and largest difference. Folders: file by file,
+other files by their bytes, the manifests left out. What is given no limit must be equal. Exit code 7 when anything is
+over its limit, or only one of them has it.
 
-Example:
+Profiles (`drape profile --json`): medians of what both have, their ratio, and the noise: the larger interquartile
+range over its median, at least 2 %. Exit code 7 when anything is slower by more than that.
+
+Examples:
+  drape compare out/before out/after
+  drape compare out/before out/after --max 1e-5 --psnr 40
+  drape compare a/positions.npz b/positions.npz --rms 1e-6 --json
   drape compare before.json after.json
 )text",
-                                    [=] { return run(files->before, files->after); });
-    add_required_file(command, "BEFORE", "A profile", files->before);
-    add_required_file(command, "AFTER", "Another", files->after);
+                                    [=] { return run(*options); });
+    add_required_file(command, "BEFORE", "A file or a folder", options->before);
+    add_required_file(command, "AFTER", "Another of the kind", options->after);
+    add_option(command, "--max", "D", "Arrays: largest difference of a value", not_negative(options->limits.largest));
+    add_option(command, "--rms", "D", "Arrays: largest RMS of the differences", not_negative(options->limits.rms));
+    add_option(command, "--psnr", "DB", "Pictures: least peak signal-to-noise ratio",
+               not_negative(options->limits.psnr));
+    add_option(command, "--max-channel", "N", "Pictures: largest difference of a colour channel, of 255",
+               not_negative(options->limits.channel));
+    add_flag(command, "--json", "As JSON on stdout instead of text", options->json);
 }
 
 }  // namespace drape::cli

@@ -1,8 +1,5 @@
 #include "verify/verify.h"
 
-#include <cmath>
-#include <cstdlib>
-
 #include "ending.h"
 #include "options.h"
 #include "output/atomic_file.h"
@@ -41,18 +38,6 @@ ExitCode run(Options options) {
     return code;
 }
 
-/// Takes a limit.
-SetText limit(std::optional<double>& value) {
-    return [&value](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double number = std::strtod(text.c_str(), &end);
-        if (end == text.c_str() || *end != 0 || !std::isfinite(number) || number < 0)
-            return "expected a number, not negative, got '" + text + "'";
-        value = number;
-        return {};
-    };
-}
-
 }  // namespace
 
 void add_verify(Program& program) {
@@ -73,13 +58,13 @@ Examples:
     add_override_option(command, request.overrides);
     add_device_option(command, request.device);
     add_option(command, "--stretch", "STRAIN", "Largest RMS strain of a cloth's stretch springs in any frame",
-               limit(request.stretch));
+               not_negative(request.stretch));
     add_option(command, "--stretch-error", "ERROR",
                "Largest RMS stretch error likewise; default: the scene's\n"
                "tolerance, where it has one, or method auto's",
-               limit(request.stretch_error));
+               not_negative(request.stretch_error));
     add_option(command, "--penetration", "METRES", "Largest depth of a particle in the zone that contact keeps free",
-               limit(request.penetration));
+               not_negative(request.penetration));
     add_option(command, "--junit", "FILE", "Also as JUnit's XML", options->junit);
     add_flag(command, "--no-validate", "Without the validation layer, in less time", options->no_validation);
     add_flag(command, "--json", "As JSON on stdout instead of text", options->json);

@@ -230,7 +230,7 @@ struct ImageSettings {
     bool operator==(const ImageSettings&) const = default;
 };
 
-/// A check the scene promises to meet: read by the scene tests, ignored by the simulation. The name picks
+/// A check the scene promises to meet: judged by `drape verify`, ignored by the simulation. The name picks
 /// the check, the numbers are its limits.
 struct Oracle {
     std::string check;

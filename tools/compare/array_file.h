@@ -1,0 +1,31 @@
+// NumPy's files, read back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drape::compare {
+
+struct Array {
+    std::string name;  ///< in its archive; empty for an NPY file's
+    std::string type;  ///< as NumPy spells it: "<f4"
+    std::vector<std::uint64_t> shape;
+    std::vector<std::byte> bytes;  ///< C order
+
+    /// Whether its values are numbers that `value` knows.
+    bool has_numbers() const;
+    std::size_t count() const;
+    double value(std::size_t index) const;
+    /// "float32 (61, 65, 65, 3)"
+    std::string text() const;
+    /// "(3, 0, 1)": where the value of this index is.
+    std::string place(std::size_t index) const;
+};
+
+/// The one array of an NPY file, those of an NPZ archive by name. Throws OutputError naming the file.
+std::vector<Array> load_arrays(const std::filesystem::path& path);
+
+}  // namespace drape::compare

@@ -1,0 +1,201 @@
+#include "compare/results.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "compare/array_file.h"
+#include "output/json_text.h"
+#include "output/output_folder.h"
+#include "output/png.h"
+
+namespace drape::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::uint8_t> bytes_in(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (!file.is_open() || file.bad()) throw OutputError(fmt::format("cannot read '{}'", path.string()));
+    return bytes;
+}
+
+Picture picture_in(const fs::path& path) {
+    try {
+        return decode_png(bytes_in(path));
+    } catch (const OutputError& error) {
+        throw OutputError(fmt::format("cannot read '{}': {}", path.string(), error.what()));
+    }
+}
+
+/// Largest and RMS difference, and where the largest is. What is NaN on one side alone is infinitely far away.
+class Differences {
+  public:
+    void see(double a, double b, std::size_t index) {
+        ++count_;
+        if (a == b || (std::isnan(a) && std::isnan(b))) return;
+        ++differing_;
+        const double difference =
+            std::isnan(a - b) ? std::numeric_limits<double>::infinity() : std::abs(a - b);  // also inf - inf
+        squares_ += difference * difference;
+        if (difference <= largest_) return;
+        largest_ = difference;
+        where_ = index;
+    }
+    double largest() const { return largest_; }
+    double rms() const { return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0; }
+    std::size_t count() const { return count_; }
+    std::size_t differing() const { return differing_; }
+    std::size_t where() const { return where_; }
+
+  private:
+    std::size_t count_ = 0, differing_ = 0, where_ = 0;
+    double squares_ = 0, largest_ = 0;
+};
+
+bool above(const std::optional<double>& limit, double value) { return limit && !(value <= *limit); }
+
+Row compare_arrays(const std::string& name, const Array& a, const Array& b, const Limits& limits) {
+    Row row{name, {}, false, {}, {}, {}};
+    if (a.shape != b.shape || a.has_numbers() != b.has_numbers() || (!a.has_numbers() && a.type != b.type)) {
+        row.text = fmt::format("{} and {}", a.text(), b.text());
+        row.over = true;
+        return row;
+    }
+    if (!a.has_numbers()) {
+        row.over = a.bytes != b.bytes;
+        row.text = fmt::format("{}: {}", a.text(), row.over ? "another text" : "equal");
+        return row;
+    }
+    Differences differences;
+    for (std::size_t i = 0; i < a.count(); ++i) differences.see(a.value(i), b.value(i), i);
+    row.largest = differences.largest();
+    row.rms = differences.rms();
+    row.over = limits.largest || limits.rms ? above(limits.largest, *row.largest) || above(limits.rms, *row.rms)
+                                            : differences.differing() > 0;
+    row.text = a.text() + (a.type == b.type ? "" : " and " + b.text()) + ": ";
+    row.text += differences.differing() == 0
+                    ? "equal"
+                    : fmt::format("largest difference {:.3g} at {}, RMS {:.3g}, {} of {} values differ", *row.largest,
+                                  a.place(differences.where()), *row.rms, differences.differing(), differences.count());
+    return row;
+}
+
+Row compare_pictures(const fs::path& a, const fs::path& b, const Limits& limits) {
+    const Picture before = picture_in(a), after = picture_in(b);
+    Row row{a.filename().string(), {}, false, {}, {}, {}};
+    const auto size = [](const Picture& picture) { return fmt::format("{}x{}", picture.width, picture.height); };
+    if (before.width != after.width || before.height != after.height) {
+        row.text = fmt::format("{} and {} pixels", size(before), size(after));
+        row.over = true;
+        return row;
+    }
+    Differences differences;
+    for (std::size_t i = 0; i < before.rgb.size(); ++i) differences.see(before.rgb[i], after.rgb[i], i);
+    row.largest = differences.largest();
+    row.rms = differences.rms();
+    const bool equal = differences.differing() == 0;
+    if (!equal) row.psnr = 20 * std::log10(255 / *row.rms);
+    const double psnr = row.psnr.value_or(std::numeric_limits<double>::infinity());
+    row.over = limits.psnr || limits.channel
+                   ? above(limits.channel, *row.largest) || (limits.psnr && !(psnr >= *limits.psnr))
+                   : !equal;
+    const std::size_t pixel = differences.where() / 3;
+    row.text = fmt::format("{} pixels: ", size(before)) +
+               (equal ? "equal"
+                      : fmt::format("PSNR {:.2f} dB, largest difference {:.0f} of 255 at column {}, row {}", psnr,
+                                    *row.largest, pixel % before.width, pixel / before.width));
+    return row;
+}
+
+Row only_in(const std::string& name, const fs::path& where) {
+    return {name, fmt::format("only in {}", where.string()), true, {}, {}, {}};
+}
+
+std::vector<Row> compare_array_files(const fs::path& a, const fs::path& b, const Limits& limits) {
+    const std::vector<Array> before = load_arrays(a), after = load_arrays(b);
+    const std::string file = a.filename().string();
+    std::vector<Row> rows;
+    for (const Array& array : before) {
+        const std::string name = array.name.empty() ? file : file + "/" + array.name;
+        const auto other = std::ranges::find(after, array.name, &Array::name);
+        rows.push_back(other == after.end() ? only_in(name, a) : compare_arrays(name, array, *other, limits));
+    }
+    for (const Array& array : after)
+        if (std::ranges::find(before, array.name, &Array::name) == before.end())
+            rows.push_back(only_in(file + "/" + array.name, b));
+    return rows;
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+    std::set<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.is_regular_file() && entry.path().filename() != manifest_file_name)
+            names.insert(entry.path().filename().string());
+    if (error) throw OutputError(fmt::format("cannot read '{}': {}", folder.string(), error.message()));
+    return names;
+}
+
+}  // namespace
+
+bool is_result_file(const fs::path& path) {
+    return path.extension() == ".npy" || path.extension() == ".npz" || path.extension() == ".png";
+}
+
+std::vector<Row> compare_files(const fs::path& a, const fs::path& b, const Limits& limits) {
+    if (a.extension() != ".png") return compare_array_files(a, b, limits);
+    return {compare_pictures(a, b, limits)};
+}
+
+std::vector<Row> compare_folders(const fs::path& a, const fs::path& b, const Limits& limits) {
+    const std::set<std::string> before = files_in(a), after = files_in(b);
+    std::vector<Row> rows;
+    for (const std::string& name : before) {
+        if (!after.contains(name)) {
+            rows.push_back(only_in(name, a));
+        } else if (is_result_file(name)) {
+            std::ranges::move(compare_files(a / name, b / name, limits), std::back_inserter(rows));
+        } else {
+            const bool equal = bytes_in(a / name) == bytes_in(b / name);
+            rows.push_back({name, equal ? "equal bytes" : "other bytes", !equal, {}, {}, {}});
+        }
+    }
+    for (const std::string& name : after)
+        if (!before.contains(name)) rows.push_back(only_in(name, b));
+    return rows;
+}
+
+std::string rows_text(const std::vector<Row>& rows) {
+    std::string text;
+    for (const Row& row : rows) text += fmt::format("{}  {}: {}\n", row.over ? "OVER" : "ok  ", row.name, row.text);
+    const auto over = std::ranges::count(rows, true, &Row::over);
+    return text + fmt::format("{} compared, {} over {} limit\n", rows.size(), over, over == 1 ? "its" : "their");
+}
+
+std::string rows_json(const std::vector<Row>& rows) {
+    Json::Value list(Json::arrayValue);
+    const auto put = [](Json::Value& value, const char* key, const std::optional<double>& number) {
+        if (number && std::isfinite(*number)) value[key] = *number;  // JSON has no infinity
+    };
+    for (const Row& row : rows) {
+        Json::Value& value = list.append(Json::Value(Json::objectValue));
+        value["name"] = row.name;
+        value["text"] = row.text;
+        value["over"] = row.over;
+        put(value, "largest", row.largest);
+        put(value, "rms", row.rms);
+        put(value, "psnr_db", row.psnr);
+    }
+    return json_text(list);
+}
+
+}  // namespace drape::compare
