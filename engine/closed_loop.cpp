@@ -163,12 +163,15 @@ void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const A
     if (!control_->segment().probes) deliver_all(asked.finished);
     const bool stretch = judgement.stretch > 1;
     const std::string impossible = impossible_pins(model_, frame + control_->segment().frame_count - 1);
-    throw ToleranceMissed(fmt::format(
+    const char* criterion = stretch ? "stretch error" : "estimated error of the motion";
+    const double times = stretch ? judgement.stretch : judgement.motion;
+    const std::string text = fmt::format(
         "the tolerance is missed: from frame {} on the {} is {:.3g} times its limit even with {} substeps of method "
         "{}, the most that method auto tries{}{}",
-        frame, stretch ? "stretch error" : "estimated error of the motion",
-        stretch ? judgement.stretch : judgement.motion, control_->segment().substeps, model_.method().name,
-        impossible.empty() ? "" : "; ", impossible));
+        frame, criterion, times, control_->segment().substeps, model_.method().name, impossible.empty() ? "" : "; ",
+        impossible);
+    throw ToleranceMissed(text, FrameFailure{FrameFailure::Kind::tolerance, text, frame,
+                                             fmt::format("{} over its limit", criterion), times, 1});
 }
 
 void FrameLoop::submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished) {

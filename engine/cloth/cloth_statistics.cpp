@@ -14,6 +14,10 @@ StrainStatistics strain_statistics(std::uint32_t count, double square_sum, doubl
     return {count, std::sqrt(square_sum / count), largest, -minus_smallest};
 }
 
+std::optional<std::uint32_t> particle_of(glsl::uint place) {
+    return place == UINT32_MAX ? std::nullopt : std::optional<std::uint32_t>(place);
+}
+
 }  // namespace
 
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth) {
@@ -63,7 +67,13 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
         statistics.center_of_mass[k] = start[k] + (share > 0 ? moments[k] / share : 0.0);
         statistics.potential_energy -= statistics.mass * model.scene.gravity[k] * statistics.center_of_mass[k];
     }
-    if (!model.scene.colliders.empty()) statistics.penetration = record.extents.z;
+    if (!model.scene.colliders.empty()) {
+        statistics.penetration = record.extents.z;
+        statistics.deepest = particle_of(record.places.z);
+    }
+    statistics.farthest = particle_of(record.places.x);
+    statistics.fastest = particle_of(record.places.y);
+    statistics.most_stretched = particle_of(record.places.w);
     statistics.largest_distance = std::sqrt(static_cast<double>(record.extents.x));
     statistics.largest_speed = std::sqrt(static_cast<double>(record.extents.y)) / h;
     statistics.non_finite_count = record.counts.x;

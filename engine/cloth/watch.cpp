@@ -48,11 +48,15 @@ double collider_moved(const Collider& collider, double far, double from, double 
            moved(before.rotation, now.rotation, std::min(shape_geometry(collider.shape).reach, far));
 }
 
-Implausible compare(double value, double bound, const char* sentence) {
+/// `sentence` says the value and the bound, in this order.
+Implausible compare(const char* criterion, double value, double bound, const char* sentence,
+                    std::optional<std::uint32_t> particle = {}) {
     // The device squares in single precision: what overflowed there is at least this.
     const double known = std::isinf(value) ? 1e19 : value;
-    return {known / bound, fmt::format(fmt::runtime(sentence), value, bound)};
+    return {known / bound, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
 }
+
+Implausible worse(const Implausible& a, const Implausible& b) { return b.excess > a.excess ? b : a; }
 
 /// m/s at which strain comes back. Inextensible cloth has no such speed: through all of it in a frame.
 double wave_speed(const Cloth& cloth, double diagonal, double fps) {
@@ -125,12 +129,12 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double speed = given + drives_[index].speed[frame] + recoil;
     const double flown = start.held ? 0 : 2 * time * (given + recoil);
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
-    Implausible result =
-        std::max(compare(statistics.largest_speed, generous * speed + calm_speed,
-                         "the fastest particle moves at {:.3g} m/s, where at most {:.3g} m/s are explained"),
-                 compare(statistics.largest_distance, start.distance + 2 * diagonal + travel + flown,
-                         "a particle is {:.3g} m from the origin, where at most {:.3g} m are explained"),
-                 [](const Implausible& a, const Implausible& b) { return a.excess < b.excess; });
+    const Implausible result =
+        worse(compare("speed, m/s", statistics.largest_speed, generous * speed + calm_speed,
+                      "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
+              compare("distance from the origin, m", statistics.largest_distance,
+                      start.distance + 2 * diagonal + travel + flown,
+                      "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
     if (!passive_) return result;
     const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
     const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
@@ -138,9 +142,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     // stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
     const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
-    const Implausible gained = compare(energy - start_energy, energy_share * scale,
-                                       "it has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)");
-    return gained.excess > result.excess ? gained : result;
+    return worse(result, compare("energy gained, J", energy - start_energy, energy_share * scale,
+                                 "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"));
 }
 
 double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
@@ -151,25 +154,24 @@ double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cl
     return most;
 }
 
-std::string Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
+std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
     const double asked = model_.asked_tolerance;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const ClothStatistics& statistics = cloths[cloth];
-        Implausible found = worst(frame, cloth, statistics);
-        for (const Implausible& strain :
-             {compare(statistics.stretch_error_rms, std::max(implausible_rms, asked),
-                      "the stretch error is {:.3g} RMS (bound {:.3g})"),
-              compare(statistics.stretch_error_max, std::max(implausible_worst, asked),
-                      "the stretch error of a spring is {:.3g} of its length (bound {:.3g})")})
-            if (strain.excess > found.excess) found = strain;
-        if (found.excess <= 1) continue;
-        return fmt::format(
-            "the simulation is not plausible: in frame {}, cloth '{}', {}; more substeps, method auto, "
-            "weaker forces or stiffness may help",
-            frame, model_.cloths[cloth].name, found.what);
+        Implausible found =
+            worse(worst(frame, cloth, statistics),
+                  compare("stretch error, RMS", statistics.stretch_error_rms, std::max(implausible_rms, asked),
+                          "begins the worst spring of a stretch error of {:.3g} RMS (bound {:.3g})",
+                          statistics.most_stretched));
+        found = worse(found, compare("stretch error of a spring", statistics.stretch_error_max,
+                                     std::max(implausible_worst, asked),
+                                     "begins a spring whose stretch error is {:.3g} of its length (bound {:.3g})",
+                                     statistics.most_stretched));
+        found.cloth = cloth;
+        if (found.excess > 1) return found;
     }
-    return {};
+    return std::nullopt;
 }
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 // What no result of a scene exceeds: bounds from what acts on the cloth, far above what it ever does. Pure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,11 @@ namespace drape {
 /// Something of a frame over its bound.
 struct Implausible {
     double excess = 0;  ///< value over bound: 1 is the most there can be
-    std::string what;   ///< "the fastest particle moves at 8e+03 m/s, where at most 120 m/s are explained"
+    std::string what;   ///< "moves at 8e+03 m/s, where at most 120 m/s are explained", of the particle or a sentence
+    std::string criterion;  ///< "speed, m/s"
+    double value = 0, bound = 0;
+    std::optional<std::uint32_t> particle;  ///< index; nothing: it is not about a single one
+    std::size_t cloth = 0;
 };
 
 class Watch {
@@ -32,8 +37,9 @@ class Watch {
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// What makes a frame no result: the same and, for methods whose frames are not judged, a stretch error above
-    /// 0.25 RMS or 1 in a single spring (or the scene's own tolerance). One sentence; empty: it is plausible.
-    std::string implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
+    /// 0.25 RMS or 1 in a single spring (or the scene's own tolerance): the first cloth's worst. Nothing: it is
+    /// plausible.
+    std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
   private:
     /// What moves a cloth, from the start to the end of each frame.

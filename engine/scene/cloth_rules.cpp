@@ -97,6 +97,38 @@ void count_particles(const SceneNode& grid, const Cloth& cloth, std::uint64_t& t
             fmt::format("expected at most {} particles in all cloths together, got {}", scene_particle_limit, total));
 }
 
+/// Edge lengths that gravity moves a free particle by in a substep, with the most substeps that there may be: g D^2 /
+/// h.
+double fall_per_substep(const SceneDescription& scene, const Cloth& cloth, double gravity, double fps) {
+    const bool is_automatic = scene.solver.method == SolverMethod::automatic;
+    const double step = 1 / (fps * (is_automatic ? most_solver_substeps : scene.solver.substeps));
+    const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    return gravity * step * step / edge;
+}
+
+/// Beyond any use are steps in which cloth falls by ten thousand of its edges. Blamed is what would be right if it were
+/// ordinary: gravity, the frame rate, or else the cloth.
+bool check_fall(const Members& members, const SceneDescription& scene) {
+    constexpr double most = 1e4, ordinary_gravity = 9.81, ordinary_fps = 60;
+    const double gravity = std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]), fps = scene.time.fps;
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const double fall = fall_per_substep(scene, cloth, gravity, fps);
+        if (!(fall > most)) continue;
+        const std::string why = fmt::format(
+            "cloth \"{}\" would fall {:.3g} of its edge lengths in a substep (gravity {:.3g} m/s^2, {:.6g} frames/s), "
+            "and at most {:.0e} can be simulated",
+            cloth.name, fall, gravity, fps, most);
+        if (fall_per_substep(scene, cloth, std::min(gravity, ordinary_gravity), fps) <= most)
+            return members["gravity"].fail("expected less gravity: " + why);
+        if (fall_per_substep(scene, cloth, gravity, std::max(fps, ordinary_fps)) <= most)
+            return members["time"].member("fps").fail("expected more frames per second: " + why);
+        return members["cloths"].element(i).fail("expected a larger cloth, more frames per second or less gravity: " +
+                                                 why);
+    }
+    return true;
+}
+
 bool start_boxes_meet(const Cloth& a, const Cloth& b) {
     const std::array<Vec3, 4> a_corners = corners(a);
     const std::array<Vec3, 4> b_corners = corners(b);
@@ -204,7 +236,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     }
     warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
-    return true;
+    return !members.fit({"time", "gravity", "cloths", "solver"}) || check_fall(members, scene);
 }
 
 }  // namespace drape

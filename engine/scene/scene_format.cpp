@@ -290,7 +290,7 @@ const Object<SolverSettings> solver{
     "How the cloth is moved from frame to frame.",
     {
         {"method", &SolverSettings::method, choice<SolverMethod>(method_spellings), method_help},
-        {"substeps", &SolverSettings::substeps, integer(1, 4096),
+        {"substeps", &SolverSettings::substeps, integer(1, most_solver_substeps),
          "Time steps per frame. Ignored (with a warning) by method auto."},
         {"iterations", &SolverSettings::iterations, integer(1, 1024),
          "Solves of every spring per substep. Ignored (with a warning above 1) by methods that solve nothing."},
@@ -357,7 +357,10 @@ const Object<Oracle> oracle{
 const Object<SceneDescription> scene{
     "scene",
     "A cloth scene. JSON with // comments; SI units, degrees, y up. Unknown keys are errors. Numbers are at most "
-    "3.4e38 in magnitude (single precision).",
+    "3.4e38 in magnitude (single precision). At most 16 MiB, 500000 values and 1000 keys in an object. In a substep "
+    "no "
+    "cloth may fall by more than 10000 of its edge lengths: gravity / (fps substeps)^2 (method auto: of 4096 substeps) "
+    "over the edge length.",
     {
         {"$schema", text().text, read_address, "Address of this schema, for editors. Ignored."},
         {"name", &SceneDescription::name, text(), "Name of the scene."},

@@ -98,9 +98,9 @@ bool ErrorList::earlier(const Found& a, const Found& b) {
 
 void ErrorList::add(const SceneDocument& document, std::size_t offset, const std::string& pointer,
                     std::string message) {
+    if (counts_only(offset)) return;  // before its place is looked up: there may be a million
     const std::size_t order = count_++;
     const bool full = first_.size() == most;
-    if (full && offset >= first_.front().error.offset) return;  // before its place is looked up: there may be a million
     first_.push_back({order, document.place(offset, pointer, std::move(message))});
     std::ranges::push_heap(first_, earlier);
     if (!full) return;
@@ -135,8 +135,11 @@ bool SceneNode::open_object(const Definition& definition) const {
     for (auto it = value_->begin(); it != value_->end(); ++it) {
         const std::string key = it.name();
         if (definition.has_key(key)) continue;
+        // No error lies between a key and its value.
+        if (report_->errors.counts_only(static_cast<std::size_t>(it->getOffsetStart()))) continue;
         SceneDocument& document = report_->document;
-        report_->errors.add(document, document.key_offset(*value_, key, *it), pointer_ + "/" + escaped(key),
+        report_->errors.add(document, document.key_offset(*value_, key, *it),
+                            pointer_ + "/" + escaped(shortened(key, 80)),
                             fmt::format("{}, got the unknown key \"{}\"", key_hint(definition, key), shortened(key)));
     }
     return true;
@@ -219,6 +222,7 @@ bool SceneNode::read(std::string& field) const {
 }
 
 bool SceneNode::fail_expected(std::string_view what) const {
+    if (report_->errors.counts_only(offset_)) return false;
     return fail(fmt::format("expected {}, got {}", what, describe()));
 }
 

@@ -22,6 +22,12 @@ class ErrorList {
   public:
     static constexpr std::size_t most = 100;
     void add(const SceneDocument& document, std::size_t offset, const std::string& pointer, std::string message);
+    /// One more, of the text at `offset` or after, when that is not among those told: nothing need be known of it.
+    bool counts_only(std::size_t offset) {
+        const bool told = first_.size() < most || offset < first_.front().error.offset;
+        if (!told) ++count_;
+        return !told;
+    }
     bool empty() const { return count_ == 0; }
     /// In the order of the text; the last one, without a place, counts those that are not told.
     std::vector<SceneError> told() const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 namespace drape {
 namespace {
@@ -119,10 +120,38 @@ class TokenScanner {
     std::size_t at_ = 0;
 };
 
-int depth_change(char c) { return (c == '{' || c == '[') - (c == '}' || c == ']'); }
+/// Counts what is nested, and what there is, by brackets and commas alone.
+class Counter {
+  public:
+    /// What is too much with this character.
+    std::optional<std::string> take(char c) {
+        if (c == '{' || c == '[') {
+            if (open_.size() == static_cast<std::size_t>(scene_depth_limit))
+                return fmt::format("expected at most {} nested arrays and objects", scene_depth_limit);
+            open_.push_back({c == '{', 0});
+            ++values_;
+        } else if (c == '}' || c == ']') {
+            if (!open_.empty()) open_.pop_back();
+        } else if (c == ',' && !open_.empty()) {
+            ++values_;
+            if (++open_.back().commas >= scene_key_limit && open_.back().is_object)
+                return fmt::format("expected at most {} keys in an object", scene_key_limit);
+        }
+        if (values_ <= scene_value_limit) return std::nullopt;
+        return fmt::format("expected a scene of at most {} values", scene_value_limit);
+    }
+
+  private:
+    struct Open {
+        bool is_object;
+        std::size_t commas;
+    };
+    std::vector<Open> open_;
+    std::size_t values_ = 0;
+};
 
 std::optional<TextFault> find_token_fault(std::string_view text) {
-    int depth = 0;
+    Counter counter;
     TokenScanner scanner(text);
     while (const auto token = scanner.next()) {
         const std::string_view word = text.substr(token->begin, token->end - token->begin);
@@ -130,10 +159,8 @@ std::optional<TextFault> find_token_fault(std::string_view text) {
             return TextFault{token->begin, "expected a closing quote on the same line"};
         if (token->kind == TokenKind::number && !is_json_number(word))
             return TextFault{token->begin, fmt::format("expected a JSON number, got {}", shortened(word))};
-        if (token->kind == TokenKind::other) depth += depth_change(word[0]);
-        if (depth > scene_depth_limit)
-            return TextFault{token->begin,
-                             fmt::format("expected at most {} nested arrays and objects", scene_depth_limit)};
+        if (token->kind != TokenKind::other) continue;
+        if (auto too_much = counter.take(word[0])) return TextFault{token->begin, std::move(*too_much)};
     }
     return std::nullopt;
 }
@@ -235,7 +262,7 @@ std::map<std::string, std::size_t> key_offsets(std::string_view object) {
         }
         if (token->kind != TokenKind::other) continue;
         const char c = object[token->begin];
-        depth += depth_change(c);
+        depth += (c == '{' || c == '[') - (c == '}' || c == ']');
         if (depth == 0 && c == '}') break;
         if (c == '{' || c == ',') key_expected = depth == 1;
     }

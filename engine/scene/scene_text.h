@@ -37,8 +37,13 @@ struct TextFault {
 /// Deepest nesting of arrays and objects accepted; a scene needs 8.
 inline constexpr int scene_depth_limit = 64;
 
-/// The first violation of: valid UTF-8, no control characters, numbers as JSON spells them, nesting within
-/// the limit. Says nothing about the rest of the grammar.
+/// Most values (numbers, words, texts, arrays and objects) of a scene, and most keys of an object. More take the JSON
+/// library longer than anybody waits for an answer.
+inline constexpr std::size_t scene_value_limit = 500'000;
+inline constexpr std::size_t scene_key_limit = 1000;
+
+/// The first violation of: valid UTF-8, no control characters, numbers as JSON spells them, nesting and counts within
+/// the limits. Says nothing about the rest of the grammar.
 std::optional<TextFault> find_text_fault(std::string_view text);
 
 /// The text with every number that overflows a double replaced by one of +-1e308, as long as before. The JSON

@@ -20,7 +20,8 @@ SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_fi
 SHARED StatisticsRecord empty_statistics() {
     return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
                             vec4(lowest_float, lowest_float, lowest_float, lowest_float), vec4(0.0f, 0.0f, 0.0f, 0.0f),
-                            vec4(-0.0f, -0.0f, -0.0f, -0.0f), uvec4(0u, no_particle, 0u, 0u));
+                            vec4(-0.0f, -0.0f, -0.0f, -0.0f), uvec4(0u, no_particle, 0u, 0u),
+                            uvec4(no_particle, no_particle, no_particle, no_particle));
 }
 
 SHARED vec4 ordered_sum(vec4 a, vec4 b) {
@@ -32,11 +33,24 @@ SHARED vec4 larger(vec4 a, vec4 b) {
     return vec4(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z, a.w > b.w ? a.w : b.w);
 }
 
+/// Where the larger of two values is, of equal ones the lower index: whatever the order of joining.
+SHARED uint place_of_larger(float a, float b, uint place_a, uint place_b) {
+    return a > b ? place_a : b > a ? place_b : place_a < place_b ? place_a : place_b;
+}
+
+SHARED uvec4 places_of_larger(StatisticsRecord a, StatisticsRecord b) {
+    return uvec4(place_of_larger(a.extents.x, b.extents.x, a.places.x, b.places.x),
+                 place_of_larger(a.extents.y, b.extents.y, a.places.y, b.places.y),
+                 place_of_larger(a.extents.z, b.extents.z, a.places.z, b.places.z),
+                 place_of_larger(a.extents.w, b.extents.w, a.places.w, b.places.w));
+}
+
 SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
     return StatisticsRecord(ordered_sum(a.squares, b.squares), ordered_sum(a.moments, b.moments),
                             larger(a.strains, b.strains), larger(a.extents, b.extents), ordered_sum(a.errors, b.errors),
                             uvec4(a.counts.x + b.counts.x, a.counts.y < b.counts.y ? a.counts.y : b.counts.y,
-                                  a.counts.z + b.counts.z, a.counts.w + b.counts.w));
+                                  a.counts.z + b.counts.z, a.counts.w + b.counts.w),
+                            places_of_larger(a, b));
 }
 
 /// Mass of a particle of a cloth without holes, in units of an inner particle's.
@@ -62,13 +76,14 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float 
     record.moments = vec4(moment.x, moment.y, moment.z, share);
     record.extents.x = ordered_dot(position, position);
     record.extents.y = moved_squared;
+    record.places = uvec4(index, index, index, no_particle);
     return record;
 }
 
-/// `record` plus the spring between two particles; `first` is finite. `rest_length`, m, and the spring's `share`
-/// of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m. Shear belongs to the diagonals.
-/// `tension`: extension (m) that the tension applied to the spring would cause; what it has beyond that, over its rest
-/// length, is the stretch error, which a perfect solver makes zero. Of shear springs it is not asked.
+/// A particle's `record` plus the spring from it to another; `first` is finite. `rest_length`, m, and the spring's
+/// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m. Shear belongs to the diagonals. `tension`:
+/// extension (m) that the tension applied to the spring would cause; what it has beyond that, over its rest length, is
+/// the stretch error, which a perfect solver makes zero. Of shear springs it is not asked.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
                                           float half_stiffness, float share, float tension, bool shear) {
     if (!(rest_length > 0.0f) || !(share > 0.0f) || !is_finite(second)) return record;
@@ -89,6 +104,7 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
     precise float error = (extension - tension) / rest_length;
     precise float squared_error = error * error;
     record.errors = ordered_sum(record.errors, vec4(squared_error, -0.0f, -0.0f, -0.0f));
+    record.places.w = place_of_larger(record.extents.w, abs(error), record.places.w, record.places.x);
     record.extents = larger(record.extents, vec4(0.0f, 0.0f, 0.0f, abs(error)));
     record.counts.z += 1u;
     return record;

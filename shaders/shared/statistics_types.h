@@ -34,6 +34,7 @@ struct StatisticsRecord {
     vec4 extents;  // largest: |position|^2, m^2; |h v|^2, m^2; penetration, m; |stretch error|
     vec4 errors;   // sums: squared stretch error; yzw unused
     uvec4 counts;  // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
+    uvec4 places;  // index of the first particle with each of the extents; of a spring its first (none: all ones)
 };
 
 #ifdef __cplusplus

@@ -86,7 +86,8 @@ TEST(Verify, AMissedPromiseIsExitCode7InEveryFormat) {
 
 TEST(Verify, WhatDivergesIsMissedAndItsOraclesWithIt) {
     const SceneFolder folder(scene_with(promises));
-    const Outcome outcome = verify(folder, {"--no-validate", "--set", "/gravity=[0,-3e38,0]", "--set", "/time/fps=1"});
+    const Outcome outcome =
+        verify(folder, {"--no-validate", "--set", "/cloths/0/velocity=[0,-3e38,0]", "--set", "/time/fps=1"});
     EXPECT_EQ(outcome.code, 7);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("MISSED  plausible: "), HasSubstr("MISSED  oracle/falls: not judged: ")));
 }

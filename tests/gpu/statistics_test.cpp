@@ -313,16 +313,21 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
     }
 }
 
-TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValues) {
-    const SimulationModel model(soft_sheet(10, 10));
+TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValuesAndExtremesAreNamed) {
+    const SimulationModel model(soft_sheet(130, 40));
+    const Grid& grid = model.cloths[0].grid;
     TwinCloth state = crumpled_state(model, 1, 0, 1);
-    state[Field::position][model.cloths[0].grid.particle(4, 4)].x = 1e30f;
-    StatisticsRun run(model);
-    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], run.record(state, 1));
+    state[Field::position][grid.particle(77, 3)].x = 1e30f;
+    for (const std::uint32_t column : {100u, 20u})  // as fast as each other: the lower index counts
+        state[Field::displacement][grid.particle(column, 29 - column / 5)] = {0, 1e3f, 0, 0};
+    const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
     EXPECT_EQ(statistics.non_finite_count, 0u);
-    EXPECT_FALSE(divergence(model, 1, {statistics}).has_value());
+    EXPECT_EQ(statistics.fastest, grid.particle(100, 9));
+    EXPECT_EQ(statistics.farthest, grid.particle(77, 3));
     FinishedFrame frame;
     frame.statistics = {statistics};
+    Watch watch(model);
+    EXPECT_EQ(frame_failure(model, watch, frame).value().particle, (std::array{77u, 2u}));  // a spring's first
     const FrameValues values = frame_values(model.scene, frame);
     EXPECT_FALSE(values.contains("sheet/distance_max_m"));
     EXPECT_TRUE(values.contains("sheet/kinetic_energy_j"));

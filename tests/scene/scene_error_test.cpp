@@ -23,6 +23,12 @@ std::string nested(std::size_t depth) {
     return "{\"cloths\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
 }
 
+std::string repeated(std::string_view text, std::size_t count) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i) all += text;
+    return all;
+}
+
 class SceneErrors : public ::testing::TestWithParam<Malformed> {};
 
 TEST_P(SceneErrors, AreExactlyThese) {
@@ -62,6 +68,18 @@ const Malformed syntax_cases[] = {
     {"OverlongUtf8", scene("\"name\": \"\xC0\x80\""), {"2:10: expected UTF-8 text, got the byte 0xC0"}},
     {"TooDeep", nested(65), {"1:75: expected at most 64 nested arrays and objects"}},
     {"FarTooDeep", nested(1'000'000), {"1:75: expected at most 64 nested arrays and objects"}},
+    {"TooManyValues",
+     "{\"cloths\": [" + repeated("0,", 8'000'000) + "0]}",
+     {"1:1000010: expected a scene of at most 500000 values"}},
+    {"TooManyKeys",
+     "{\"cloths\": [{" + repeated("\"a\":0,", 2'000'000) + "\"a\":0}]}",
+     {"1:6013: expected at most 1000 keys in an object"}},
+    {"EndlessKey",
+     "{\"cloths\": [{}],\n\"" + std::string(16'000'000, 'k') + "\": 0}",
+     {"2:1: /" + std::string(77, 'k') +
+      "...: expected one of $schema, name, time, gravity, wind, cloths, colliders, "
+      "cutters, solver, camera, lights, ambient, image, oracles, got the unknown key \"" +
+      std::string(37, 'k') + "...\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneErrors, ::testing::ValuesIn(syntax_cases), name_of);
 
@@ -302,9 +320,32 @@ const Malformed collider_cases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Colliders, SceneErrors, ::testing::ValuesIn(collider_cases), name_of);
 
+/// Method auto counts with its most substeps, 4096.
+const Malformed fall_cases[] = {
+    {"Gravity",
+     scene("\"gravity\": [0, -3e38, 0]"),
+     {"2:12: /gravity: expected less gravity: cloth \"cloth\" would fall 4.97e+27 of its edge lengths in a substep "
+      "(gravity 3e+38 m/s^2, 60 frames/s), and at most 1e+04 can be simulated"}},
+    {"FrameRate",
+     scene("\"time\": {\"fps\": 1e-10}"),
+     {"2:17: /time/fps: expected more frames per second: cloth \"cloth\" would fall 5.85e+13 of its edge lengths in a "
+      "substep (gravity 9.81 m/s^2, 1e-10 frames/s), and at most 1e+04 can be simulated"}},
+    {"DefaultFrameRate",
+     scene("\"gravity\": [0, -37000000, 0], \"solver\": {\"method\": \"relax\", \"substeps\": 1}"),
+     {"2:12: /gravity: expected less gravity: cloth \"cloth\" would fall 1.03e+04 of its edge lengths in a substep "
+      "(gravity 3.7e+07 m/s^2, 60 frames/s), and at most 1e+04 can be simulated"}},
+    {"EdgesOfNoLength",
+     "{\"time\": {\"fps\": 60}, \"cloths\": [\n{\"size\": [1e-16, 1], \"placement\": {\"origin\": [0, 0, 0], \"v\": "
+     "[0, 0, "
+     "1]}}]}",
+     {"2:1: /cloths/0: expected a cloth that single precision resolves: at 1 m from the origin it is exact to 1.19e-07 "
+      "m, more than a quarter of the edge length 1e-16 m"}},
+};
+INSTANTIATE_TEST_SUITE_P(Fall, SceneErrors, ::testing::ValuesIn(fall_cases), name_of);
+
 TEST(SceneErrorTable, HoldsAtLeastFortyScenes) {
     EXPECT_GE(std::size(syntax_cases) + std::size(key_cases) + std::size(setting_cases) + std::size(cloth_cases) +
-                  std::size(pin_cases) + std::size(collider_cases),
+                  std::size(pin_cases) + std::size(collider_cases) + std::size(fall_cases),
               40u);
 }
 

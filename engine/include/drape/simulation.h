@@ -42,13 +42,6 @@ struct FrameEffort {
     bool within_limits = true;
 };
 
-/// Why a frame is no result.
-struct FrameFailure {
-    enum class Kind { not_finite, implausible, tolerance };
-    Kind kind;
-    std::string reason;  ///< one sentence
-};
-
 /// Particles are numbered row * columns + column.
 struct FinishedFrame {
     std::uint32_t frame = 0;                         ///< shows the time frame / fps; 0 is the initial state

@@ -37,6 +37,9 @@ struct ClothStatistics {
     std::optional<std::uint32_t> iteration_count;
     std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
     std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
+    /// Indices of the particles that are farthest, fastest and deepest, and of the first of the spring with the largest
+    /// stretch error; the lowest where several are; nothing where there is none.
+    std::optional<std::uint32_t> farthest, fastest, deepest, most_stretched;
 };
 
 }  // namespace drape
