@@ -44,6 +44,8 @@ struct RunRequest {
     std::vector<std::string> formats{"png"};  ///< names of output/frame_writer.h's table
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
+    /// Seconds between checkpoints, and one where the run is stopped; nothing: none, not there either.
+    std::optional<double> checkpoint_interval = 60;
     bool keep_failed = false;  ///< go on after a frame that is no result; one that is not finite ends the run anyway
     bool quiet = false;        ///< no progress
     bool verbose = false;      ///< notes on device, plan and memory through `message`
@@ -56,11 +58,12 @@ struct RunRequest {
 };
 
 struct RunSummary {
-    std::uint64_t frame_count = 0;       ///< written by this run
-    std::uint64_t kept_count = 0;        ///< of an earlier run, kept by ExistingFiles::resume
-    std::uint64_t validation_count = 0;  ///< messages
-    bool complete = true;                ///< false: stopped before the last frame; no manifest was written
-    std::vector<std::string> dropped;    ///< formats of which a stopped run leaves nothing
+    std::uint64_t frame_count = 0;            ///< written by this run
+    std::uint64_t kept_count = 0;             ///< of an earlier run, kept by ExistingFiles::resume
+    std::uint64_t validation_count = 0;       ///< messages
+    bool complete = true;                     ///< false: stopped before the last frame; no manifest was written
+    std::optional<std::uint32_t> checkpoint;  ///< where a stopped run can go on: the next frame
+    std::vector<std::string> dropped;         ///< formats of which a stopped run leaves nothing
     std::vector<std::string> warnings;
 };
 
@@ -68,12 +71,12 @@ struct RunSummary {
 /// ToleranceMissed (where failed frames are kept, after the last), DeviceError; nothing is written before everything
 /// that can be checked up front has been.
 ///
-/// ExistingFiles::resume keeps the pictures of an earlier run of the same scene, size, samples, program, device and
-/// driver and draws the missing ones; the simulation starts anew, being deterministic. The folder then holds the
-/// bytes of an undisturbed run, but for the manifest's "run". Pictures of any other run are an OutputError.
-/// What other formats write is written anew. Files of several frames appear only when complete, or, with the frames
-/// before it, when the simulation diverged or missed its tolerance. Whether it did is seen at the frames that are
-/// written.
+/// ExistingFiles::resume goes on with an earlier run of the same scene, size, samples, program, device and driver: from
+/// its newest checkpoint (engine/docs/checkpoint.md), or, where there is none that serves, from frame 0, keeping the
+/// pictures. The folder then holds the bytes of an undisturbed run, but for the manifest's "run". Pictures and
+/// checkpoints of any other run are an OutputError. Files of several frames appear only when complete, or, with the
+/// frames before it, when the simulation diverged or missed its tolerance. Whether it did is seen at the frames that
+/// are written.
 RunSummary run_scene(const RunRequest& request);
 
 /// The scene as it is asked for. Throws SceneFailure.

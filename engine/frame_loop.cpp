@@ -132,7 +132,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
         new_resources = new_resources || outgrown(hit.before, topology);
         if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, topology);
     }
-    if (new_resources) return rebuild_resources();
+    if (new_resources) return rebuild_resources(solver_.download_state(*pool_));
     for (const Hit& hit : hits) solver_.upload_cut(*pool_, hit.cloth, hit.before);
     if (hits.empty() || !options_.draw) return;
     build_graphs();  // how much is drawn is part of the recording
@@ -147,8 +147,7 @@ bool FrameLoop::outgrown(const CutImages& before, const CutTopology& topology) c
                              other_size(before.vertex_count, topology.vertices().size()));
 }
 
-void FrameLoop::rebuild_resources() {
-    const auto state = solver_.download_state(*pool_);
+void FrameLoop::rebuild_resources(const SimulationState& state) {
     for (Frame& frame : frames_) frame.recorded.reset();
     rungs_.clear();
     attempts_ = {};

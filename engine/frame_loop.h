@@ -91,6 +91,12 @@ class FrameLoop {
 
     /// 0 in the beginning.
     std::uint32_t next_frame() const { return next_frame_; }
+    /// Every frame that was simulated was handed out.
+    bool can_save() const { return withheld_.empty() && (!control_ || next_frame_ >= simulated_); }
+    /// What next_frame() starts from; only then.
+    SimulationState save() const;
+    /// Takes over what another loop of the same model saved. Throws Error when it is not that.
+    void restore(const SimulationState& state);
     /// Three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
@@ -135,7 +141,11 @@ class FrameLoop {
     void record();
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
     bool outgrown(const CutImages& before, const CutTopology& topology) const;
-    void rebuild_resources();
+    void rebuild_resources(const SimulationState& state);
+    // loop_state.cpp
+    template <class Archive>
+    void transfer(Archive& archive);
+    void restore_cuts(const SimulationState& state);
     Frame build(FrameKind kind, const SimulationModel& run);
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);

@@ -88,6 +88,23 @@ std::optional<double> RunStatistics::worst_of_run(std::string_view name) const {
     return largest;
 }
 
+std::optional<std::string> RunStatistics::unpredictable() const {
+    std::size_t count = 0;
+    std::uint32_t first = 0;
+    double worst_error = 0;
+    for (const auto& [frame, values] : frames_) {
+        if (!values.contains("motion_unpredictable")) continue;
+        if (count++ == 0) first = frame;
+        if (const auto error = values.find("motion_error_m_s"); error != values.end())
+            worst_error = std::max(worst_error, error->second);
+    }
+    if (count == 0) return std::nullopt;
+    return fmt::format(
+        "in {} of {} frames, from frame {} on, method auto did not keep the limit of the motion's error (it came to "
+        "{:.3g} m/s): more substeps do not reduce it, as where cloth crumples; the stretch error is kept",
+        count, frames_.size(), first, worst_error);
+}
+
 std::string RunStatistics::note(std::uint32_t frame) const {
     const FrameValues& values = frames_.at(frame);
     std::vector<std::string> parts;

@@ -34,6 +34,10 @@ class RunStatistics {
     /// The largest value, of any frame and cloth, of "<cloth>" + `name`.
     std::optional<double> worst_of_run(std::string_view name) const;
 
+    /// What to say of the frames in which method `auto` did not keep the motion's error, since more substeps do not
+    /// reduce it; nothing when there is none.
+    std::optional<std::string> unpredictable() const;
+
   private:
     std::optional<double> energy_drift(const FrameValues& values) const;
     std::map<std::uint32_t, FrameValues> frames_;

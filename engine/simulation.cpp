@@ -151,6 +151,11 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
     return parts_->loop.run(last, wanted, checked, stop);
 }
 
+std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame(); }
+bool Simulation::can_save() const { return parts_->loop.can_save(); }
+SimulationState Simulation::save() const { return parts_->loop.save(); }
+void Simulation::restore(const SimulationState& state) { parts_->loop.restore(state); }
+
 const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
 
 std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {

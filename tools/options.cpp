@@ -65,6 +65,17 @@ std::string format_help(bool drawn) {
     return text;
 }
 
+std::string set_checkpoint(const std::string& text, RunRequest& request) {
+    request.checkpoint_interval.reset();
+    if (text == "never") return {};
+    double seconds = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    if (error != std::errc{} || end != text.data() + text.size() || !(seconds >= 0 && seconds < 1e9))
+        return fmt::format("expected seconds, 0 or more, or never, got '{}'", text);
+    request.checkpoint_interval = seconds;
+    return {};
+}
+
 /// --export: beside the pictures, or instead of what `request` has.
 void add_export_option(CLI::App& command, RunRequest& request) {
     const bool drawn = request.draws();
@@ -237,13 +248,21 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     command
         .add_flag_callback(
             "--resume", [&request] { request.existing = ExistingFiles::resume; },
-            request.draws() ? "Keep the pictures that an unfinished run of the same scene, size, samples,\n"
-                              "program, device and driver left there, and draw the missing ones; the result\n"
-                              "has the bytes of an undisturbed run. Refused, changing nothing, when a\n"
-                              "picture there is any other's"
-                            : "Run again in the folder of an unfinished run of the same scene, program,\n"
-                              "device and driver: arrays appear only when complete")
+            request.draws() ? "Go on with an unfinished run of the same scene, size, samples, program, device\n"
+                              "and driver: from its newest checkpoint, or, without one, keeping its pictures,\n"
+                              "from frame 0. The result has the bytes of an undisturbed run. Refused,\n"
+                              "changing nothing, when a picture or checkpoint there is another run's or\n"
+                              "damaged"
+                            : "Go on with an unfinished run of the same scene, program, device and driver:\n"
+                              "from its newest checkpoint, or, without one, from frame 0. The result has the\n"
+                              "bytes of an undisturbed run. Refused, changing nothing, when a checkpoint\n"
+                              "there is another run's or damaged")
         ->excludes(overwrite);
+    add_option(command, "--checkpoint", "SECONDS|never",
+               "How often what it takes to go on is written beside the results, and where the\n"
+               "run is stopped by a signal; --resume goes on from there. Gone when the run is\n"
+               "done. Default: 60",
+               [&request](const std::string& text) { return set_checkpoint(text, request); });
     CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")
         ->excludes(quiet);

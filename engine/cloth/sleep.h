@@ -27,6 +27,12 @@ class Sleep {
     /// the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
     bool asleep(std::uint32_t frame);
 
+    /// As SubstepControl's.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        archive(speeds_);
+    }
+
   private:
     const SimulationModel& model_;
     std::deque<double> speeds_;  ///< the worst cloth's over its limit, of the last second's frames

@@ -2,6 +2,7 @@
 // propose where it begins. The device's loop and the C++ twin's ask the same object, so they decide the same. Pure.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -51,6 +52,16 @@ class SubstepControl {
     bool at_top() const { return tried_ + 1 == rungs_.size(); }
     /// The frames are kept although the last judgement says no.
     void keep_anyway();
+
+    /// Hands everything that changes to `archive(members...)`, which writes or reads it (byte_stream.h): between
+    /// segments. Whether what was read can be.
+    template <class Archive>
+    bool transfer(Archive& archive) {
+        archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
+                probed_.motion, top_motion_, hopeless_, only_motion_failed_, turned_back_, segment_.substeps,
+                segment_.frame_count, segment_.probes, interval_, until_probe_, since_fewer_, patience_, easy_);
+        return std::max({rung_, began_, tried_, only_motion_failed_.value_or(0)}) < rungs_.size() && rung_ >= lowest_;
+    }
 
   private:
     std::size_t rung_of(double substeps) const;

@@ -21,6 +21,7 @@ class PngWriter : public FrameWriter {
         sequence_.submit(frame.number, width_, height_, std::move(rgba), frame.values);
     }
 
+    void flush() override { sequence_.flush(); }
     std::vector<FileRecord> finish() override { return sequence_.finish(); }
 
   private:

@@ -66,6 +66,8 @@ class FrameWriter {
     virtual void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
         (void)frame, (void)cloth, (void)faces;
     }
+    /// Waits until the files of the single frames added so far are whole.
+    virtual void flush() {}
     /// The files written, of the frames added so far. Nothing may be added after.
     virtual std::vector<FileRecord> finish() = 0;
 };

@@ -131,6 +131,20 @@ Json::Value run_json(const Manifest& manifest) {
     return json;
 }
 
+/// A number that is not finite is left out: JSON has none for it, and the sentence says it.
+Json::Value failed_frame_json(const FrameFailure& failure) {
+    Json::Value json;
+    json["frame"] = failure.frame;
+    if (!failure.cloth.empty()) json["cloth"] = failure.cloth;
+    if (failure.particle)
+        for (const std::uint32_t index : *failure.particle) json["particle"].append(index);
+    if (failure.criterion.empty()) return json;
+    json["criterion"] = failure.criterion;
+    if (std::isfinite(failure.value)) json["value"] = failure.value;
+    if (std::isfinite(failure.bound)) json["bound"] = failure.bound;
+    return json;
+}
+
 }  // namespace
 
 std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double> milliseconds) {
@@ -168,6 +182,8 @@ std::string manifest_json(const Manifest& manifest) {
     json["program_version"] = manifest.program_version;
     json["status"] = manifest.status;
     if (!manifest.failure.empty()) json["failure"] = manifest.failure;
+    if (!manifest.capsule.empty()) json["capsule"] = manifest.capsule;
+    if (manifest.failed_frame) json["failed"] = failed_frame_json(*manifest.failed_frame);
     json["scene"] = scene_json(manifest.scene);
     json["device"] = device_json(manifest.device);
     json["frames"] = frames_json(manifest.frames);

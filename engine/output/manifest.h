@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/error.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
 #include "output/output_folder.h"
@@ -85,9 +86,13 @@ struct Manifest {
     };
 
     std::string program_version;
-    std::string status = "done";  // "diverged", "tolerance missed": ended before its end, with what came before
-    std::string failure;          // then why
-    std::string run_key;          // kept_frames.h
+    // "diverged", "tolerance missed": ended before its end, with what came before, or went on as it was asked to;
+    // "device failed", "output failed", "out of memory", "internal error": broke off; "validation messages"
+    std::string status = "done";
+    std::string failure;                       // then why
+    std::string capsule;                       // file that replays it; empty: there is none
+    std::optional<FrameFailure> failed_frame;  // where a frame was no result
+    std::string run_key;                       // kept_frames.h
     Scene scene;
     Device device;
     Frames frames;

@@ -54,11 +54,16 @@ void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t
     frame_waits_.notify_one();
 }
 
-std::vector<FileRecord> PngSequence::finish() {
+void PngSequence::flush() {
     std::unique_lock lock(mutex_);
-    finished_ = true;
     frame_done_.wait(lock, [this] { return pending_count_ == 0; });
     if (error_) std::rethrow_exception(error_);
+}
+
+std::vector<FileRecord> PngSequence::finish() {
+    flush();
+    const std::scoped_lock lock(mutex_);
+    finished_ = true;
     std::ranges::sort(records_, {}, &FileRecord::name);
     return records_;
 }

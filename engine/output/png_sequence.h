@@ -39,6 +39,9 @@ class PngSequence {
     void submit(std::uint64_t frame, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba,
                 FrameValues values = {});
 
+    // Waits for all frames. Throws a worker's error.
+    void flush();
+
     // Waits for all frames; the files written, by name. Throws a worker's error. Nothing may be submitted
     // after.
     std::vector<FileRecord> finish();

@@ -1,4 +1,5 @@
 // A simulation that is no longer finite: exit code 5, with what came before.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,11 +13,14 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Falls 3e38 m in the first second, and out of single precision in the next ones.
-const std::vector<std::string> overflowing = {
-    "--set", "/gravity=[0,-3e38,0]",       "--set", "/time/fps=1",   "--set", "/solver/substeps=1",
-    "--set", "/cloths/0/pins=[]",          "--set", "/colliders={}", "--set", "/cloths/0/stiffness/stretch=0",
-    "--set", "/cloths/0/stiffness/shear=0"};
+// Flies 3e38 m in the first second, and out of single precision in the next one.
+const std::vector<std::string> overflowing = {"--set", "/cloths/0/velocity=[0,-3e38,0]",
+                                              "--set", "/time/fps=1",
+                                              "--set", "/solver/substeps=1",
+                                              "--set", "/cloths/0/pins=[]",
+                                              "--set", "/colliders={}",
+                                              "--set", "/cloths/0/stiffness/stretch=0",
+                                              "--set", "/cloths/0/stiffness/shear=0"};
 
 Outcome run_overflowing(const SceneFolder& folder, const std::vector<std::string>& more,
                         const std::string& command = "simulate") {
@@ -30,12 +34,11 @@ TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
     const SceneFolder folder(small_scene(9));
     const Outcome outcome = run_overflowing(folder, {});
     EXPECT_EQ(outcome.code, 5) << outcome.err;
-    // Semi-implicit: frame 1 has fallen g, frame 2 would have fallen 3 g = 9e38 > 3.4e38.
     EXPECT_THAT(outcome.err,
                 AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
                       HasSubstr("the particle in column 0, row 0 is not finite"),
                       HasSubstr("(48 of the cloth's 48 particles are not)"), HasSubstr("(2 of 9 frames)")));
-    ASSERT_THAT(names_in(folder.out()), ElementsAre("manifest.json", "positions.npy", "positions.npz"));
+    ASSERT_THAT(names_in(folder.out()), ElementsAre("failure.capsule", "manifest.json", "positions.npy", "positions.npz"));
     EXPECT_THAT(read_text(folder / "out/manifest.json"),
                 AllOf(HasSubstr("\"status\": \"diverged\""), HasSubstr("is not finite")));
     const std::string array = read_text(folder / "out/positions.npy");
@@ -49,13 +52,21 @@ TEST(Divergence, StopsARenderToo) {
     EXPECT_EQ(outcome.code, 5) << outcome.err;
     EXPECT_THAT(outcome.err,
                 AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"), HasSubstr("(2 of 9 frames)")));
-    EXPECT_THAT(names_in(folder.out()), ElementsAre("frame_0000.png", "frame_0001.png", "manifest.json"));
+    EXPECT_THAT(names_in(folder.out()),
+                ElementsAre("failure.capsule", "frame_0000.png", "frame_0001.png", "manifest.json"));
 }
 
-TEST(Divergence, WithNoFrameBeforeLeavesNothing) {
+TEST(Divergence, WithNoFrameBeforeLeavesTheReason) {
     const SceneFolder folder(small_scene(9));
     EXPECT_EQ(run_overflowing(folder, {"-s", "4"}).code, 5);
-    EXPECT_THAT(names_in(folder.path()), ElementsAre("scene.json"));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("failure.capsule", "manifest.json"));
+    const Json::Value manifest = lasting_manifest(folder.out());
+    EXPECT_EQ(manifest["status"], "diverged");
+    EXPECT_EQ(manifest["failed"]["frame"], 4);
+    EXPECT_EQ(manifest["failed"]["cloth"], "sheet");
+    EXPECT_EQ(manifest["failed"]["particle"].size(), 2u);
+    EXPECT_EQ(manifest["failed"]["criterion"], "particles that are not finite");
+    EXPECT_EQ(manifest["failed"]["value"], 48);
 }
 
 /// Gravity that one relaxed substep of these springs cannot carry.
@@ -71,8 +82,15 @@ TEST(Divergence, WhatIsFiniteButNotPlausibleIsNoResult) {
     const SceneFolder folder(small_scene(9));
     const Outcome outcome = drape(simulate_absurd(folder));
     EXPECT_EQ(outcome.code, 5) << outcome.err;
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("not plausible: in frame 1, cloth 'sheet', the stretch error of a spring"),
-                                   HasSubstr("(1 of 9 frames)")));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("not plausible: in frame 1, cloth 'sheet', the particle in column "),
+                                   HasSubstr("begins a spring whose stretch error is "), HasSubstr("(1 of 9 frames)")));
+    const Json::Value failed = lasting_manifest(folder.out())["failed"];
+    EXPECT_EQ(failed["frame"], 1);
+    EXPECT_EQ(failed["cloth"], "sheet");
+    EXPECT_EQ(failed["criterion"], "stretch error of a spring");
+    EXPECT_GT(failed["value"].asDouble(), failed["bound"].asDouble());
+    EXPECT_THAT(outcome.err, HasSubstr(fmt::format("column {}, row {} ", failed["particle"][0].asUInt(),
+                                                   failed["particle"][1].asUInt())));
     EXPECT_THAT(read_text(folder / "out/positions.npy"), HasSubstr("'shape': (1, 6, 8, 3)"));
 }
 

@@ -8,7 +8,8 @@ void add_render(Program& program) {
     const auto request = std::make_shared<RunRequest>();
     const auto run = [=, &program] { return run_into_folder(*request, program.arguments()); };
     CLI::App& command = program.add("render", "Simulate a scene and draw it: PNG files and manifest.json", R"text(
-Writes frame_0000.png ... (8-bit sRGB) and, last, manifest.json: a folder that has one is done.
+Writes frame_0000.png ... (8-bit sRGB) and, last, manifest.json: a folder that has one has ended, as
+its "status" says.
 
 Examples:
   drape render scenes/cloth_on_sphere.json -o out/sphere

@@ -44,7 +44,9 @@ ExitCode run_into_folder(RunRequest request, const std::vector<std::string>& com
         if (!summary.dropped.empty())
             left += fmt::format("{}, incomplete, dropped; ", fmt::join(summary.dropped, ", "));
         return report_stop(left + "no manifest was written" +
-                           (request.draws() ? "; --resume draws the missing ones" : ""));
+                           (summary.checkpoint ? fmt::format("; --resume goes on from frame {}", *summary.checkpoint)
+                            : request.draws()  ? "; --resume draws the missing ones"
+                                               : ""));
     }
     if (summary.validation_count > 0) return report_validation(summary.validation_count);
     const std::string kept = summary.kept_count > 0 ? fmt::format(" ({} of them kept)", summary.kept_count) : "";

@@ -2,9 +2,11 @@
 // nothing (but validation messages, where they are asked for), and knows no command line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -113,6 +115,9 @@ struct ResourceMemory {
     std::uint64_t bytes = 0;  ///< all copies
 };
 
+/// What the frames of a simulation from some frame on depend on, besides its scene: named parts (engine/docs/checkpoint.md).
+using SimulationState = std::map<std::string, std::vector<std::byte>>;
+
 class Simulation {
   public:
     /// Throws DeviceError when the scene does not fit the device, before anything is allocated, and SceneFailure for
@@ -134,6 +139,17 @@ class Simulation {
     /// begun. Returns whether it came to `last`.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
+
+    /// That the next step or run begins with; 0 in the beginning.
+    std::uint32_t next_frame() const;
+    /// Whether `save` can be called: not while method `auto` has frames that it handed out in part. Within `stop` this
+    /// says whether it can be once `run` has returned.
+    bool can_save() const;
+    /// For a simulation of the same scene, options and device to go on from here to the same bits.
+    SimulationState save() const;
+    /// Takes over what another one saved. Throws Error, after which this simulation is over, when it was not of such a
+    /// scene.
+    void restore(const SimulationState& state);
 
     /// As it runs: a method and substeps that it left to choose are chosen.
     const SceneDescription& scene() const;

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/checkpoint_names.h"
+#include "output/file_descriptor.h"
+#include "output/kept_frames.h"
+#include "output/output_folder.h"
+
+namespace drape {
+
+// A frame that was handed to the writers, or a cut, in the order in which they were told of them.
+struct JournalRecord {
+    enum class Kind : std::uint32_t { frame, cut };
+    Kind kind = Kind::frame;
+    std::uint32_t frame = 0;
+    FrameValues values{};  // of a frame
+    // Of a frame, per cloth: x y z w of every particle; empty where no format needs them.
+    std::vector<std::vector<float>> positions{}, velocities{};
+    std::uint32_t cloth = 0, springs = 0, triangles = 0;  // of a cut
+    std::vector<std::uint32_t> faces{};                   // of a cut
+};
+
+// What the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same (its
+// arrays appear only when complete). Short runs never write it: records wait in memory until there is a checkpoint, or
+// too many of them. Every member throws OutputError.
+class Journal {
+  public:
+    Journal(OutputFolder& folder, std::string run_key) : folder_(folder), run_key_(std::move(run_key)) {}
+
+    void add(const JournalRecord& record);
+    // Everything added is on the disk; the file's length.
+    std::uint64_t sync();
+
+    // The records of the first `length` bytes, in order. Throws OutputError naming the file when it is not this run's,
+    // or damaged.
+    void read(std::uint64_t length, const std::function<void(JournalRecord&&)>& take) const;
+    // Goes on behind the first `length` bytes of the file; what follows them goes.
+    void go_on_behind(std::uint64_t length);
+
+  private:
+    void open_file(bool keep);
+    void write_waiting();
+
+    OutputFolder& folder_;
+    std::string run_key_;
+    FileDescriptor file_;
+    std::uint64_t length_ = 0;  // written
+    std::vector<std::byte> waiting_;
+};
+
+}  // namespace drape

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drape {
+
+// A file of named parts with a checksum (engine/docs/checkpoint.md).
+using Sections = std::map<std::string, std::vector<std::byte>>;
+
+struct SectionFormat {
+    std::string_view magic;  // 8 bytes
+    std::string_view what;   // "checkpoint"
+    std::uint32_t version;
+};
+
+inline constexpr SectionFormat checkpoint_format{"DRAPECKP", "checkpoint", 1};
+inline constexpr SectionFormat capsule_format{"DRAPECAP", "capsule", 1};
+
+std::vector<std::byte> encode_sections(const SectionFormat& format, const Sections& sections);
+
+// Throws OutputError with what is wrong, to be put behind the file's name: "is no checkpoint", "is damaged: its
+// checksum does not fit" (also when it was cut short), "is a checkpoint of version 2, and this program reads 1".
+Sections decode_sections(const SectionFormat& format, std::span<const std::byte> bytes);
+
+}  // namespace drape

@@ -1,0 +1,239 @@
+// Killed runs go on from their checkpoints to the bytes of a run that was never disturbed; what is no such checkpoint
+// is refused, and nothing is changed.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+/// Method auto, a ball that flies through, a pin that lets go, a blade, two cloths.
+std::string eventful_scene(int frame_count) {
+    return fmt::format(R"({{
+  "time": {{"fps": 60, "frames": {}}},
+  "wind": {{"velocity": [2, 0, 1], "gust": {{"amplitude": 1}}}},
+  "cloths": [
+    {{"name": "a", "grid": [10, 9], "size": [0.5, 0.4], "placement": {{"origin": [0, 1, 0]}}, "areal_density": 0.2,
+      "pins": [{{"corner": "top_left"}}, {{"corner": "top_right", "release": 0.25}}]}},
+    {{"name": "b", "grid": [8, 7], "size": [0.3, 0.4], "placement": {{"origin": [0, 1, 0.3]}}, "areal_density": 0.2,
+      "pins": [{{"edge": "top"}}]}}],
+  "colliders": {{"spheres": [{{"center": [0.2, 0.8, 0.6], "radius": 0.1,
+                              "path": [{{"t": 0}}, {{"t": 0.4, "translate": [0, 0, -0.9]}}]}}]}},
+  "cutters": [{{"triangle": [[-0.1, 0.8, -1], [0.5, 0.75, 1], [-0.1, 0.78, 1]], "active": [0.08, 0.2]}}],
+  "image": {{"size": [48, 32], "samples": 1}}
+}})",
+                       frame_count);
+}
+
+/// The frames that checkpoints in the folder go on from, ascending.
+std::vector<int> checkpoints_in(const fs::path& folder) {
+    std::vector<int> frames;
+    if (!fs::exists(folder)) return frames;
+    for (const std::string& name : names_in(folder))
+        if (name.starts_with("checkpoint_") && name.ends_with(".drape")) frames.push_back(std::stoi(name.substr(11)));
+    std::ranges::sort(frames);
+    return frames;
+}
+
+std::string checkpoint_name(int frame) { return fmt::format("checkpoint_{:010}.drape", frame); }
+
+/// Starts it and kills it once a checkpoint of frame `least` or later is there; that of the newest one.
+int kill_after(int least, const SceneFolder& folder, std::vector<std::string> arguments, int signal = SIGKILL) {
+    arguments.insert(arguments.end(), {"-q", "--checkpoint", "0"});
+    Running program(DRAPE_PROGRAM, arguments);
+    const auto there = [&] {
+        const auto frames = checkpoints_in(folder.out());
+        return !frames.empty() && frames.back() >= least;
+    };
+    EXPECT_TRUE(program.wait_until(there)) << program.wait().err;
+    program.send(signal);
+    EXPECT_EQ(program.wait().code, 128 + signal);
+    const auto frames = checkpoints_in(folder.out());
+    EXPECT_FALSE(frames.empty());
+    EXPECT_LE(frames.size(), 3u);  // two, and one that was about to go
+    return frames.empty() ? 0 : frames.back();
+}
+
+void expect_whole(const SceneFolder& folder, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", folder.out("whole"), "-q"});
+    ASSERT_EQ(drape(arguments).code, 0);
+    EXPECT_EQ(lasting_manifest(folder.out()), lasting_manifest(folder.out("whole")));
+    auto files = everything_below(folder.out()), whole = everything_below(folder.out("whole"));
+    files.erase("manifest.json");
+    whole.erase("manifest.json");
+    EXPECT_EQ(files, whole);
+}
+
+struct Kill {
+    const char* name;
+    std::vector<std::string> command;
+    std::vector<int> after;
+    int signal = SIGKILL;
+};
+void PrintTo(const Kill& each, std::ostream* out) { *out << each.name; }
+class CheckpointKills : public testing::TestWithParam<Kill> {};
+
+TEST_P(CheckpointKills, EndWithTheBytesOfAnUnbrokenRun) {
+    const SceneFolder folder(eventful_scene(9000));
+    std::vector<std::string> arguments = GetParam().command;
+    arguments.insert(arguments.begin() + 1, folder.scene());
+    std::vector<std::string> into = arguments;
+    into.insert(into.end(), {"-o", folder.out()});
+    int newest = 0;
+    for (const int least : GetParam().after) {
+        newest = kill_after(least, folder, into, GetParam().signal);
+        if (into.back() != "--resume") into.push_back("--resume");
+    }
+    const std::string end = std::to_string(newest + 4);
+    into.insert(into.end(), {"-e", end});
+    const Outcome resumed = drape(into);
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr(fmt::format("goes on from the checkpoint of frame {}", newest)));
+    arguments.insert(arguments.end(), {"-e", end});
+    expect_whole(folder, arguments);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Of, CheckpointKills,
+    testing::Values(Kill{"Pictures", {"render"}, {3, 20}}, Kill{"Arrays", {"simulate"}, {2, 9, 24}},
+                    Kill{"EverySort", {"render", "--export", "npy,npz,pc2,obj", "-j", "2"}, {11}},
+                    Kill{"ArraysTerminated", {"simulate", "--export", "npz", "-s", "4"}, {15}, SIGTERM}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
+    const SceneFolder folder(eventful_scene(9000));
+    Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out(), "-q"});
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "out/frame_0006.png"); })) << program.wait().err;
+    EXPECT_TRUE(checkpoints_in(folder.out()).empty()) << "a minute has not passed";
+    program.send(SIGTERM);
+    const Outcome stopped = program.wait();
+    EXPECT_EQ(stopped.code, 143);
+    ASSERT_EQ(checkpoints_in(folder.out()).size(), 1u);
+    const int next = checkpoints_in(folder.out())[0];
+    EXPECT_THAT(stopped.err, HasSubstr(fmt::format("--resume goes on from frame {}", next)));
+    const std::string end = std::to_string(next + 2);
+    ASSERT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "-q", "--resume", "-e", end}).code, 0);
+    EXPECT_TRUE(checkpoints_in(folder.out()).empty());
+    EXPECT_FALSE(fs::exists(folder / "out/journal.drape"));
+}
+
+TEST(Checkpoint, NeverIsNone) {
+    const SceneFolder folder(eventful_scene(9000));
+    Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out(), "--checkpoint", "never"});
+    ASSERT_TRUE(program.wait_until([&] { return fs::exists(folder / "out/frame_0006.png"); })) << program.wait().err;
+    program.send(SIGINT);
+    const Outcome stopped = program.wait();
+    EXPECT_EQ(stopped.code, 130);
+    EXPECT_THAT(stopped.err, HasSubstr("--resume draws the missing ones"));
+    EXPECT_TRUE(checkpoints_in(folder.out()).empty());
+    EXPECT_EQ(drape({"render", folder.scene(), "-o", folder.out("other"), "--checkpoint", "-1"}).code, 2);
+}
+
+class DamagedCheckpoint : public testing::Test {
+  protected:
+    DamagedCheckpoint() : folder_(eventful_scene(9000)) {
+        newest_ = kill_after(8, folder_, {"simulate", folder_.scene(), "-o", folder_.out()});
+        frames_ = checkpoints_in(folder_.out());
+    }
+    Outcome resume(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments{
+            "simulate", folder_.scene(), "-o", folder_.out(), "--resume", "-e", std::to_string(newest_ + 2)};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return drape(arguments);
+    }
+    void expect_refused(const std::vector<std::string>& more, const std::string& why) const {
+        const auto before = everything_below(folder_.out());
+        const Outcome outcome = resume(more);
+        EXPECT_EQ(outcome.code, 1) << outcome.err;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot resume"), HasSubstr(why)));
+        EXPECT_EQ(everything_below(folder_.out()), before);
+    }
+    void change(const std::string& name, const std::function<void(std::string&)>& how) const {
+        std::string bytes = read_text(folder_ / "out" / name);
+        how(bytes);
+        write_text(folder_ / "out" / name, bytes);
+    }
+    void change_checkpoints(const std::function<void(std::string&)>& how) const {
+        for (const int frame : frames_) change(checkpoint_name(frame), how);
+    }
+
+    SceneFolder folder_;
+    int newest_ = 0;
+    std::vector<int> frames_;
+};
+
+TEST_F(DamagedCheckpoint, AFlippedByteAnywhereMakesItUnusable) {
+    const std::size_t size = read_text(folder_ / "out" / checkpoint_name(newest_)).size();
+    for (const double place : {0.0, 0.0001, 0.3, 0.9, 0.99999}) {
+        const auto flip = [&](std::string& bytes) {
+            bytes[static_cast<std::size_t>(place * static_cast<double>(size))] ^= 4;
+        };
+        change_checkpoints(flip);
+        expect_refused({}, "remove the checkpoint_*.drape files");
+        change_checkpoints(flip);
+    }
+    EXPECT_EQ(resume().code, 0);
+}
+
+TEST_F(DamagedCheckpoint, ShortenedForeignAndOfAnotherVersion) {
+    const std::string good = read_text(folder_ / "out" / checkpoint_name(newest_));
+    const auto with = [&](const std::string& text, const std::string& why) {
+        change_checkpoints([&](std::string& bytes) { bytes = text; });
+        expect_refused({}, why);
+    };
+    for (const std::size_t length : {std::size_t{9}, good.size() / 2, good.size() - 1})
+        with(good.substr(0, length), "is damaged");
+    with("", "is no checkpoint");
+    with("something else", "is no checkpoint");
+    std::string later = good;
+    later[8] = 2;
+    with(later, "is a checkpoint of version 2, and this program reads 1");
+    change_checkpoints([&](std::string& bytes) { bytes = good; });
+    expect_refused({"--set", "/gravity=[0,-1,0]"}, "was left by another run");
+}
+
+TEST_F(DamagedCheckpoint, TheOlderOneServesAndThatIsSaid) {
+    ASSERT_GE(frames_.size(), 2u);
+    change(checkpoint_name(newest_), [](std::string& bytes) { bytes.resize(bytes.size() / 2); });
+    const Outcome outcome = resume();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr(checkpoint_name(newest_)), HasSubstr("is damaged"),
+                      HasSubstr(fmt::format("goes on from the checkpoint of frame {}", frames_[frames_.size() - 2]))));
+    expect_whole(folder_, {"simulate", folder_.scene(), "-e", std::to_string(newest_ + 2)});
+}
+
+TEST_F(DamagedCheckpoint, SoIsOneWhoseJournalIs) {
+    change("journal.drape", [](std::string& bytes) { bytes[bytes.size() / 3] ^= 1; });
+    expect_refused({}, "journal.drape' is damaged at byte ");
+    fs::remove(folder_ / "out/journal.drape");
+    expect_refused({}, "journal.drape");
+    for (const int frame : frames_) fs::remove(folder_ / "out" / checkpoint_name(frame));
+    const Outcome outcome = resume();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, Not(HasSubstr("checkpoint")));
+}
+
+TEST(Checkpoint, IsNoUseWhereAPictureBeforeItIsGone) {
+    const SceneFolder folder(eventful_scene(9000));
+    const int newest = kill_after(7, folder, {"render", folder.scene(), "-o", folder.out()});
+    fs::remove(folder / "out/frame_0002.png");
+    const std::string end = std::to_string(newest + 2);
+    const Outcome resumed = drape({"render", folder.scene(), "-o", folder.out(), "--resume", "-e", end});
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("everything is simulated again, from frame 0"));
+    expect_whole(folder, {"render", folder.scene(), "-e", end});
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,180 @@
+// A simulation that takes over what another one saved goes on to the same bits: positions, statistics, pictures, cuts.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+
+#include "drape/simulation.h"
+
+namespace drape {
+namespace {
+
+/// Its messages fail the tests at their end.
+const Device& validated() {
+    static const Device device("", Validation::count);
+    return device;
+}
+
+class NoMessages : public testing::Environment {
+    void TearDown() override { EXPECT_EQ(validated().validation_count(), 0u); }
+};
+[[maybe_unused]] const auto* const no_messages = testing::AddGlobalTestEnvironment(new NoMessages);
+
+/// What a frame was, as far as it may be compared.
+struct Seen {
+    std::vector<std::vector<float>> positions;
+    std::vector<std::uint8_t> rgba;
+    std::vector<double> statistics;
+    std::uint32_t substeps, attempts;
+    bool asleep;
+    bool operator==(const Seen&) const = default;
+};
+
+Seen seen(const FinishedFrame& frame) {
+    Seen result{{},
+                {frame.rgba.begin(), frame.rgba.end()},
+                {},
+                frame.effort.substeps,
+                frame.effort.attempts,
+                frame.effort.asleep};
+    for (const auto& cloth : frame.positions) result.positions.emplace_back(cloth.begin(), cloth.end());
+    for (const ClothStatistics& s : frame.statistics)
+        result.statistics.insert(
+            result.statistics.end(),
+            {s.stretch.rms, s.shear.rms, s.stretch_error_rms, s.stretch_error_max, s.kinetic_energy, s.potential_energy,
+             s.elastic_energy, s.largest_distance, s.largest_speed, s.penetration.value_or(0),
+             double(s.iteration_count.value_or(0)), double(s.fastest.value_or(0))});
+    return result;
+}
+
+using Frames = std::map<std::uint32_t, Seen>;
+struct Told {
+    Frames frames;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // after the cut found in a frame, of the last cloth cut
+};
+
+SimulationOptions options_of(Told& told, bool draw) {
+    SimulationOptions options;
+    options.draw = draw;
+    options.keep_promises = false;
+    options.on_cut = [&told](const Cut& cut) { told.faces[cut.frame] = cut.faces; };
+    return options;
+}
+
+/// From the next frame on, with the states that could be saved, by their next frame.
+void run(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationState>* states = nullptr) {
+    const std::uint32_t last = simulation.scene().time.frame_count - 1;
+    std::uint32_t paused = 0;
+    const auto pause = [&] { return states && simulation.can_save() && simulation.next_frame() > paused; };
+    while (!simulation.run(
+        last, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) { told.frames.insert_or_assign(frame.frame, seen(frame)); }, pause)) {
+        paused = simulation.next_frame();
+        (*states)[paused] = simulation.save();
+    }
+}
+
+struct Case {
+    const char* name;
+    const char* scene;
+    bool draw = false;
+};
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+
+class SimulationStateTest : public testing::TestWithParam<Case> {};
+
+TEST_P(SimulationStateTest, GoesOnToTheSameBitsWhereverItWasTaken) {
+    const SceneDescription scene = parse_scene(GetParam().scene);
+    Told whole, paused;
+    {
+        Simulation simulation(scene, options_of(whole, GetParam().draw), validated());
+        run(simulation, whole);
+    }
+    std::map<std::uint32_t, SimulationState> states;
+    {
+        Simulation simulation(scene, options_of(paused, GetParam().draw), validated());
+        run(simulation, paused, &states);
+    }
+    EXPECT_EQ(paused.frames, whole.frames) << "saving changes something";
+    ASSERT_GE(states.size(), 5u);
+    const std::size_t stride = states.size() / 5;
+    std::size_t index = 0;
+    for (const auto& [next, state] : states) {
+        if (index++ % stride != 0 && next != states.rbegin()->first) continue;
+        Told rest;
+        Simulation simulation(scene, options_of(rest, GetParam().draw), validated());
+        simulation.restore(state);
+        EXPECT_EQ(simulation.next_frame(), next);
+        EXPECT_EQ(simulation.save(), state) << "from frame " << next;
+        run(simulation, rest);
+        const auto from = whole.frames.find(next);
+        ASSERT_NE(from, whole.frames.end());
+        EXPECT_TRUE(rest.frames == Frames(from, whole.frames.end())) << "from frame " << next;
+        for (const auto& [frame, faces] : rest.faces) EXPECT_EQ(faces, whole.faces.at(frame)) << "cut in " << frame;
+    }
+}
+
+// `auto` changes its substeps where the ball hits; pins that let go begin a probe; two cloths, one with a hole.
+constexpr const char* closed_loop_scene =
+    R"({"time": {"fps": 60, "frames": 41}, "wind": {"velocity": [2, 0, 1], "gust": {"amplitude": 1}},
+  "cloths": [{"grid": [17, 14], "size": [0.6, 0.5], "placement": {"origin": [0, 1, 0]}, "areal_density": 0.2,
+              "pins": [{"corner": "top_left"}, {"corner": "top_right", "release": 0.3}]},
+             {"grid": [9, 11], "size": [0.3, 0.4], "placement": {"origin": [0, 1, 1]}, "areal_density": 0.2,
+              "holes": [[[2, 2], [5, 5]]], "pins": [{"edge": "top"}]}],
+  "colliders": {"spheres": [{"center": [0.3, 0.7, 0.5], "radius": 0.15,
+                             "path": [{"t": 0}, {"t": 0.4, "translate": [0, 0, -0.6]}]}]}})";
+// Hangs still after a while, sleeps, is woken by its edge.
+constexpr const char* sleeping_scene =
+    R"({"time": {"fps": 20, "frames": 61}, "cloths": [{"grid": [9, 8], "size": [0.4, 0.3], "damping": 8,
+  "pins": [{"edge": "top", "path": [{"t": 2.5}, {"t": 2.8, "translate": [0.1, 0, 0]}]}]}]})";
+constexpr const char* cut_scene = R"({"time": {"fps": 60, "frames": 31}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"grid": [12, 10], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "top"}]},
+             {"grid": [8, 9], "size": [0.3, 0.4], "placement": {"origin": [0.1, 1, 0.1]}, "pins": [{"edge": "top"}]}],
+  "cutters": [{"triangle": [[-0.1, 0.8, -1], [0.3, 0.75, 1], [-0.1, 0.78, 1]], "active": [0.1, 0.4],
+               "path": [{"t": 0.1}, {"t": 0.4, "translate": [0.3, 0, 0]}]}],
+  "solver": {"method": %s}})";
+std::string with_method(std::string text, const std::string& method) {
+    return text.replace(text.find("%s"), 2, method);
+}
+const std::string cut_by_auto = with_method(cut_scene, "\"auto\"");
+const std::string cut_by_line = with_method(cut_scene, "\"line\", \"substeps\": 5");
+constexpr const char* named_scene = R"({"time": {"fps": 60, "frames": 21},
+  "cloths": [{"grid": [16, 13], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "stiffness": {"stretch": 500, "shear": 50, "bend": 1e-4},
+              "pins": [{"corner": "top_left"}, {"corner": "top_right"}]}],
+  "colliders": {"spheres": [{"center": [0.2, 0.7, 0], "radius": 0.1}]}, "solver": {"method": %s}})";
+const std::string relaxed =
+    with_method(named_scene, "\"relax\", \"substeps\": 3, \"iterations\": 8, \"tolerance\": 0.01");
+const std::string explicitly = with_method(named_scene, "\"explicit\", \"substeps\": 41");
+const std::string by_lines = with_method(named_scene, "\"line\", \"substeps\": 4, \"tethers\": true");
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
+                         testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"Asleep", sleeping_scene},
+                                         Case{"CutByAuto", cut_by_auto.c_str(), true},
+                                         Case{"CutByLine", cut_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
+                                         Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
+    const auto simulation_of = [](const std::string& text) { return Simulation(parse_scene(text), {}, validated()); };
+    Simulation first = simulation_of(cut_by_auto);
+    for (int frame = 0; frame < 20; ++frame) first.step();
+    while (!first.can_save()) first.step();
+    const SimulationState state = first.save();
+    ASSERT_TRUE(state.contains("cuts/cloth"));
+    EXPECT_THROW(simulation_of(relaxed).restore(state), Error);
+    EXPECT_THROW(simulation_of(cut_by_line).restore(state), Error);
+    for (const std::string name : {"loop", "field/cloth/position", "cuts/cloth"}) {
+        const auto& bytes = state.at(name);
+        SimulationState without = state, shorter = state, longer = state;
+        without.erase(name);
+        shorter[name].resize(bytes.size() - 1);
+        longer[name].resize(bytes.size() + 1);
+        if (!name.starts_with("cuts/")) EXPECT_THROW(simulation_of(cut_by_auto).restore(without), Error) << name;
+        EXPECT_THROW(simulation_of(cut_by_auto).restore(shorter), Error) << name;
+        EXPECT_THROW(simulation_of(cut_by_auto).restore(longer), Error) << name;
+    }
+}
+
+}  // namespace
+}  // namespace drape
