@@ -15,9 +15,9 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
     for (const ClothState& state : states) {
         const Cloth& cloth = model.scene.cloths[state.index];
         const Grid& grid = state.model->grid;
-        cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.appearance,
-                          state[Field::position], state[Field::normal], state[Field::triangles], state.index_count,
-                          state[Field::cut_vertices]});
+        cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.thickness,
+                          cloth.appearance, state[Field::position], state[Field::normal], state[Field::triangles],
+                          state.index_count, state[Field::cut_vertices]});
     }
     return cloths;
 }

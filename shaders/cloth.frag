@@ -12,6 +12,7 @@ layout(push_constant) uniform Push { ClothPush push; };
 layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 surface_normal;
 layout(location = 2) in vec2 material;
+layout(location = 3) in vec2 hidden;
 layout(location = 0) out vec4 color;
 
 /// Mean of the square wave (+1 on even unit intervals, -1 on odd ones) over `width` around x.
@@ -21,22 +22,25 @@ float filtered_square_wave(float x, float width) {
     return clamp((integral.y - integral.x) / width, -1.0, 1.0);
 }
 
-/// 0 and 1 on alternating squares, their mean where a pixel holds many.
-float checker() {
+/// 0 where the first colour is, 1 where the second is, between them where a pixel holds both.
+float pattern() {
     vec2 squares = material / push.size.z;
     vec2 width = max(fwidth(squares), vec2(1e-4));
-    return 0.5 - 0.5 * filtered_square_wave(squares.x, width.x) * filtered_square_wave(squares.y, width.y);
+    float across = filtered_square_wave(squares.x, width.x), along = filtered_square_wave(squares.y, width.y);
+    float both = push.grid.z == uint(pattern_checker) ? across * along : across;
+    return push.grid.z == uint(pattern_plain) ? 0.0 : 0.5 - 0.5 * both;
 }
 
 void main() {
     // Derivatives before any branch.
     vec3 facet = cross(dFdy(world), dFdx(world));  // towards the eye
-    float odd = checker();
+    float second = pattern();
     vec3 normal = gl_FrontFacing ? surface_normal : -surface_normal;
     // Neighbours that cancel out leave no normal: the triangle's own is better than none.
     if (dot(normal, normal) < 1e-6) normal = facet;
-    vec3 albedo = gl_FrontFacing ? push.front.xyz : push.back.xyz;
-    if (push.grid.z != 0u) albedo = mix(albedo, vec3(1.0), 0.25 * odd);
-    Surface surface = Surface(albedo, normalize(normal), normalize(frame[0].eye.xyz - world), 0.2, 0.0, 0.3);
+    vec3 albedo = mix(gl_FrontFacing ? push.front.xyz : push.back.xyz, push.second.xyz, second);
+    float openness = 1.0 - (gl_FrontFacing ? hidden.x : hidden.y);
+    Surface surface =
+        Surface(albedo, normalize(normal), normalize(frame[0].eye.xyz - world), 0.2, 0.0, 0.3, openness);
     color = vec4(shaded(surface, world), 1.0);
 }

@@ -15,7 +15,40 @@ layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
 layout(location = 2) out vec2 material;  // metres along columns, rows of the undeformed cloth
+layout(location = 3) out vec2 hidden;    // share of the surroundings that folds take: of the front, of the back
 #include "include/cloth_vertex.h"
+
+/// Sine of the angle at which another particle stands above the surface; nothing (2) beyond the border and where a cut
+/// or a hole lets it be far away.
+float lift(ivec2 other, vec3 at, vec3 up, float distance_at_rest) {
+    vec3 away = imageLoad(position, clamp(other, ivec2(0), ivec2(push.grid.xy) - 1)).xyz - at;
+    float squared = dot(away, away);
+    bool inside = all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, ivec2(push.grid.xy)));
+    bool near = squared > 0.0 && squared < 2.25 * distance_at_rest * distance_at_rest;
+    return inside && near ? dot(away, up) * inversesqrt(squared) : 2.0;
+}
+
+/// Mean of both sides along an axis, so that a tilted surface is none.
+float fold(ivec2 texel, ivec2 step, vec3 at, vec3 up, float distance_at_rest) {
+    float ahead = lift(texel + step, at, up, distance_at_rest), behind = lift(texel - step, at, up, distance_at_rest);
+    return max(ahead, behind) > 1.5 ? 0.0 : 0.5 * (ahead + behind);
+}
+
+/// Horizons in four directions: what the cloth's own folds hide of the front and of the back.
+vec2 hidden_by_folds(ivec2 texel, vec3 at, vec3 up) {
+    int reach = int(push.grid.w);
+    vec2 rest = push.size.xy / (vec2(push.grid.xy) - 1.0) * float(reach);
+    vec2 folds = vec2(fold(texel, ivec2(reach, 0), at, up, rest.x), fold(texel, ivec2(0, reach), at, up, rest.y));
+    return vec2(dot(max(folds, 0.0), vec2(0.5)), dot(max(-folds, 0.0), vec2(0.5)));
+}
+
+/// Depth as if the cloth were nearer to the eye by its thickness: by so much contact keeps particles off a collider,
+/// and no more does a triangle between them cut into it.
+float depth_of_thickness(vec3 at, float clip_w) {
+    vec3 to_eye = frame[0].eye.xyz - at;
+    vec4 nearer = vec4(at + to_eye * min(push.size.w * inversesqrt(max(dot(to_eye, to_eye), 1e-30)), 0.5), 1.0);
+    return dot(frame[0].clip_from_world[2], nearer) / dot(frame[0].clip_from_world[3], nearer) * clip_w;
+}
 
 void main() {
     uint index = uint(gl_VertexIndex);
@@ -30,5 +63,7 @@ void main() {
 #ifdef CUT
     if (is_cut_vertex(index)) material = cut_vertex(index).material.xy;
 #endif
+    hidden = hidden_by_folds(texel, particle_position(particle), surface_normal);
     gl_Position = clip_position(world);
+    gl_Position.z = depth_of_thickness(world, gl_Position.w);
 }

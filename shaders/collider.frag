@@ -33,9 +33,9 @@ void main() {
     vec3 to_eye = frame[0].eye.xyz - world;
     vec3 normal = dot(surface_normal, to_eye) < 0.0 && collider_kind == kind_plane ? -surface_normal : surface_normal;
     vec3 diffuse = albedo.xyz;
-    if (collider_kind == kind_plane) diffuse = mix(diffuse, diffuse * 0.6, grid_lines());
+    if (collider_kind == kind_plane) diffuse = mix(diffuse, diffuse * 0.75, grid_lines());
     float gloss = collider_kind == kind_plane ? 0.0 : 0.12;
-    Surface surface = Surface(diffuse, normalize(normal), normalize(to_eye), 0.0, gloss, 0.0);
+    Surface surface = Surface(diffuse, normalize(normal), normalize(to_eye), 0.0, gloss, 0.0, 1.0);
     color = vec4(shaded(surface, world), 1.0);
     if (collider_kind == kind_plane) {
         float away = distance(world, frame[0].fade.xyz) / frame[0].fade.w;

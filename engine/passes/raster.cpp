@@ -17,13 +17,15 @@ using graph::Handle;
 /// Newest handles of what a frame's passes write one after the other.
 struct RasterPass::Targets {
     Handle frame, colliders;
-    Handle color, multisampled, depth;  ///< multisampled: invalid at one sample
-    Handle shadow_map, shadow_depth;    ///< invalid without a shadow
+    Handle color, light, multisampled, depth;  ///< multisampled: invalid at one sample
+    Handle shadow_map, shadow_depth;           ///< invalid without a shadow
 };
 
 namespace {
 
-constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;
+/// Radiance goes beyond 1, and light is averaged before it is encoded.
+constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
 
@@ -37,14 +39,28 @@ std::string shadow_skip_reason(const SceneDescription& scene, const RasterOption
     return {};
 }
 
+glsl::uint pattern_number(Pattern pattern) {
+    switch (pattern) {
+        case Pattern::plain:
+            return glsl::pattern_plain;
+        case Pattern::checker:
+            return glsl::pattern_checker;
+        case Pattern::stripes:
+            return glsl::pattern_stripes;
+    }
+    return glsl::pattern_plain;
+}
+
 glsl::ClothPush cloth_push(const RasterCloth& cloth) {
     const auto u = static_cast<float>(cloth.size_u);
     const auto v = static_cast<float>(cloth.size_v);
-    const glsl::uint checkered = cloth.appearance.pattern == Pattern::checker ? 1 : 0;
-    return {{cloth.columns, cloth.rows, checkered, 0},
-            {u, v, std::min(u, v) / 8, 0},
+    // Folds are looked for at a sixteenth of the cloth.
+    const std::uint32_t reach = std::max(1u, std::max(cloth.columns, cloth.rows) / 16);
+    return {{cloth.columns, cloth.rows, pattern_number(cloth.appearance.pattern), reach},
+            {u, v, std::min(u, v) / 8, static_cast<float>(cloth.thickness)},
             linear_color(cloth.appearance.front),
-            linear_color(cloth.appearance.back)};
+            linear_color(cloth.appearance.back),
+            linear_color(cloth.appearance.second)};
 }
 
 }  // namespace
@@ -55,11 +71,13 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       height_(height),
       samples_(samples),
       colliders_(scene.colliders),
+      fixtures_(fixtures(scene)),
       shadow_skip_reason_(shadow_skip_reason(scene, options)) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const BoundingSphere extent = scene_extent(scene);
-    plane_extent_ = plane_extent(scene, extent);
-    constants_ = frame_constants(scene, extent, width, height, options.shift);
+    const Camera camera = picture_camera(scene, width, height);
+    plane_extent_ = plane_extent(camera, extent);
+    constants_ = frame_constants(scene, camera, extent, width, height, options.shift);
     make_pipelines(device, !scene.cloths.empty(), options.cut, light_count(scene));
 }
 
@@ -67,7 +85,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
                                 std::uint32_t lights) {
     const bool shadow = casts_shadow();
     vulkan::GraphicsState state;
-    state.color_format = color_format;
+    state.color_format = light_format;
     state.depth_format = depth_format;
     state.samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     vulkan::GraphicsState shadow_state = state;
@@ -92,7 +110,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
     state.vertex = {"collider.vert"};
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
     shadow_state.vertex = {"shadow_collider.vert"};
-    for (const ColliderDraw& range : collider_draws(colliders_)) {
+    for (const ColliderDraw& range : collider_draws(drawn_bodies(0))) {
         shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
         state.constants = {shadow_state.constants[0], {"light_count", lights}};
         state.depth_write = range.kind != glsl::kind_backdrop;
@@ -105,6 +123,18 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
         shadow_draws_.push_back(
             {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
     }
+    vulkan::GraphicsState encoding;
+    encoding.vertex = {"encode.vert"};
+    encoding.fragment = {"encode.frag"};
+    encoding.color_format = color_format;
+    encoding.depth_format = VK_FORMAT_UNDEFINED;
+    encoding_ = std::make_unique<vulkan::GraphicsPipeline>(device, "encode", encoding);
+}
+
+std::vector<Collider> RasterPass::drawn_bodies(double time) const {
+    std::vector<Collider> bodies = colliders_;
+    for (const Fixture& fixture : fixtures_) bodies.push_back(posed(fixture, time));
+    return bodies;
 }
 
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
@@ -115,8 +145,9 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
         graph.buffer<glsl::ColliderInstance>(colliders_name, instance_count, graph::Lifetime::host_input);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     targets.color = graph.image({color_name, color_format, width_, height_});
+    targets.light = graph.image({light_name, light_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
-    if (samples_ > 1) targets.multisampled = graph.image({multisampled_name, color_format, width_, height_, samples});
+    if (samples_ > 1) targets.multisampled = graph.image({multisampled_name, light_format, width_, height_, samples});
     if (casts_shadow()) {
         const std::uint32_t side = glsl::shadow_map_size;
         targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
@@ -134,6 +165,7 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
         graph.skip("shadow", shadow_skip_reason_);
     }
     add_raster(graph, targets, kept);
+    add_encoding(graph, targets);
     return add_readback(graph, targets);
 }
 
@@ -186,10 +218,10 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
                 setup.read(cloth.indices, Access::index_read);
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
             }
-            Handle& drawn = samples_ > 1 ? targets.multisampled : targets.color;
+            Handle& drawn = samples_ > 1 ? targets.multisampled : targets.light;
             attachments->color = drawn = setup.write(drawn, Access::color_write);
             attachments->depth = setup.write(targets.depth, Access::depth_write);
-            if (samples_ > 1) attachments->resolve = targets.color = setup.write(targets.color, Access::resolve_write);
+            if (samples_ > 1) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
         },
         [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);
@@ -221,6 +253,23 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
     }
 }
 
+void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
+    auto attachments = std::make_shared<RasterAttachments>();
+    graph.add_pass(
+        {"encode", "raster", "encode"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.light, Access::fragment_read);
+            attachments->color = targets.color = setup.write(targets.color, Access::color_write);
+        },
+        [this, attachments, light = targets.light](graph::PassContext& context) {
+            begin_rendering(context, *attachments);
+            const graph::Binding bound[] = {{"light", light}};
+            context.bind(*encoding_, bound);
+            draw_whole_picture(context);
+            vkCmdEndRendering(context.commands());
+        });
+}
+
 Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
     auto readback =
         std::make_shared<Handle>(graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
@@ -238,7 +287,7 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     const auto write = [&](const char* name, std::span<const std::byte> bytes) {
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
-    const std::vector<glsl::ColliderInstance> instances = collider_instances(colliders_, plane_extent_, time);
+    const std::vector<glsl::ColliderInstance> instances = collider_instances(drawn_bodies(time), plane_extent_, time);
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
     write(colliders_name, std::as_bytes(std::span(instances)));
 }

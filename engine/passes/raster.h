@@ -12,6 +12,7 @@
 #include "drape/scene.h"
 #include "graph/executor.h"
 #include "passes/collider_mesh.h"
+#include "passes/fixtures.h"
 #include "shared/raster_types.h"
 #include "vulkan/pipeline.h"
 
@@ -24,6 +25,7 @@ struct RasterCloth {
     std::string name;
     std::uint32_t columns = 0, rows = 0;
     double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
+    double thickness = 0;           ///< m, by which a collider that its triangles cut is drawn behind it
     Appearance appearance;
     graph::Handle position, normal, indices;
     std::uint32_t index_count = 0;
@@ -61,7 +63,8 @@ class RasterPass {
     static constexpr const char* frame_name = "raster/frame";
     static constexpr const char* colliders_name = "raster/colliders";
     static constexpr const char* color_name = "color";
-    static constexpr const char* multisampled_name = "color/multisampled";
+    static constexpr const char* light_name = "light";  ///< radiance, resolved
+    static constexpr const char* multisampled_name = "light/multisampled";
     static constexpr const char* depth_name = "depth";
     static constexpr const char* shadow_map_name = "shadow/map";
     static constexpr const char* shadow_depth_name = "shadow/depth";
@@ -77,18 +80,24 @@ class RasterPass {
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void add_encoding(graph::Graph& graph, Targets& targets) const;
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
+    /// The scene's colliders and then its fixtures, at `time` (s).
+    std::vector<Collider> drawn_bodies(double time) const;
+
     std::vector<Collider> colliders_;
+    std::vector<Fixture> fixtures_;
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
     std::unique_ptr<vulkan::GraphicsPipeline> cloth_, shadow_cloth_;
     std::unique_ptr<vulkan::GraphicsPipeline> cut_cloth_, shadow_cut_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
+    std::unique_ptr<vulkan::GraphicsPipeline> encoding_;
 };
 
 }  // namespace drape

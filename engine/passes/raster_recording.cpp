@@ -27,8 +27,11 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
         color.resolveImageView = context.image(attachments.resolve).view();
         color.resolveImageLayout = context.layout(attachments.resolve);
     }
-    VkRenderingAttachmentInfo depth = attachment(context, attachments.depth, false);
-    depth.clearValue.depthStencil = {1.0f, 0};
+    VkRenderingAttachmentInfo depth{};
+    if (attachments.depth.valid()) {
+        depth = attachment(context, attachments.depth, false);
+        depth.clearValue.depthStencil = {1.0f, 0};
+    }
     const VkExtent2D extent{target.description().width, target.description().height};
     VkRenderingInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
@@ -36,7 +39,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     rendering.layerCount = 1;
     rendering.colorAttachmentCount = 1;
     rendering.pColorAttachments = &color;
-    rendering.pDepthAttachment = &depth;
+    if (attachments.depth.valid()) rendering.pDepthAttachment = &depth;
     vkCmdBeginRendering(context.commands(), &rendering);
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     const VkRect2D scissor{{0, 0}, extent};
@@ -54,6 +57,8 @@ void draw_cloth(graph::PassContext& context, const vulkan::GraphicsPipeline& pip
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range) {
     vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, 0, range.first_instance);
 }
+
+void draw_whole_picture(const graph::PassContext& context) { vkCmdDraw(context.commands(), 3, 1, 0, 0); }
 
 void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer) {
     const vulkan::Image& source = context.image(image);

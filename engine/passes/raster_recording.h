@@ -13,8 +13,9 @@ namespace drape {
 
 /// What a pass renders into; filled while the pass is set up, used when it is recorded.
 struct RasterAttachments {
-    graph::Handle color, depth;
-    graph::Handle resolve;  ///< invalid: none
+    graph::Handle color;
+    graph::Handle depth = {};  ///< invalid: none
+    graph::Handle resolve;     ///< invalid: none
 };
 
 /// Begins dynamic rendering over the whole attachments, viewport and scissor set; colour and depth are
@@ -26,6 +27,9 @@ void draw_cloth(graph::PassContext& context, const vulkan::GraphicsPipeline& pip
                 graph::Handle indices, std::uint32_t index_count);
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
+
+/// One triangle.
+void draw_whole_picture(const graph::PassContext& context);
 
 /// Tightly packed.
 void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);

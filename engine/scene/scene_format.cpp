@@ -126,7 +126,11 @@ const Object<Appearance> appearance{"appearance",
                                         {"front", &Appearance::front, color, "sRGB of the side of u x v."},
                                         {"back", &Appearance::back, color, "sRGB of the other side."},
                                         {"pattern", &Appearance::pattern, choice<Pattern>(pattern_spellings),
-                                         "Plain colour, or cells of the cloth shaded alternately."},
+                                         "Plain colour, or squares or stripes (along columns) of it and of `second`, "
+                                         "each an eighth of the cloth's shorter side wide."},
+                                        {"second", &Appearance::second, color,
+                                         "sRGB of the pattern's other squares or "
+                                         "stripes, on both sides."},
                                     }};
 
 const Object<Cloth> cloth{
@@ -342,6 +346,8 @@ const Object<ImageSettings> image{"image",
                                       {"size", &ImageSettings::size, two_integers(1, 16384), "Pixels: width, height."},
                                       {"samples", &ImageSettings::samples, one_of({1, 4}), "Samples per pixel."},
                                       {"background", &ImageSettings::background, color, "sRGB."},
+                                      {"fixtures", &ImageSettings::fixtures, boolean(),
+                                       "Whether poles, rails and knobs are drawn that pinned cloth hangs on."},
                                   }};
 
 const Object<Oracle> oracle{
@@ -373,10 +379,15 @@ const Object<SceneDescription> scene{
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
-        {"camera", &SceneDescription::camera, camera, "The camera."},
+        {"camera", &SceneDescription::camera, optional<Camera>(camera),
+         "The camera. Absent: one that holds the cloths where they start, hang and land, and the colliders."},
         {"lights", &SceneDescription::lights, list<DirectionalLight>(light, "an array of at most 4 lights", 0, 4),
-         "Directional lights."},
-        {"ambient", &SceneDescription::ambient, color, "Linear radiance factor of the light from everywhere."},
+         "Directional lights; the first casts shadows. Absent: a warm key from the left and a cool fill from the "
+         "right."},
+        {"ambient", &SceneDescription::ambient, color,
+         "Linear radiance factor of the sky's light, which comes from above all around."},
+        {"ambient_ground", &SceneDescription::ambient_ground, color,
+         "Linear radiance factor of the ground's light, from below; surfaces between get a part of both."},
         {"image", &SceneDescription::image, image, "The pictures."},
         {"oracles", &SceneDescription::oracles, list<Oracle>(oracle, "an array of checks", 0, 1024),
          "Checks the scene promises to meet, for drape verify."},

@@ -147,7 +147,9 @@ struct Key {
               name, value.text,
               [field, read = value.read](const SceneNode& node, Object& object) { return read(node, object.*field); },
               help, required) {
-        if (value.write && required.empty()) text.default_value = value.write(Object{}.*field);
+        if (!value.write || !required.empty()) return;
+        text.default_value = value.write(Object{}.*field);
+        write = [field, write = value.write](const Object& object) { return write(object.*field); };
     }
     Key(std::string_view name, const ValueText& value, Read read_value, std::string_view help,
         std::string_view required = {})
@@ -170,6 +172,7 @@ struct Key {
     KeyText text;
     std::vector<const Definition*> uses;
     Read read;
+    std::function<std::string(const Object&)> write = {};  ///< empty: the key has no default
 };
 
 /// An object of the format. Lives as long as the format.
@@ -190,7 +193,7 @@ class Object {
         value_.text = {
             reference_schema(definition_), "[" + std::string(name) + "](#" + std::string(name) + ")", {&definition_}};
         value_.read = [this](const SceneNode& node, T& object) { return read(node, object); };
-        value_.write = [](const T&) { return "{}"; };
+        value_.write = [this](const T& object) { return written(object); };
     }
     Object(const Object&) = delete;
 
@@ -206,6 +209,17 @@ class Object {
     const Definition& definition() const { return definition_; }
 
   private:
+    /// The keys that have other values than their defaults.
+    std::string written(const T& object) const {
+        std::string json;
+        for (const Key<T>& key : keys_) {
+            const std::string value = key.write ? key.write(object) : key.text.default_value;
+            if (value != key.text.default_value)
+                json += (json.empty() ? "" : ", ") + quoted(key.text.name) + ": " + value;
+        }
+        return "{" + json + "}";
+    }
+
     Definition definition_;
     std::vector<Key<T>> keys_;
     Rule rule_;

@@ -12,25 +12,32 @@ namespace drape::glsl {
 const int light_limit = 4;
 
 /// Texels of the square shadow map's side.
-const int shadow_map_size = 2048;
+const int shadow_map_size = 512;
 
 /// What all draws of a frame share.
 struct FrameConstants {
     vec4 clip_from_world[4];    // rows
     vec4 shadow_from_world[3];  // rows: x, y in texels, z 0 (near the light) .. 1
     vec4 eye;                   // xyz: camera position; w: 0
-    vec4 ambient;               // xyz: linear; w: size of a shadow texel, m
-    vec4 background;            // xyz: linear; w: height of the picture, pixels
+    vec4 ambient;               // xyz: of the sky, linear; w: size of a shadow texel, m
+    vec4 ground;                // xyz: ambient from below, linear; w: 0
+    vec4 background;            // xyz: radiance; w: height of the picture, pixels
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
     vec4 to_light[4];           // xyz: unit, towards the light
     vec4 light_radiance[4];     // xyz: linear colour times intensity
 };
 
+// What `ClothPush::grid.z` says.
+const int pattern_plain = 0;
+const int pattern_checker = 1;
+const int pattern_stripes = 2;
+
 struct ClothPush {
-    uvec4 grid;  // columns, rows, 1 when checkered, 0
-    vec4 size;   // x, y: metres along columns, rows; z: side of a checker square, m
-    vec4 front;  // colour of the side the normals point to
+    uvec4 grid;   // columns, rows, pattern, particles from one to those that a fold may lift above it
+    vec4 size;    // x, y: metres along columns, rows; z: side of a pattern's square, m; w: thickness, m
+    vec4 front;   // colour of the side the normals point to
     vec4 back;
+    vec4 second;  // the pattern's other colour, on both sides
 };
 
 #ifdef __cplusplus

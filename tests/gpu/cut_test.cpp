@@ -302,7 +302,7 @@ TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
     scene.cloths[0].appearance.pattern = Pattern::plain;
     scene.cutters = {blade({0.31, 5, -5}, {0.37, -10, -5}, {0.33, -2, 10}, 0.02, 0.02),
                      blade({-5, -0.41, -3}, {5, -0.45, -3}, {0, -0.43, 6}, 0.05, 0.05)};
-    scene.camera = {{0.5, -0.5, -2}, {0.5, -0.5, 0}, 40};
+    scene.camera = Camera{{0.5, -0.5, -2}, {0.5, -0.5, 0}, 40};
     FrameLoopOptions options;
     options.width = options.height = 256;
     options.samples = 1;

@@ -35,7 +35,7 @@ SceneDescription marked_scene() {
     for (Cloth& cloth : scene.cloths) cloth.appearance = {grey, grey, Pattern::plain};
     for (Collider& collider : scene.colliders) collider.color = grey;
     scene.image.background = grey;
-    scene.ambient = {1, 1, 1};
+    scene.ambient = scene.ambient_ground = {1, 1, 1};
     scene.lights.clear();
     scene.cloths[0].placement.origin[1] = 1.0;  // under the markers that fall
     for (std::size_t i = 0; i < markers.size(); ++i) {
@@ -86,7 +86,7 @@ Center projected(const SceneDescription& scene, const std::span<const float> pos
     double sum = 0;
     const auto at = [&](std::size_t particle) {
         const Vec3 x{positions[4 * particle], positions[4 * particle + 1], positions[4 * particle + 2]};
-        return project(scene.camera, width, height, x);
+        return project(*scene.camera, width, height, x);
     };
     for (const std::array<std::size_t, 3>& triangle :
          {std::array<std::size_t, 3>{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}}) {

@@ -27,19 +27,33 @@ inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[
 inline Vec3 unit(const Vec3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
 inline double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
+/// The tone curve of shaders/include/tone.h, written a second time in double precision: as it is below 0.75, then a
+/// shoulder that reaches 1 at 2.5.
+inline double toned(double radiance) {
+    const double above = (radiance - 0.75) / 0.25, white = 1.75 / 0.25;
+    return above > 0 ? 0.75 + 0.25 * above * (1 + above / (white * white)) / (1 + above) : radiance;
+}
+/// The radiance that is shown as `shown`, by bisection.
+inline double radiance_of(double shown) {
+    double low = 0, high = 2.5;
+    for (int round = 0; round < 50; ++round) (toned(0.5 * (low + high)) < shown ? low : high) = 0.5 * (low + high);
+    return high;
+}
 inline double srgb_byte(double radiance) {
-    const double x = std::clamp(radiance, 0.0, 1.0);
+    const double x = std::clamp(toned(radiance), 0.0, 1.0);
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
 }
 
 /// Hand-made contents of a cloth's images.
 struct DrawnCloth {
     std::uint32_t columns = 2, rows = 2;
-    double size_u = 1, size_v = 1;
+    double size_u = 1, size_v = 1, thickness = 0;
     Appearance appearance;
     std::vector<glsl::vec4> positions, normals;
     std::vector<std::uint32_t> indices;
 };
+
+inline Vec3 linear(const Vec3& srgb) { return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])}; }
 
 inline glsl::vec4 texel(const Vec3& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 1.0f};
@@ -50,7 +64,7 @@ inline glsl::vec4 texel(const Vec3& v) {
 inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& normal, const Vec3& front,
                              const Vec3& back, std::uint32_t particles = 2) {
     DrawnCloth cloth{
-        particles, particles, std::sqrt(dot(u, u)), std::sqrt(dot(v, v)), {front, back, Pattern::plain}, {}, {}, {}};
+        particles, particles, std::sqrt(dot(u, u)), std::sqrt(dot(v, v)), 0, {front, back, Pattern::plain}, {}, {}, {}};
     for (std::uint32_t row = 0; row < particles; ++row) {
         for (std::uint32_t column = 0; column < particles; ++column) {
             const double s = column / (particles - 1.0) - 0.5, t = row / (particles - 1.0) - 0.5;
@@ -93,9 +107,9 @@ struct Shot {
 /// Black background, no light, white ambient light, camera on the z axis.
 inline SceneDescription dark_room() {
     SceneDescription scene;
-    scene.camera = {{0, 0, 3}, {0, 0, 0}, 40};
+    scene.camera = Camera{{0, 0, 3}, {0, 0, 0}, 40};
     scene.lights.clear();
-    scene.ambient = white;
+    scene.ambient = scene.ambient_ground = white;
     scene.image.background = black;
     return scene;
 }
@@ -163,6 +177,7 @@ class Raster : public testing::Test {
                 cloth.rows,
                 cloth.size_u,
                 cloth.size_v,
+                cloth.thickness,
                 cloth.appearance,
                 image("/position"),
                 image("/normal"),

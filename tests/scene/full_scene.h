@@ -22,7 +22,7 @@ inline constexpr const char* full_scene = R"json({
               {"at": [10, 3], "pivot": [7, 8, 9],
                "path": [{"t": 0, "translate": [0, 0, 0]}, {"t": 1.5, "translate": [0.2, 0, 0.1], "rotate": [0, 720, 5]}]},
               {"box": [[1, 2], [3, 4]]}],
-     "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "plain"}},
+     "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
     {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"}],
   "colliders": {
     "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
@@ -41,7 +41,8 @@ inline constexpr const char* full_scene = R"json({
   "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},
   "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
   "ambient": [0.1, 0.2, 0.3],
-  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1]},
+  "ambient_ground": [0.3, 0.2, 0.1],
+  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1], "fixtures": false},
   "oracles": [{"check": "falls", "cloth": 0, "from_row": 1, "until_frame": 10, "error": 1.05}]
 }
 )json";

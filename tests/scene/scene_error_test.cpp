@@ -245,7 +245,7 @@ const Malformed cloth_cases[] = {
     {"Appearance",
      cloth("\"appearance\": {\"front\": [0, 0, 2], \"pattern\": \"dots\"}"),
      {"2:32: /cloths/0/appearance/front/2: expected a number in [0, 1], got 2",
-      "2:47: /cloths/0/appearance/pattern: expected \"plain\" or \"checker\", got \"dots\""}},
+      "2:47: /cloths/0/appearance/pattern: expected \"plain\" or \"checker\" or \"stripes\", got \"dots\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Cloth, SceneErrors, ::testing::ValuesIn(cloth_cases), name_of);
 

@@ -213,18 +213,21 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
     expected.cloths[0].pins[0].particles = {{0, 0}, {0, 1}};
     expected.cloths[0].pins[0].path.keys.resize(1);
     expected.colliders = {{Plane{}}, {Sphere{}}, {Box{}}, {Ellipsoid{}}, {Capsule{}}};
-    // Directions are made unit length by the reader; the default light is not written as one.
+    expected.camera = Camera{};
+    // Directions are made unit length by the reader; the default lights are not written as such.
     const SceneResult result = read_scene_text(written(scene), "s");
     for (const SceneError& error : result.errors) ADD_FAILURE() << error.text();
     ASSERT_TRUE(result.scene.has_value());
-    EXPECT_EQ(written(scene["lights"][0]["direction"]), written(parsed("[-0.4, -1, -0.6]")));
-    expected.lights[0].direction = result.scene->lights[0].direction;
+    EXPECT_EQ(written(scene["lights"][0]["direction"]), written(parsed("[0.75, -0.9, -0.5]")));
+    ASSERT_EQ(result.scene->lights.size(), expected.lights.size());
+    for (std::size_t i = 0; i < expected.lights.size(); ++i)
+        expected.lights[i].direction = result.scene->lights[i].direction;
     EXPECT_EQ(*result.scene, expected);
 }
 
 TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
     const std::map<std::string_view, std::set<std::string>> without{
-        {"scene", {"$schema", "cloths"}},
+        {"scene", {"$schema", "cloths", "camera"}},
         {"cloth", {"name"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
         {"motion_key", {"t"}},

@@ -29,7 +29,8 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
     EXPECT_EQ(scene.ambient, (Vec3{0.1, 0.2, 0.3}));
-    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}}));
+    EXPECT_EQ(scene.ambient_ground, (Vec3{0.3, 0.2, 0.1}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}, false}));
     ASSERT_EQ(scene.oracles.size(), 1u);
     EXPECT_EQ(scene.oracles[0],
               (Oracle{"falls", {{"cloth", 0}, {"from_row", 1}, {"until_frame", 10}, {"error", 1.05}}}));
@@ -51,7 +52,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.velocity, (Vec3{1, 2, 3}));
     ASSERT_EQ(cloth.holes.size(), 1u);
     EXPECT_EQ(cloth.holes[0], (IndexBox{{40, 20}, {50, 30}}));
-    EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::plain}));
+    EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
 }
@@ -112,8 +113,10 @@ TEST(SceneValues, AcceptsBomBlockCommentsCarriageReturnsAndIntegralReals) {
     EXPECT_EQ(scene.cloths[0].grid, (std::array<std::uint32_t, 2>{3, 10}));
 }
 
-TEST(SceneValues, EmptyLightListMeansNoLight) {
-    EXPECT_TRUE(scene_of(R"({"cloths": [{}], "lights": []})").lights.empty());
+TEST(SceneValues, EmptyLightListMeansNoLightAndNoCameraNone) {
+    const SceneDescription scene = scene_of(R"({"cloths": [{}], "lights": []})");
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_FALSE(scene.camera);
 }
 
 TEST(SceneValues, AcceptsThePublishedExtremes) {

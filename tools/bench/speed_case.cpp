@@ -108,8 +108,7 @@ SceneDescription scene_of(const SpeedCase& speed_case) {
     scene.time.frame_count = 1'000'000;  // as many as are asked for
     scene.solver.method = speed_case.method;
     scene.image = {{1280, 720}, speed_case.samples};
-    scene.camera.position = {1.6, 0.9, 2.4};
-    scene.camera.target = {0.5, -0.4, 0.4};
+    scene.camera = Camera{{1.6, 0.9, 2.4}, {0.5, -0.4, 0.4}};
     scene.lights = {{.direction = {0, -1, 0}}};
     Cloth& first = scene.cloths[0];
     first.placement.v = {0, 0, 1};

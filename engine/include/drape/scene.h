@@ -106,13 +106,15 @@ struct Pin {
     bool operator==(const Pin&) const = default;
 };
 
-enum class Pattern { plain, checker };
-inline constexpr Spelling<Pattern> pattern_spellings[] = {{"plain", Pattern::plain}, {"checker", Pattern::checker}};
+enum class Pattern { plain, checker, stripes };
+inline constexpr Spelling<Pattern> pattern_spellings[] = {
+    {"plain", Pattern::plain}, {"checker", Pattern::checker}, {"stripes", Pattern::stripes}};
 
 struct Appearance {
     Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
     Vec3 back{0.60, 0.10, 0.10};
     Pattern pattern = Pattern::checker;
+    Vec3 second{0.93, 0.89, 0.80};  ///< of the pattern's other squares or stripes, on both sides
     bool operator==(const Appearance&) const = default;
 };
 
@@ -217,16 +219,22 @@ struct Camera {
 };
 
 struct DirectionalLight {
-    Vec3 direction{-0.4, -1.0, -0.6};  ///< the way the light travels; unit length after reading
-    Vec3 color{1, 1, 1};               ///< sRGB 0..1
-    double intensity = 1.0;
+    Vec3 direction{0.75, -0.9, -0.5};  ///< the way the light travels; unit length after reading
+    Vec3 color{1, 0.97, 0.91};         ///< sRGB 0..1
+    double intensity = 1.2;
     bool operator==(const DirectionalLight&) const = default;
 };
+
+/// A warm key light from the left, high and a little in front, and a cool fill from the right.
+inline std::vector<DirectionalLight> default_lights() {
+    return {DirectionalLight{}, {{-0.8, -0.35, -0.5}, {0.72, 0.84, 1}, 0.22}};
+}
 
 struct ImageSettings {
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 4;          ///< 1 or 4
     Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
+    bool fixtures = true;               ///< poles, rails and knobs that pinned cloth hangs on (passes/fixtures.h)
     bool operator==(const ImageSettings&) const = default;
 };
 
@@ -247,9 +255,10 @@ struct SceneDescription {
     std::vector<Collider> colliders;
     std::vector<Cutter> cutters;
     SolverSettings solver;
-    Camera camera;
-    std::vector<DirectionalLight> lights{DirectionalLight{}};  ///< at most 4
-    Vec3 ambient{0.35, 0.37, 0.40};                            ///< linear radiance factor 0..1
+    std::optional<Camera> camera;                             ///< without one: passes/framing.h finds one
+    std::vector<DirectionalLight> lights = default_lights();  ///< at most 4
+    Vec3 ambient{0.36, 0.40, 0.47};                           ///< of the sky, linear radiance factor 0..1
+    Vec3 ambient_ground{0.20, 0.17, 0.14};                    ///< of the ground
     ImageSettings image;
     std::vector<Oracle> oracles;
     bool operator==(const SceneDescription&) const = default;

@@ -1,0 +1,34 @@
+// Where points of a scene's cloths start, on the host: what framing and fixtures share.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "drape/scene.h"
+
+namespace drape {
+
+/// a + scale * b.
+inline Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
+    return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
+}
+
+/// Where a particle starts, m.
+inline Vec3 particle_at(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
+    return sum(sum(cloth.placement.origin, cloth.placement.u, cloth.size[0] * column / (cloth.grid[0] - 1.0)),
+               cloth.placement.v, cloth.size[1] * row / (cloth.grid[1] - 1.0));
+}
+
+/// Height of the highest level floor that is not above `height`, m; nothing without one.
+inline std::optional<double> floor_below(const std::vector<Collider>& colliders, double height) {
+    std::optional<double> found;
+    for (const Collider& collider : colliders) {
+        const Plane* plane = std::get_if<Plane>(&collider.shape);
+        if (!plane || plane->normal[1] < 0.99 || collider.rotate != Vec3{0, 0, 0}) continue;
+        const double level = plane->offset / plane->normal[1];
+        if (level <= height && (!found || level > *found)) found = level;
+    }
+    return found;
+}
+
+}  // namespace drape

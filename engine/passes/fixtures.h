@@ -1,0 +1,28 @@
+// What holds a pinned cloth in the picture: poles, rails and knobs. They are drawn and cast shadows; no cloth touches
+// them.
+#pragma once
+
+#include <vector>
+
+#include "drape/scene.h"
+
+namespace drape {
+
+/// A drawn rod, or a ball where both ends are one; it moves as its pin does.
+struct Fixture {
+    Vec3 from, to;      ///< m, before the pin moves
+    double radius = 0;  ///< m
+    MotionPath path;
+    Vec3 pivot;  ///< of the path's rotation, m
+};
+
+/// A pinned row or column, and three or more single particles in a line, hang on a rail with a knob at each end, or on
+/// a pole with a knob on top when they stand upright; a single pinned particle hangs on a pole of its own where there
+/// is a floor to stand on and the pin does not move, and on a knob otherwise. Nothing where `image.fixtures` is false
+/// or more than 256 pins would need one.
+std::vector<Fixture> fixtures(const SceneDescription& scene);
+
+/// As a collider that is drawn, at `time` (s).
+Collider posed(const Fixture& fixture, double time);
+
+}  // namespace drape

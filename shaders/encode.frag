@@ -1,0 +1,30 @@
+// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. Ordered dither
+// (Bayer's 8 x 8 matrix) of one level in place of rounding: without it soft gradients show bands.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/tone.h"
+
+layout(constant_id = 0) const bool is_toned = true;
+layout(set = 0, binding = 0, rgba16f) uniform readonly image2D light;
+layout(location = 0) out vec4 color;
+
+/// Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
+float threshold(uvec2 pixel) {
+    uvec2 bits = uvec2(pixel.x ^ pixel.y, pixel.y);
+    uint rank = ((bits.x & 1u) << 5) | ((bits.y & 1u) << 4) | ((bits.x & 2u) << 2) | ((bits.y & 2u) << 1) |
+                ((bits.x & 4u) >> 1) | ((bits.y & 4u) >> 2);
+    return (float(rank) + 0.5) / 64.0;
+}
+
+vec3 srgb(vec3 linear) {
+    vec3 curve = 1.055 * pow(max(linear, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
+    return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 radiance = imageLoad(light, pixel).xyz;
+    if (is_toned) radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
+    vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
+    color = vec4(min(floor(levels + threshold(uvec2(pixel))), 255.0) / 255.0, 1.0);
+}

@@ -1,0 +1,28 @@
+// From radiance to what the picture holds, readable by GLSL and C++: a soft shoulder above a knee, then the sRGB
+// transfer function (IEC 61966-2-1). Below the knee colours stay as the scene says them. The shoulder is Reinhard's
+// operator with a white point ("Photographic Tone Reproduction for Digital Images", 2002, equation 4) on what is above
+// the knee, in units of what is left to white: it leaves the knee at slope 1 and reaches 1 at `tone_white`.
+#ifndef DRAPE_TONE_H
+#define DRAPE_TONE_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+const float tone_knee = 0.75f;
+const float tone_white = 2.5f;
+
+SHARED float toned(float radiance) {
+    float white = (tone_white - tone_knee) / (1.0f - tone_knee);
+    float above = (radiance - tone_knee) / (1.0f - tone_knee);
+    float shoulder = above * (1.0f + above / (white * white)) / (1.0f + above);
+    return above > 0.0f ? tone_knee + (1.0f - tone_knee) * shoulder : radiance;
+}
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

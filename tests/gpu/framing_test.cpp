@@ -1,0 +1,130 @@
+// Where a scene without a camera is looked at from, and what its pins hang on, in numbers and in pictures.
+#include "passes/framing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "passes/fixtures.h"
+#include "raster_picture.h"
+
+namespace drape {
+namespace {
+
+/// Shares of the picture that a scene's start fills: its cloths and bounded bodies, by projected triangles.
+double filled_share(const SceneDescription& scene, const Camera& camera, std::uint32_t columns, std::uint32_t rows) {
+    constexpr int steps = 400;
+    std::vector<bool> hit(std::size_t{columns} * rows);
+    const auto mark = [&](const Vec3& point) {
+        const PixelPosition at = project(camera, columns, rows, point);
+        if (at.x < 0 || at.y < 0 || at.x >= columns || at.y >= rows) return ADD_FAILURE() << "not in the picture";
+        hit[static_cast<std::size_t>(at.y) * columns + static_cast<std::size_t>(at.x)] = true;
+    };
+    for (const Cloth& cloth : scene.cloths)
+        for (int i = 0; i <= steps; ++i)
+            for (int j = 0; j <= steps; ++j)
+                mark(cloth.placement.origin + (cloth.size[0] * i / steps) * cloth.placement.u +
+                     (cloth.size[1] * j / steps) * cloth.placement.v);
+    for (const Collider& collider : scene.colliders) {
+        const Sphere* sphere = std::get_if<Sphere>(&collider.shape);
+        for (int i = 0; sphere && i <= steps; ++i)
+            for (int j = 0; j <= steps; ++j) {
+                const double polar = std::numbers::pi * i / steps, around = 2 * std::numbers::pi * j / steps;
+                mark(sphere->center + sphere->radius * Vec3{std::sin(polar) * std::cos(around), std::cos(polar),
+                                                            std::sin(polar) * std::sin(around)});
+            }
+    }
+    return static_cast<double>(std::ranges::count(hit, true)) / static_cast<double>(hit.size());
+}
+
+SceneDescription one_cloth(const Placement& placement, const std::array<double, 2>& size) {
+    SceneDescription scene;
+    scene.cloths.resize(1);
+    scene.cloths[0].grid = {9, 9};
+    scene.cloths[0].size = size;
+    scene.cloths[0].placement = placement;
+    return scene;
+}
+
+Pin row_of(const Cloth& cloth) { return {.particles = {{0, 0}, {cloth.grid[0] - 1, 0}}}; }
+
+TEST(FramingTest, AutomaticCameraFillsThePictureWithWhatIsThere) {
+    SceneDescription flag = one_cloth({{-0.75, 2.1, 0}, {1, 0, 0}, {0, -1, 0}}, {1.5, 1});
+    flag.cloths[0].pins = {{.particles = {{0, 0}, {0, 8}}}};
+    flag.wind.velocity = {5, 0, 1};
+    SceneDescription sheet = one_cloth({{5, 1.6, -3}, {1, 0, 0}, {0, -1, 0}}, {1, 1});
+    sheet.cloths[0].pins = {row_of(sheet.cloths[0])};
+    SceneDescription small = sheet;  // in millimetres
+    small.cloths[0].size = {1e-3, 1e-3};
+    for (const SceneDescription& scene : {flag, sheet, small})
+        for (const std::array<std::uint32_t, 2>& size : {std::array{640u, 360u}, {360u, 360u}, {360u, 640u}}) {
+            const Camera camera = picture_camera(scene, size[0], size[1]);
+            const double share = filled_share(scene, camera, size[0], size[1]);
+            EXPECT_GT(share, size[0] < size[1] ? 0.2 : 0.3) << size[0];
+            EXPECT_LT(share, 0.6) << size[0];
+        }
+    // A falling cloth and what it falls on: half of the picture is what they fall through.
+    SceneDescription fall = one_cloth({{-0.8, 1.4, -0.8}, {1, 0, 0}, {0, 0, 1}}, {1.6, 1.6});
+    fall.colliders = {{Plane{}}, {Sphere{{0, 0.85, 0}, 0.4}}};
+    const double share = filled_share(fall, picture_camera(fall, 640, 360), 640, 360);
+    EXPECT_GT(share, 0.15);
+    EXPECT_LT(share, 0.5);
+}
+
+TEST(FramingTest, TheScenesOwnCameraIsKept) {
+    SceneDescription scene = one_cloth({}, {1, 1});
+    scene.camera = Camera{{1, 2, 3}, {0, 1, 0}, 50};
+    EXPECT_EQ(picture_camera(scene, 640, 360), *scene.camera);
+}
+
+TEST(FixtureTest, PinnedEdgesHangOnPolesAndRailsAndCornersOnPoles) {
+    SceneDescription scene = one_cloth({{-0.5, 2, 0}, {1, 0, 0}, {0, -1, 0}}, {1, 1});
+    scene.colliders = {{Plane{{0, 1, 0}, 0.5}}};
+    scene.cloths[0].pins = {{.particles = {{0, 0}, {0, 8}}}};  // left edge: a pole from the floor, a knob on top
+    std::vector<Fixture> found = fixtures(scene);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].from[1], 0.5, 1e-12);
+    EXPECT_GT(found[0].to[1], 2);
+    EXPECT_EQ(found[1].from, found[0].to);
+    scene.cloths[0].pins = {row_of(scene.cloths[0])};  // top edge: a rail and two knobs
+    found = fixtures(scene);
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_LT(found[0].from[0], -0.5);
+    EXPECT_GT(found[0].to[0], 0.5);
+    EXPECT_EQ(found[0].from[1], 2);
+    scene.cloths[0].pins = {{.particles = {{8, 0}, {8, 0}}}};  // a corner: a pole of its own
+    found = fixtures(scene);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].from[1], 0.5, 1e-12);
+    EXPECT_EQ(found[0].to, (Vec3{0.5, 2, 0}));
+    // Hooks in a line share a rail over all that they travel; each has a knob that moves with it.
+    scene.cloths[0].pins.clear();
+    for (const std::uint32_t column : {0u, 4u, 8u})
+        scene.cloths[0].pins.push_back({.particles = {{column, 0}, {column, 0}}});
+    scene.cloths[0].pins[2].path.keys = {{0, {0, 0, 0}, {}}, {1, {-0.25, 0, 0}, {}}};
+    found = fixtures(scene);
+    ASSERT_EQ(found.size(), 6u);
+    const Collider hook = posed(found.back(), 1);
+    EXPECT_NEAR(std::get<Sphere>(hook.shape).center[0], 0.25, 1e-12);
+    scene.image.fixtures = false;
+    EXPECT_TRUE(fixtures(scene).empty());
+}
+
+using FixturePicture = Raster;
+
+TEST_F(FixturePicture, RailIsDrawnWhereThePinsAreUnlessSwitchedOff) {
+    SceneDescription scene = dark_room();
+    const DrawnCloth cloth = square({0, 0, 0}, 1, red, red);
+    scene.cloths.resize(1);
+    scene.cloths[0].pins = {{.particles = {{0, 0}, {1, 0}}}};
+    // The first row is the lower one of a square in this room.
+    const PixelPosition beside = project(*scene.camera, width, height, {0.53, -0.5, 0});
+    EXPECT_GT(draw(scene, {cloth}).at(beside)[1], 20);
+    scene.image.fixtures = false;
+    EXPECT_EQ(draw(scene, {cloth}).at(beside)[1], 0);
+}
+
+}  // namespace
+}  // namespace drape
