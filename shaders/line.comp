@@ -190,9 +190,9 @@ LineSpring spring_between(Line line, LineParticle first, vec3 moved_first, LineP
                        line.rest_length);
 }
 
-/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C| that it meets.
+/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C - T| that it meets.
 float eliminate_springs(Line line) {
-    float largest_excess = 0.0f;
+    float largest = 0.0f;
     vec3 normal_after = vec3(0.0f, 0.0f, 0.0f), turn = vec3(0.0f, 0.0f, 0.0f);
     vec2 eliminated = vec2(0.0f, 0.0f);
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
@@ -210,7 +210,7 @@ float eliminate_springs(Line line) {
         LineSpring spring_before = spring_between(line, before, moved_before, first, moved_first);
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
         float share = share_of(line, first.at), tension = filtered_tension_of(line, first, second, spring);
-        largest_excess = larger_excess(largest_excess, spring, share);
+        largest = larger_violation(largest, spring, share, tension);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
                                       second.position.w, share, line.compliance, tension);
         STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
@@ -222,7 +222,7 @@ float eliminate_springs(Line line) {
         moved_first = moved_before;
         delta = delta_before;
     }
-    return largest_excess;
+    return largest;
 }
 
 /// From the line's start on: substitutes in the second system; a particle is written once both its springs are known.
@@ -258,8 +258,7 @@ void main() {
     if (int(gl_GlobalInvocationID.x) >= push.line_count) return;
     Line line = read_line();
     if (first_iteration) eliminate_particles(line);
-    float largest_excess = eliminate_springs(line);
+    float largest = eliminate_springs(line);
     substitute_springs(line);
-    imageAtomicMax(control, ivec2(control_violation, 0),
-                   floatBitsToUint(line_violation(largest_excess, line.rest_length)));
+    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(control, ivec2(control_wrong_lines, 0), 1u);
 }

@@ -5,6 +5,7 @@
 #include "include/bdf2.h"
 
 layout(local_size_x = 1) in;
+layout(push_constant) uniform Push { LineControlPush push; };
 layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D control_in;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D control_out;
 
@@ -14,8 +15,9 @@ void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel,
 
 void main() {
     LineControl next = next_control(
-        LineControl(control_at(control_order), control_at(control_violation), control_at(control_hold)));
+        LineControl(control_at(control_order), control_at(control_wrong_lines), control_at(control_hold)),
+        push.most_wrong);
     store_control(control_order, next.order);
-    store_control(control_violation, next.violation);
+    store_control(control_wrong_lines, next.wrong_lines);
     store_control(control_hold, next.hold);
 }

@@ -111,13 +111,27 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
             {rounded(step * gravity[0]), rounded(step * gravity[1]), rounded(step * gravity[2]), 0}};
 }
 
+/// Of the lines of a cloth, how many may meet a spring that is wrong without asking for backward Euler: those around a
+/// lone pin of a fine grid do in most substeps, and where one such line is enough, sheets held at two corners lose two
+/// thirds of their accuracy to it (docs/solvers.md, "BDF2 or backward Euler").
+constexpr double most_wrong_share = 1.0 / 16;
+
+glsl::LineControlPush control_constants(const ClothGeometry& cloth) {
+    double lines = 0;
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
+        if (cloth.stiffness_constant.spring[direction] > 0)
+            lines += spring_directions[direction].offset.y == 0 ? cloth.grid.rows() : cloth.grid.columns();
+    return {static_cast<std::uint32_t>(most_wrong_share * lines)};
+}
+
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
     plan.second_order = true;
     const double h = settings.substep_length;
     const Vec3& v = cloth.velocity;
     // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
     plan.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
-    plan.prediction = {{StepKind::control, {}}, {StepKind::predict, predict_constants(cloth, settings)}};
+    plan.prediction = {{StepKind::control, control_constants(cloth)},
+                       {StepKind::predict, predict_constants(cloth, settings)}};
 }
 
 void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {

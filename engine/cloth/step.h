@@ -34,8 +34,9 @@ enum class StepKind {
 
 /// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
 /// set per iteration.
-using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush,
-                                   glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush>;
+using StepConstants =
+    std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
+                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

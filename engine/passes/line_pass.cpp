@@ -11,7 +11,9 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
     graph.add_pass(
         state.step_name("line control", step),
         [&](graph::PassSetup& setup) { update(setup, state[Field::line_control], "control"); },
-        [&pipeline](graph::PassContext& context) { context.dispatch(pipeline, 1, 1); });
+        [&pipeline, push = step.push<glsl::LineControlPush>()](graph::PassContext& context) {
+            context.dispatch(pipeline, push, 1, 1);
+        });
 }
 
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {

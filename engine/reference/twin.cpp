@@ -117,7 +117,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::wind:
             return wind(model, state, inputs, step.substep);
         case StepKind::control:
-            return control(state);
+            return control(state, step);
         case StepKind::predict:
             return predict(state, step);
         case StepKind::force:

@@ -76,7 +76,7 @@ class Twin {
     void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void force(TwinCloth& state, const Step& step);
     void explicit_step(TwinCloth& state, const Step& step);
-    void control(TwinCloth& state);
+    void control(TwinCloth& state, const Step& step);
     void predict(TwinCloth& state, const Step& step);
     void line(const ClothModel& model, TwinCloth& state, const Step& step);
     void nested(const ClothModel& model, TwinCloth& state, const Step& step);

@@ -9,10 +9,11 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::control(TwinCloth& state) {
+void Twin::control(TwinCloth& state, const Step& step) {
     auto& texels = state.integers(Field::line_control);
-    const LineControl next = next_control({texels[control_order], texels[control_violation], texels[control_hold]});
-    texels = {next.order, next.violation, next.hold};
+    const LineControl next = next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]},
+                                          step.push<LineControlPush>().most_wrong);
+    texels = {next.order, next.wrong_lines, next.hold};
 }
 
 void Twin::predict(TwinCloth& state, const Step& step) {
@@ -155,7 +156,7 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     for (std::size_t e = springs.size(); e-- > 0;) {
         const vec3 before = e > 0 ? springs[e - 1].normal : vec3{0, 0, 0};
         const float share = line.share(e);
-        largest = larger_excess(largest, springs[e], share);
+        largest = larger_violation(largest, springs[e], share, line.tension[e]);
         previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), share,
                                     compliance, line.tension[e]);
         eliminated[e] = previous;
@@ -199,9 +200,7 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                     stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
         }
     }
-    const std::uint32_t bits = floatBitsToUint(line_violation(largest, push.rest_length));
-    state.integers(Field::line_control)[control_violation] =
-        std::max(state.integers(Field::line_control)[control_violation], bits);
+    if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
 }
 
 }  // namespace drape

@@ -39,17 +39,17 @@ SHARED float bdf2_drag(float drag) {
 
 /// What a cloth's substeps know of each other; one integer per texel of the control image.
 struct LineControl {
-    uint order;      // of this substep: 1 backward Euler, 2 BDF2; 0 before the first
-    uint violation;  // bits of the largest |C|/L that this substep's lines have met
-    uint hold;       // substeps that remain backward Euler, this one too
+    uint order;        // of this substep: 1 backward Euler, 2 BDF2; 0 before the first
+    uint wrong_lines;  // of this substep, that met a spring wrong by more than line_violation_limit
+    uint hold;         // substeps that remain backward Euler, this one too
 };
 
 /// The control of the next substep. The first ones are backward Euler, since the history that a cloth starts with does
-/// not know the forces that hold it; and so are those after a spring of |C|/L > line_violation_limit was met, or what
-/// else asked for it. Non-negative floats order as their bits do, and NaN lies above them all.
-SHARED LineControl next_control(LineControl last) {
+/// not know the forces that hold it; and so are those after a spring of |C - T|/L > line_violation_limit was met, or
+/// what else asked for it. Non-negative floats order as their bits do, and NaN lies above them all.
+SHARED LineControl next_control(LineControl last, uint most_wrong) {
     uint hold = last.order == 0u ? line_hold_start : last.hold > 0u ? last.hold - 1u : 0u;
-    if (last.violation > floatBitsToUint(line_violation_limit)) hold = line_hold_count;
+    if (last.wrong_lines > most_wrong) hold = line_hold_count;
     return LineControl(hold > 0u ? 1u : 2u, 0u, hold);
 }
 

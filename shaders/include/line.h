@@ -106,16 +106,17 @@ SHARED bool pulls(LineSpring spring, float share) {
     return share > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
 }
 
-/// |C| (m), what the solve is asked to take back; `largest` or more.
-SHARED float larger_excess(float largest, LineSpring spring, float share) {
-    float excess = abs(spring.excess);
-    return pulls(spring, share) && excess > largest ? excess : largest;
+/// |C - T| (m), what the solve is asked to take back, or `largest` where that is more. At a lone pin of a fine grid C
+/// alone is large at rest, and no error: the spring's tension explains it.
+SHARED float larger_violation(float largest, LineSpring spring, float share, float tension) {
+    precise float unexplained = abs(spring.excess - tension);
+    return pulls(spring, share) && unexplained > largest ? unexplained : largest;
 }
 
-/// |C|/L of the line's worst spring, given its |C|.
-SHARED float line_violation(float largest_excess, float rest_length) {
-    precise float violation = largest_excess / rest_length;
-    return violation;
+/// Whether a line met a spring wrong by more than line_violation_limit, given its largest |C - T|.
+SHARED bool line_is_wrong(float largest, float rest_length) {
+    precise float violation = largest / rest_length;
+    return violation > line_violation_limit;
 }
 
 /// Elimination of row e of the second system

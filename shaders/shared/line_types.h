@@ -30,6 +30,11 @@ struct LinePush {
     float bend_bdf2;  // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
 };
 
+/// Choice of a substep's order (next_control in include/bdf2.h).
+struct LineControlPush {
+    uint most_wrong;  // lines that may meet a spring wrong by more than line_violation_limit
+};
+
 /// Prediction of the line solver in second order (include/bdf2.h).
 struct PredictPush {
     ivec2 grid;
@@ -41,11 +46,9 @@ struct PredictPush {
 };
 
 /// Texels of the line solver's control image (LineControl in include/bdf2.h).
-const int control_order = 0, control_violation = 1, control_hold = 2, control_texel_count = 3;
+const int control_order = 0, control_wrong_lines = 1, control_hold = 2, control_texel_count = 3;
 /// A spring that a substep meets wrong by more than its own length, after the carried tension has had its say, tells
-/// that BDF2 extrapolates nonsense here; the next substeps are then backward Euler. Measured on a sheet of 64^2 held at
-/// two corners: where BDF2 fails (10 substeps: 190 J) this keeps the energy as low as backward Euler alone does (20 to
-/// 30 J); where it holds (20 substeps) 5 % of the substeps switch, and half the limit would switch 20 %, without gain.
+/// that BDF2 extrapolates nonsense there; where that is so in many lines the next substeps are backward Euler.
 const float line_violation_limit = 1.0f;
 const uint line_hold_count = 8u;
 /// A history is BDF2's from its second difference on: of two substeps at the start, whose first one is made up for free

@@ -82,10 +82,10 @@ struct Kernels {
     void (*advance_rows)(const SheetView& sheet, Rows rows);
     /// Twin::spring of these rows of pairs; no tension is carried to a next iteration.
     void (*spring_rows)(const SheetView& sheet, const glsl::SpringPush& push, Rows rows);
-    /// Twin::line of lines first ... last - 1. `scratch`: one per particle of a line and one more. Returns the largest
-    /// |C| met, m.
-    float (*solve_lines)(const SheetView& sheet, const glsl::LinePush& push, bool first_iteration, bool is_bdf2,
-                         int first, int last, LineParticles* scratch);
+    /// Twin::line of lines first ... last - 1. `scratch`: one per particle of a line and one more. Returns how
+    /// many are wrong (line_is_wrong).
+    std::uint32_t (*solve_lines)(const SheetView& sheet, const glsl::LinePush& push, bool first_iteration, bool is_bdf2,
+                                 int first, int last, LineParticles* scratch);
 };
 
 /// -O3 for the processor at hand; the same without vectors.

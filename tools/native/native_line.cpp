@@ -151,7 +151,7 @@ void eliminate_springs(const Lines& lines, LineParticles* particles, float (&lar
 #pragma GCC ivdep
         for (int k = 0; k < line_lanes; ++k) {
             const LineSpring spring{at(here.spring.normal, k), 0.0f, here.spring.excess[k]};
-            largest[k] = larger_excess(largest[k], spring, here.share[k]);
+            largest[k] = larger_violation(largest[k], spring, here.share[k], here.tension[k]);
             const vec2 reduced =
                 eliminate_spring({previous[0][k], previous[1][k]}, at(before.spring.normal, k), spring, at(after, k),
                                  here.weight[k], next.weight[k], here.share[k], lines.compliance, here.tension[k]);
@@ -211,9 +211,9 @@ void store_lines(const Lines& lines, const LineParticles* particles) {
 
 }  // namespace
 
-float NATIVE_VARIANT::solve_lines(const SheetView& sheet, const LinePush& push, bool first_iteration, bool is_bdf2,
-                                  int first, int last, LineParticles* scratch) {
-    alignas(64) float largest[line_lanes] = {};
+std::uint32_t NATIVE_VARIANT::solve_lines(const SheetView& sheet, const LinePush& push, bool first_iteration,
+                                          bool is_bdf2, int first, int last, LineParticles* scratch) {
+    std::uint32_t wrong = 0;
     scratch[push.particle_count] = LineParticles{};
     for (int line = first; line < last; line += line_lanes) {
         const Lines lines{sheet,
@@ -231,13 +231,13 @@ float NATIVE_VARIANT::solve_lines(const SheetView& sheet, const LinePush& push, 
             use_tension<false>(lines, scratch);
             move_particles<false>(lines, scratch);
         }
+        alignas(64) float largest[line_lanes] = {};
         eliminate_springs(lines, scratch, largest);
+        for (int k = 0; k < lines.count; ++k) wrong += line_is_wrong(largest[k], push.rest_length);
         correct(lines, scratch);
         store_lines(lines, scratch);
     }
-    float most = 0.0f;
-    for (const float each : largest) most = each > most ? each : most;
-    return most;
+    return wrong;
 }
 
 }  // namespace drape::native

@@ -4,6 +4,7 @@
 #include <array>
 #include <barrier>
 #include <chrono>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -33,7 +34,7 @@ constexpr std::ptrdiff_t margin = 16;  // floats, before the first row and behin
 class NativeRun::Sheet {
   public:
     Sheet(const ClothModel& cloth, const Kernels& kernels, int worker_count)
-        : cloth_(cloth), kernels_(kernels), violation_(static_cast<std::size_t>(worker_count)) {
+        : cloth_(cloth), kernels_(kernels), wrong_lines_(static_cast<std::size_t>(worker_count)) {
         const ivec2 grid = cloth.grid.size();
         view_.columns = grid.x;
         view_.rows = grid.y;
@@ -58,7 +59,7 @@ class NativeRun::Sheet {
         const bool advance = step.substep > 0;
         switch (step.kind) {
             case StepKind::control:
-                if (worker.index == 0) control();
+                if (worker.index == 0) control(step.push<LineControlPush>().most_wrong);
                 return worker.wait();
             case StepKind::predict:
                 kernels_.predict_rows(view_, step.push<PredictPush>(), advance, is_bdf2(), rows);
@@ -154,15 +155,14 @@ class NativeRun::Sheet {
     }
 
     bool is_bdf2() const { return control_.order == 2; }
-    void control();
+    void control(std::uint32_t most_wrong);
     void line(const Step& step, const Worker& worker) {
         const auto& push = step.push<LinePush>();
         const auto index = static_cast<std::size_t>(worker.index);
         Rows blocks = worker.share((push.line_count + line_lanes - 1) / line_lanes);
-        const float largest =
+        wrong_lines_[index] +=
             kernels_.solve_lines(view_, push, step.iteration == 0, is_bdf2(), blocks.first * line_lanes,
                                  std::min(blocks.last * line_lanes, push.line_count), lines_[index].data());
-        violation_[index] = std::max(violation_[index], largest / push.rest_length);
         worker.wait();
     }
 
@@ -176,17 +176,17 @@ class NativeRun::Sheet {
     std::vector<std::vector<float>> memory_;
     std::vector<std::vector<LineParticles>> lines_;  ///< by worker
     std::vector<ExplicitScratch> explicit_;          ///< by worker
-    std::vector<float> violation_;                   ///< largest |C|/L of the substep, by worker
+    std::vector<std::uint32_t> wrong_lines_;         ///< of the substep, by worker
     Control control_;
 };
 
 /// As include/bdf2.h has it.
-void NativeRun::Sheet::control() {
-    const float worst = std::ranges::max(violation_);
+void NativeRun::Sheet::control(std::uint32_t most_wrong) {
+    const std::uint32_t wrong = std::reduce(wrong_lines_.begin(), wrong_lines_.end());
     control_.hold = control_.order == 0 ? line_hold_start : control_.hold > 0 ? control_.hold - 1 : 0;
-    if (worst > line_violation_limit) control_.hold = line_hold_count;
+    if (wrong > most_wrong) control_.hold = line_hold_count;
     control_.order = control_.hold > 0 ? 1 : 2;
-    std::ranges::fill(violation_, 0.0f);
+    std::ranges::fill(wrong_lines_, 0u);
 }
 
 NativeRun::NativeRun(const SimulationModel& model, NativeWay way)
