@@ -176,8 +176,9 @@ double line_substeps(const Hang& hang, double frame, double tolerance) {
     // Four at 60 Hz for a metre: 5e-4 m off after half a second's swing.
     const double resolving = frame * std::sqrt(pull / hang.length) / 0.013;
     if (hang.by_an_edge) return std::max(resolving, waves / (3.3 * root * hang.edge_spacing));
-    const double few_links = std::min(1.0, std::pow(64 * hang.spacing / hang.length, 0.25));
-    return std::max(resolving, waves / ((hang.by_lone_pins ? 0.75 : 0.35) * few_links * root * hang.spacing));
+    const double finer = std::max(1.0, hang.length / (64 * hang.spacing));
+    const double waves_per_link = hang.by_lone_pins ? 0.75 * std::cbrt(finer) : 0.35 / std::pow(finer, 0.25);
+    return std::max(resolving, waves / (waves_per_link * root * hang.spacing));
 }
 
 }  // namespace drape

@@ -18,13 +18,21 @@ struct NestedBlock {
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// From the smallest box to the largest and back, on large cloth twice; none where more substeps are cheaper.
+/// From the smallest box to the largest and back; on large cloth each end is a walk of its own, and the last list is
+/// for 384 links and more. None where more substeps are cheaper.
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
     const std::uint32_t links = std::max(grid.columns(), grid.rows()) - 1;
     if (links < 48) return {};
     if (links < 96) return {{4, 2}, {8, 2}, {16, 1}, {8, 2}, {4, 2}};
     if (links < 192) return {{4, 4}, {8, 4}, {16, 2}, {32, 1}, {16, 2}, {8, 4}, {4, 4}};
-    return {{4, 8}, {8, 8}, {16, 4}, {8, 8}, {4, 8}, {32, 2}, {64, 1}, {4, 8}, {8, 8}, {16, 4}, {8, 8}, {4, 8}};
+    const std::vector<NestedBlock> small{{4, 8}, {8, 8}, {16, 4}, {8, 8}, {4, 8}};
+    std::vector<NestedBlock> blocks = small;
+    if (links < 384)
+        blocks.insert(blocks.end(), {{32, 4}, {64, 2}, {32, 4}});
+    else
+        blocks.insert(blocks.end(), {{32, 4}, {64, 2}, {128, 1}, {64, 2}, {32, 4}});
+    blocks.insert(blocks.end(), small.begin(), small.end());
+    return blocks;
 }
 
 /// Held particles of the cloth without a held neighbour: column, row.

@@ -176,7 +176,6 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
     std::vector<float>& stored = state.tension(static_cast<std::size_t>(push.channel));
-    float largest = 0;
     for (int k = 0; k < push.line_count; ++k) {
         LineView line(model, push, state, k);
         if (step.iteration == 0)
@@ -186,7 +185,9 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                 line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
+        float largest = 0;
         const std::vector<float> change = solve(line, springs, compliance, largest);
+        if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
         const vec3 none{0, 0, 0};
         for (std::size_t p = 0; p < line.particles.size(); ++p) {
             const bool is_first = p == 0, is_last = p == springs.size();
@@ -200,7 +201,6 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                     stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
         }
     }
-    if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
 }
 
 }  // namespace drape

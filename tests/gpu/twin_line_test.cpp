@@ -41,10 +41,10 @@ TEST(TwinLineTest, SecondOrder) {
     compare(free_lines());
 }
 
-TEST(TwinLineTest, BothOrdersTakeTurnsWhereAPinJerksTheCloth) {
+TEST(TwinLineTest, BothOrdersTakeTurnsWhereAnEdgeJerksTheCloth) {
     SceneDescription scene = free_lines();
-    Pin jerked = test::pin_box(0, 0, 4, 0);
-    jerked.path.keys = {{0.05, {0, 0, 0}, {}}, {0.1, {1, 0.5, 0}, {}}};
+    Pin jerked = test::pin_top(scene.cloths[0]);
+    jerked.path.keys = {{0.05, {0, 0, 0}, {}}, {0.1, {3, 1.5, 0}, {}}};
     scene.cloths[0].pins = {jerked};
     const SimulationModel model(scene);
     Twin twin(model);
@@ -55,6 +55,23 @@ TEST(TwinLineTest, BothOrdersTakeTurnsWhereAPinJerksTheCloth) {
     }
     EXPECT_TRUE(seen[1] && seen[2]) << "the control must have switched";
     compare(scene);
+}
+
+TEST(TwinLineTest, StrainedSpringsAtLonePinsLeaveTheSecondOrderAlone) {
+    SceneDescription scene = test::sheet(129, 129, 1, 1, 4);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].placement.v = {0, 0, 1};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(128, 0, 128, 0)};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    std::uint32_t most_wrong = 0;
+    for (std::uint32_t frame = 1; frame <= 15; ++frame) {
+        twin.run_frame(frame);
+        const auto& control = twin.cloth(0).integers(Field::line_control);
+        EXPECT_EQ(control[glsl::control_order], 2u) << "frame " << frame;
+        most_wrong = std::max(most_wrong, control[glsl::control_wrong_lines]);
+    }
+    EXPECT_GT(most_wrong, 0u);
 }
 
 TEST(TwinLineTest, ThreeIterationsWithTensionHolesAndTwoCloths) {
