@@ -76,6 +76,20 @@ std::string set_checkpoint(const std::string& text, RunRequest& request) {
     return {};
 }
 
+void add_formats(CLI::App& command, const std::string& help, bool drawn,
+                 const std::function<void(const std::vector<std::string>&)>& set) {
+    const auto check = [drawn](const std::string& name) {
+        const OutputFormat* format = find_output_format(name);
+        return format && exported(*format, drawn)
+                   ? std::string()
+                   : fmt::format("expected {}, got '{}'", export_format_names(drawn), name);
+    };
+    command.add_option_function<std::vector<std::string>>("--export", set, help + format_help(drawn))
+        ->delimiter(',')
+        ->type_name("FORMAT,...")
+        ->check(check, "");
+}
+
 /// --export: beside the pictures, or instead of what `request` has.
 void add_export_option(CLI::App& command, RunRequest& request) {
     const bool drawn = request.draws();
@@ -83,21 +97,10 @@ void add_export_option(CLI::App& command, RunRequest& request) {
         if (!drawn) request.formats.clear();
         request.formats.insert(request.formats.end(), names.begin(), names.end());
     };
-    const auto check = [drawn](const std::string& name) {
-        const OutputFormat* format = find_output_format(name);
-        return format && exported(*format, drawn)
-                   ? std::string()
-                   : fmt::format("expected {}, got '{}'", export_format_names(drawn), name);
-    };
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--export", set,
-            (drawn ? "What to write beside the pictures; default: nothing"
-                   : "What to write; default: " + fmt::format("{}", fmt::join(request.formats, ","))) +
-                format_help(drawn))
-        ->delimiter(',')
-        ->type_name("FORMAT,...")
-        ->check(check, "");
+    add_formats(command,
+                drawn ? "What to write beside the pictures; default: nothing"
+                      : "What to write; default: " + fmt::format("{}", fmt::join(request.formats, ",")),
+                drawn, set);
 }
 
 }  // namespace
@@ -139,6 +142,10 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
     command.add_option(names, value, help)->type_name(type);
 }
 
+void add_word_list(CLI::App& command, const char* name, const std::string& help, std::vector<std::string>& words) {
+    command.add_option(name, words, help)->type_name("");
+}
+
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
     command.add_option("SCENE", paths, "Scene files")->required()->type_name("");
 }
@@ -147,8 +154,8 @@ void add_required_file(CLI::App& command, const char* name, const std::string& h
     command.add_option(name, path, help)->required()->type_name("");
 }
 
-void add_optional_scene(CLI::App& command, std::string& path, const std::string& help) {
-    command.add_option("SCENE", path, help)->type_name("");
+void add_optional_file(CLI::App& command, const char* name, const std::string& help, std::string& path) {
+    command.add_option(name, path, help)->type_name("");
 }
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
@@ -157,6 +164,10 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
                                              "/wind/velocity=[1,0,0]; repeatable, applied in order");
     option->allow_extra_args(false)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     option->type_name("/POINTER=VALUE")->check(check_override, "");
+}
+
+void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats) {
+    add_formats(command, help, false, [&formats](const std::vector<std::string>& names) { formats = names; });
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
@@ -203,7 +214,7 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
     add_option(command, "--size", "WIDTHxHEIGHT",
                "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720",
                [&scene](const std::string& text) { return set_size(text, scene); });
-    add_option(command, "--samples", "N", "Samples per pixel, 1 or 4; default: the scene's, else 4",
+    add_option(command, "--samples", "1|4", "Samples per pixel; default: the scene's, else 4",
                [&scene](const std::string& text) {
                    if (text != "1" && text != "4") return fmt::format("expected 1 or 4, got '{}'", text);
                    scene.samples = text == "1" ? 1 : 4;

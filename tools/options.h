@@ -34,14 +34,18 @@ SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set
 /// Takes a number, not negative, or says what was expected. `value` must outlive the parser.
 SetText not_negative(std::optional<double>& value);
 
+/// Any number of words by their place on the command line.
+void add_word_list(CLI::App& command, const char* name, const std::string& help, std::vector<std::string>& words);
 /// SCENE..., at least one
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
-/// SCENE, or none; `help` says what happens then
-/// A file by its place on the command line.
+/// A file, or a word, by its place on the command line.
 void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
-void add_optional_scene(CLI::App& command, std::string& path, const std::string& help);
+/// The same, or none; `help` says what happens then.
+void add_optional_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
 /// --set
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
+/// --export: formats that need no picture
+void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats);
 /// --device
 void add_device_option(CLI::App& command, std::string& device);
 /// --validate

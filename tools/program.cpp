@@ -1,8 +1,12 @@
 #include "program.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 
 #include "drape.h"
+#include "scene/nearest_word.h"
 #include "streams.h"
 
 namespace drape::cli {
@@ -11,12 +15,13 @@ namespace {
 
 constexpr const char* examples = R"text(
 Examples:
+  drape new flag                       a first scene to play with: flag.json
+  drape render flag.json -o out/flag
   drape check scenes/*.json
-  drape render scenes/flag.json -o out/flag
   drape simulate scenes/hanging_sheet.json -o out/hang
   drape graph scenes/flag.json --format dot | dot -Tsvg > flag.svg
   drape bench accuracy --short
-`drape COMMAND --help` has each command's options and examples.
+`drape help COMMAND` has each command's options and examples.
 
 Data goes to stdout, messages to stderr. Exit codes:
 )text";
@@ -24,15 +29,40 @@ Data goes to stdout, messages to stderr. Exit codes:
 constexpr const char* about_exit_codes =
     "\nData goes to stdout, messages to stderr. `drape --help` says what each exit code means.\nExit codes: ";
 
+OptionText text_of(const CLI::Option& option) {
+    OptionText text;
+    if (!option.nonpositional()) text.names.push_back(option.get_name());
+    for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+    text.is_positional = !option.nonpositional();
+    if (option.get_items_expected_max() > 0) text.value = option.get_type_name();
+    text.help = option.get_description();
+    return text;
+}
+
+std::string listed(const CLI::App& group) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : group.get_subcommands({})) names.push_back(command->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// ": did you mean 'render'?", or nothing.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+    const std::vector<std::string_view> candidates(names.begin(), names.end());
+    const std::string_view nearest = nearest_word(word, candidates);
+    return nearest.empty() ? "" : fmt::format(": did you mean '{}'?", nearest);
+}
+
 }  // namespace
 
 Program::Program(std::vector<std::string> arguments)
     : arguments_(std::move(arguments)),
       app_(std::make_unique<CLI::App>(
           "drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.", "drape")) {
-    app_->set_version_flag("--version", std::string("drape ") + program_version());
+    app_->set_version_flag("-V,--version", std::string("drape ") + program_version());
     app_->require_subcommand(1);
     app_->footer(examples + exit_code_table());
+    added_.push_back({app_.get(), {"", app_->get_description(), examples + exit_code_table(), {}, true}});
 }
 
 Program::~Program() = default;
@@ -47,7 +77,42 @@ CLI::App& Program::add(const std::string& name, const char* summary, const char*
         command->callback([this, run] { run_ = run; });
     else
         command->require_subcommand(1);
+    added_.push_back({command, {name, summary, details, {}, !run}});
     return *command;
+}
+
+std::vector<CommandText> Program::commands() const {
+    std::vector<CommandText> texts;
+    for (const auto& [app, added] : added_) {
+        CommandText text = added;
+        for (const CLI::Option* option : app->get_options()) text.options.push_back(text_of(*option));
+        texts.push_back(std::move(text));
+    }
+    return texts;
+}
+
+/// Nothing when there is no such command.
+const CLI::App* Program::find(const std::vector<std::string>& words) const {
+    const std::string name = fmt::format("{}", fmt::join(words, " "));
+    const auto found = std::ranges::find(added_, name, [](const auto& added) { return added.second.name; });
+    return found == added_.end() ? nullptr : found->first;
+}
+
+std::string Program::help(const std::vector<std::string>& command) const {
+    const CLI::App* app = find(command);
+    if (!app) {
+        std::vector<std::string> names;
+        for (const auto& [each, text] : added_)
+            if (!text.name.empty()) names.push_back(text.name);
+        const std::string asked = fmt::format("{}", fmt::join(command, " "));
+        const std::string meant = did_you_mean(asked, names);
+        throw UsageError(
+            fmt::format("no help on '{}'{}", asked,
+                        meant.empty() ? fmt::format(": expected one of {}", fmt::join(names, ", ")) : meant));
+    }
+    std::string name = "drape";
+    for (const std::string& word : command) name += " " + word;
+    return app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal);
 }
 
 /// Says what is wrong with the command line, and where help is.
@@ -61,24 +126,48 @@ ExitCode Program::usage_error(const std::string& text) const {
     return ExitCode::usage;
 }
 
-/// Empty when `name` is a command, else the names of all.
-std::string Program::other_commands(const std::string& name) const {
-    std::string names;
-    for (const CLI::App* command : app_->get_subcommands({})) {
-        if (command->get_name() == name) return {};
-        names += (names.empty() ? "" : ", ") + command->get_name();
+/// What is wrong with the words that ought to name a command; empty when nothing is.
+std::string Program::unknown_command() const {
+    const CLI::App* group = app_.get();
+    for (std::size_t i = 1; group == app_.get() || group->get_require_subcommand_min() > 0; ++i) {
+        const std::string word = i < arguments_.size() ? arguments_[i] : "";
+        if (word.starts_with('-')) return {};
+        const std::string expected = ": expected one of " + listed(*group);
+        if (word.empty()) return "no command given" + expected;
+        std::vector<std::string> names;
+        const CLI::App* found = nullptr;
+        for (const CLI::App* command : group->get_subcommands({})) {
+            names.push_back(command->get_name());
+            if (command->get_name() == word) found = command;
+        }
+        if (!found) {
+            const std::string meant = did_you_mean(word, names);
+            return fmt::format("unknown command '{}'{}", word, meant.empty() ? expected : meant);
+        }
+        group = found;
     }
-    return names;
+    return {};
+}
+
+/// After a parse: the option that was not expected, with what may be meant.
+std::string Program::unknown_option() const {
+    const std::vector<std::string> extras = app_->remaining(true);
+    const CLI::App* command = app_.get();
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    std::string text;
+    for (const std::string& extra : extras) {
+        const std::string word = extra.substr(0, extra.find('='));
+        text += fmt::format("{}not expected: {}{}", text.empty() ? "" : "; ", extra,
+                            word.starts_with("--") ? did_you_mean(word, names) : "");
+    }
+    return text;
 }
 
 ExitCode Program::run() {
-    const std::string first = arguments_.size() < 2 ? "" : arguments_[1];
-    if (!first.starts_with('-')) {
-        const std::string commands = other_commands(first);
-        if (!commands.empty())
-            return usage_error((first.empty() ? "no command given" : "unknown command '" + first + "'") +
-                               ": expected one of " + commands);
-    }
+    if (const std::string wrong = unknown_command(); !wrong.empty()) return usage_error(wrong);
     try {
         // CLI11 takes the words from the back.
         app_->parse(std::vector<std::string>(arguments_.rbegin(), arguments_.rend() - 1));
@@ -88,6 +177,8 @@ ExitCode Program::run() {
     } catch (const CLI::CallForVersion& version) {
         print_data(std::string(version.what()) + "\n");
         return ExitCode::ok;
+    } catch (const CLI::ExtrasError&) {
+        return usage_error(unknown_option());
     } catch (const CLI::ParseError& error) {
         return usage_error(error.what());
     }

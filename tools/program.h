@@ -14,6 +14,21 @@ class App;
 
 namespace drape::cli {
 
+/// An option as its help has it: what completions and the manual page are made of.
+struct OptionText {
+    std::vector<std::string> names;  ///< "-o", "--output"; of a place on the command line: its name
+    std::string value;               ///< "DIR"; empty: a flag
+    std::string help;
+    bool is_positional = false;
+};
+
+struct CommandText {
+    std::string name;  ///< "bench speed"; empty: the program itself
+    std::string summary, details;
+    std::vector<OptionText> options;
+    bool is_group = false;
+};
+
 class Program {
   public:
     /// `arguments`: the program's name first.
@@ -31,12 +46,20 @@ class Program {
 
     const std::vector<std::string>& arguments() const { return arguments_; }
 
+    /// The program and every command, in the order in which they were added.
+    std::vector<CommandText> commands() const;
+    /// What `drape COMMAND --help` prints. Throws UsageError when there is no such command.
+    std::string help(const std::vector<std::string>& command) const;
+
   private:
+    const CLI::App* find(const std::vector<std::string>& words) const;
+    std::string unknown_command() const;
+    std::string unknown_option() const;
     ExitCode usage_error(const std::string& text) const;
-    std::string other_commands(const std::string& name) const;
 
     std::vector<std::string> arguments_;
     std::unique_ptr<CLI::App> app_;
+    std::vector<std::pair<const CLI::App*, CommandText>> added_;
     std::function<ExitCode()> run_;
 };
 

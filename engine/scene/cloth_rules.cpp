@@ -214,6 +214,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     // reported once more for every pin.
     const Particle grid = members.fit({"grid"}) ? cloth.grid : Particle{grid_axis_limit, grid_axis_limit};
     bool fits = true;
+    note_fabric(members.object());
     for (std::size_t i = 0; i < cloth.holes.size(); ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)

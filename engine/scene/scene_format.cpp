@@ -48,7 +48,7 @@ const Object<TimeSettings> time_settings{
     {
         {"fps", &TimeSettings::fps, number({0.0, 10000.0, true}), "Frames per second."},
         {"frames", &TimeSettings::frame_count, integer(1, 1'000'000),
-         "Number of frames, 0 .. frames-1; frame 0 is the initial state."},
+         "Number of frames, 0 .. frames-1; frame 0 is the initial state. The default is two seconds at 60 a second."},
     }};
 
 const Object<Gust> gust{
@@ -145,6 +145,7 @@ const Object<Cloth> cloth{
         {"size", &Cloth::size, two_numbers(positive),
          "Metres along the columns' direction u and the rows' direction v."},
         {"placement", &Cloth::placement, placement, "Where the flat cloth starts."},
+        {"fabric", fabric_text(), read_fabric, fabric_help()},  // before what it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
         {"stiffness", &Cloth::stiffness, rigid_or(stiffness),

@@ -29,8 +29,7 @@ struct Definition {
     std::vector<const Definition*> uses;
 
     bool has_key(std::string_view key) const;
-    /// The key nearest to a misspelt one: edit distance at most 2 and less than the key's length; empty when there is
-    /// none.
+    /// The key nearest to a misspelt one (nearest_word.h); empty when there is none.
     std::string_view nearest_key(std::string_view misspelt) const;
 };
 

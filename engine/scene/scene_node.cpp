@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/nearest_word.h"
+#include "scene/scene_guesses.h"
+
 namespace drape {
 namespace {
 
@@ -23,22 +26,9 @@ std::string escaped(std::string_view token) {
     return out;
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 std::string key_hint(const Definition& object, const std::string& misspelt) {
+    if (const std::string_view meant = guessed_key(object.name, misspelt); !meant.empty())
+        return fmt::format("expected {}", meant);
     const std::string_view nearest = object.nearest_key(misspelt);
     if (!nearest.empty()) return fmt::format("expected \"{}\"", nearest);
     std::string keys;
@@ -53,19 +43,9 @@ bool Definition::has_key(std::string_view key) const {
 }
 
 std::string_view Definition::nearest_key(std::string_view misspelt) const {
-    constexpr std::size_t farthest = 2;
-    std::string_view nearest;
-    std::size_t best = farthest + 1;
-    for (const KeyText& candidate : keys) {
-        const std::string_view key = candidate.name;
-        if (misspelt.size() > key.size() + farthest) continue;
-        const std::size_t distance = edit_distance(misspelt, key);
-        if (distance < best && distance < key.size()) {
-            best = distance;
-            nearest = key;
-        }
-    }
-    return nearest;
+    std::vector<std::string_view> names;
+    for (const KeyText& key : keys) names.push_back(key.name);
+    return nearest_word(misspelt, names);
 }
 
 bool Range::contains(double x) const {
@@ -149,7 +129,12 @@ void SceneNode::note_missing(const Definition& definition) const {
     if (report_->missing == nullptr) return;
     for (const KeyText& key : definition.keys)
         if (!key.default_value.empty() && !value_->isMember(std::string(key.name)))
-            report_->missing->push_back({pointer_, key.name, key.default_value});
+            report_->missing->push_back({pointer_, std::string(key.name), key.default_value});
+}
+
+void SceneNode::note_default(const std::string& key, std::string value) const {
+    if (report_->missing == nullptr || value_->isMember(key)) return;
+    report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
 }
 
 SceneNode SceneNode::member(std::string_view key) const {

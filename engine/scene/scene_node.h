@@ -46,8 +46,8 @@ class ErrorList {
 /// A key that is not there, which has a published default.
 struct MissingKey {
     std::string object;  ///< JSON pointer
-    std::string_view key;
-    std::string_view default_value;  ///< JSON
+    std::string key;
+    std::string default_value;  ///< JSON
 };
 
 struct SceneReport {
@@ -90,6 +90,8 @@ class SceneNode {
     bool open_object(const Definition& definition) const;
     /// Tells the report which of the object's keys with a default are missing, where that is wanted.
     void note_missing(const Definition& definition) const;
+    /// Tells it that a key, when it is missing, has this default (JSON) here, instead of the published one.
+    void note_default(const std::string& key, std::string value) const;
     /// A member of an object; nothing where there is none.
     SceneNode member(std::string_view key) const;
 

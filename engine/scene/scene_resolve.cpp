@@ -30,6 +30,7 @@ class Resolution {
     }
 
   private:
+    using Default = std::pair<std::string, std::string>;  ///< JSON pointer, JSON
     struct Reading {
         std::vector<SceneError> errors, warnings;
         std::vector<MissingKey> missing;
@@ -62,8 +63,10 @@ class Resolution {
     bool add(const std::vector<MissingKey>& missing) {
         const std::size_t before = defaults_.size();
         for (const MissingKey& key : missing) {
-            const std::string pointer = key.object + "/" + std::string(key.key);
-            if (!left_out_.contains(pointer)) defaults_.emplace_back(pointer, key.default_value);
+            const std::string pointer = key.object + "/" + key.key;
+            // The first one told counts: what an object says of its own case, before what is published.
+            const bool known = std::ranges::find(defaults_, pointer, &Default::first) != defaults_.end();
+            if (!known && !left_out_.contains(pointer)) defaults_.emplace_back(pointer, key.default_value);
         }
         return defaults_.size() > before;
     }
@@ -87,7 +90,7 @@ class Resolution {
 
     std::string_view text_;
     std::vector<std::string> overrides_;
-    std::vector<std::pair<std::string, std::string>> defaults_;  ///< JSON pointer, JSON
+    std::vector<Default> defaults_;
     std::set<std::string> left_out_;
 };
 

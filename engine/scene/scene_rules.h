@@ -17,6 +17,12 @@ Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
 Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point);
 Value<std::string> check_name();
+// The name of a fabric, which sets several fields.
+ValueText fabric_text();
+std::string_view fabric_help();
+bool read_fabric(const SceneNode& node, Cloth& cloth);
+/// Its values are the defaults of the keys that it sets.
+void note_fabric(const SceneNode& cloth);
 
 // The borders and corners of a grid whose last column and row are 1.
 inline constexpr Spelling<IndexBox> edge_spellings[] = {

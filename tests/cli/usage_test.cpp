@@ -20,7 +20,8 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     const Outcome general = drape({"--help"});
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
-    for (const char* command : {"render", "simulate", "graph", "check", "schema", "devices", "bench", "verify"}) {
+    for (const char* command : {"new", "render", "simulate", "graph", "check", "schema", "devices", "bench", "verify",
+                                "help", "completions", "man"}) {
         EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
@@ -85,8 +86,8 @@ TEST_P(Usage, IsRefusedAndNothingIsTouched) {
 }
 
 const WrongUsage wrong_usages[] = {
-    {"NoCommand", {}, "no command given: expected one of render, simulate, graph, check, schema, devices"},
-    {"UnknownCommand", {"rendr", "SCENE"}, "unknown command 'rendr': expected one of render, simulate"},
+    {"NoCommand", {}, "no command given: expected one of new, render, simulate, graph, check, schema, devices"},
+    {"UnknownCommand", {"rendr", "SCENE"}, "unknown command 'rendr': did you mean 'render'?"},
     {"NoScene", {"render", "-o", "OUT"}, "drape render: SCENE is required"},
     {"NoOutput", {"render", "SCENE"}, "--output is required"},
     {"OutputWithoutFolder", {"render", "SCENE", "-o"}, "--output: 1 required DIR missing"},

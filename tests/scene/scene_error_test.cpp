@@ -94,7 +94,22 @@ const Malformed key_cases[] = {
      {"3:3: /time/fsp: expected \"fps\", got the unknown key \"fsp\""}},
     {"NothingNear",
      scene("\"time\": {\"duration\": 3}"),
-     {"2:10: /time/duration: expected one of fps, frames, got the unknown key \"duration\""}},
+     {"2:10: /time/duration: expected \"frames\" (seconds times fps, plus one), got the unknown key \"duration\""}},
+    {"SizeOfABox",
+     scene("\"colliders\": {\"boxes\": [{\"size\": [1, 1, 1]}]}"),
+     {"2:26: /colliders/boxes/0/size: expected \"half_extents\" (half the edge lengths in metres, [x, y, z]), got the "
+      "unknown key \"size\""}},
+    {"VelocityOfASphere",
+     scene("\"colliders\": {\"spheres\": [{\"velocity\": [0, -1, 0]}]}"),
+     {"2:28: /colliders/spheres/0/velocity: expected \"path\" (key frames: [{\"t\": 0}, {\"t\": 1, \"translate\": [0, "
+      "-1, 0]}]), got the unknown key \"velocity\""}},
+    {"MassOfACloth",
+     cloth("\"mass\": 1"),
+     {"2:1: /cloths/0/mass: expected \"areal_density\" (kg/m^2), got the unknown key \"mass\""}},
+    {"Fabric", cloth("\"fabric\": \"cottn\""), {"2:11: /cloths/0/fabric: expected \"cotton\", got \"cottn\""}},
+    {"UnknownFabric",
+     cloth("\"fabric\": \"paper\""),
+     {"2:11: /cloths/0/fabric: expected \"cotton\" or \"silk\" or \"denim\" or \"leather\", got \"paper\""}},
     {"PointerIsEscaped",
      scene("\"time\": {\"a/b~c\": 3}"),
      {"2:10: /time/a~1b~0c: expected one of fps, frames, got the unknown key \"a/b~c\""}},
@@ -308,8 +323,9 @@ const Malformed collider_cases[] = {
      {"2:28: /colliders/capsules/0: expected radius or radii, got both",
       "3:12: /colliders/capsules/1/radius: expected a number > 0 (single precision), got [1, 2]",
       "3:35: /colliders/capsules/2/radii/1: expected a number > 0 (single precision), got 0",
-      "3:41: /colliders/capsules/3/center: expected one of from, to, radius, radii, friction, rotate, path, color, got "
-      "the unknown key \"center\""}},
+      "3:41: /colliders/capsules/3/center: expected \"from\" and \"to\" (centres of both ends, metres), got the "
+      "unknown "
+      "key \"center\""}},
     {"Common",
      scene("\"colliders\": {\"planes\": {}, \"boxes\": [{\"friction\": -1, \"color\": \"red\", \"rotate\": "
            "90}]}"),

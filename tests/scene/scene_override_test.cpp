@@ -41,7 +41,7 @@ TEST(SceneOverride, ChangesNothingElse) {
 TEST(SceneOverride, LaterOnesWinAndReachIntoEarlierOnes) {
     EXPECT_EQ(scene_with({"/time/frames=3", "/time/frames=4"}).time.frame_count, 4u);
     EXPECT_EQ(scene_with({"/time={\"fps\": 5}", "/time/frames=4"}).time, (TimeSettings{5, 4}));
-    EXPECT_EQ(scene_with({"/time/frames=4", "/time={\"fps\": 5}"}).time, (TimeSettings{5, 1}));
+    EXPECT_EQ(scene_with({"/time/frames=4", "/time={\"fps\": 5}"}).time, (TimeSettings{5, TimeSettings{}.frame_count}));
 }
 
 TEST(SceneOverride, PlainWordsAreStrings) {

@@ -36,6 +36,16 @@ TEST(ResolvedScene, HasNoDefaultBesideItsAlternative) {
     EXPECT_EQ(described(resolved_scene(text)), described(text));
 }
 
+TEST(ResolvedScene, KeepsWhatAFabricSets) {
+    for (const char* more :
+         {"", ", \"stiffness\": {\"bend\": 1}", ", \"stiffness\": \"rigid\"", ", \"friction\": 0.1"}) {
+        const std::string text = std::string(R"({"cloths": [{"fabric": "denim")") + more + "}], \"lights\": []}";
+        EXPECT_EQ(described(resolved_scene(text)), described(text)) << text;
+    }
+    EXPECT_NE(resolved_scene(R"({"cloths": [{"fabric": "silk"}], "lights": []})").find("\"areal_density\":0.069"),
+              std::string::npos);
+}
+
 TEST(ResolvedScene, OfWhatIsNoSceneIsItsErrors) { EXPECT_THROW(resolved_scene("{\"cloths\": 1}"), SceneFailure); }
 
 }  // namespace

@@ -100,6 +100,7 @@ TEST(SceneSchema, IsTheCommittedFile) {
     EXPECT_TRUE(scene_schema() == committed("engine/scene/scene.schema.json"))
         << "build/drape schema > engine/scene/scene.schema.json";
     EXPECT_EQ(schema()["$schema"].asString(), "http://json-schema.org/draft-07/schema#");
+    EXPECT_EQ(schema()["$id"].asString(), "urn:drape:scene");
 }
 
 TEST(SceneFormat, IsTheCommittedDocument) {
@@ -228,7 +229,7 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
 TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
     const std::map<std::string_view, std::set<std::string>> without{
         {"scene", {"$schema", "cloths", "camera"}},
-        {"cloth", {"name"}},
+        {"cloth", {"name", "fabric"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
         {"motion_key", {"t"}},
         {"plane", {"path"}},

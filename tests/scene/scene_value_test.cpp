@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "drape/fabric.h"
 #include "drape/scene_reader.h"
 #include "full_scene.h"
 
@@ -56,6 +57,25 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
 }
+
+TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {
+    for (const Fabric& fabric : fabrics) {
+        const Cloth cloth = scene_of(R"({"cloths": [{"fabric": ")" + std::string(fabric.name) + "\"}]}").cloths[0];
+        EXPECT_EQ(cloth.areal_density, fabric.areal_density);
+        EXPECT_EQ(cloth.stiffness, fabric.stiffness);
+        EXPECT_EQ(cloth.friction, fabric.friction);
+        EXPECT_FALSE(fabric.source.empty());
+    }
+    const Cloth heavy =
+        scene_of(R"({"cloths": [{"stiffness": {"bend": 1e-3}, "friction": 1, "fabric": "silk"}]})").cloths[0];
+    const Fabric& silk = *find_fabric("silk");
+    EXPECT_EQ(heavy.stiffness, (Stiffness{false, silk.stiffness.stretch, silk.stiffness.shear, 1e-3}));
+    EXPECT_EQ(heavy.areal_density, silk.areal_density);
+    EXPECT_EQ(heavy.friction, 1);
+    EXPECT_TRUE(scene_of(R"({"cloths": [{"fabric": "denim", "stiffness": "rigid"}]})").cloths[0].stiffness.rigid);
+}
+
+TEST(SceneValues, WithoutFramesItMoves) { EXPECT_EQ(scene_of(R"({"cloths": [{}]})").time, (TimeSettings{60, 121})); }
 
 TEST(SceneValues, PinsOfTheFullScene) {
     const SceneDescription scene = scene_of(testing::full_scene);

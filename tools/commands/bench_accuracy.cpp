@@ -47,9 +47,10 @@ std::string set_errors(const std::string& text, std::vector<double>& errors) {
 }
 
 void add_user_scene_options(CLI::App& command, bench::AccuracyRequest& request) {
-    add_optional_scene(command, request.scene,
-                       "Scene file to be measured against its own refined runs; without one the\n"
-                       "benchmark's reference problems are");
+    add_optional_file(command, "SCENE",
+                      "Scene file to be measured against its own refined runs; without one the\n"
+                      "benchmark's reference problems are",
+                      request.scene);
     add_override_option(command, request.overrides);
     add_option(command, "--frames", "N", "Of SCENE: at most N frames after the first; default: all",
                whole(1, [&request](std::uint32_t value) { request.frames = value; }));

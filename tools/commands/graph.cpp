@@ -24,7 +24,7 @@ Examples:
                                     run);
     add_scene_options(command, options->scene);
     add_image_options(command, options->scene);
-    add_option(command, "--format", "FORMAT", "text, json or dot (for Graphviz); default: text",
+    add_option(command, "--format", "text|json|dot", "dot is for Graphviz; default: text",
                [=](const std::string& text) {
                    if (text != "text" && text != "json" && text != "dot")
                        return "expected text, json or dot, got '" + text + "'";

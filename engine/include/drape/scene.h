@@ -51,7 +51,7 @@ struct MotionPath {
 
 struct TimeSettings {
     double fps = 60.0;
-    std::uint32_t frame_count = 1;  ///< frames 0 .. frame_count-1; frame 0 is the initial state
+    std::uint32_t frame_count = 121;  ///< frames 0 .. frame_count-1; frame 0 is the initial state
     bool operator==(const TimeSettings&) const = default;
 };
 

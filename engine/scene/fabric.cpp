@@ -1,0 +1,70 @@
+// The scene key "fabric".
+#include "drape/fabric.h"
+
+#include <fmt/format.h>
+
+#include "scene/nearest_word.h"
+#include "scene/scene_rules.h"
+
+namespace drape {
+
+ValueText fabric_text() {
+    ValueText text{"\"enum\": [", ""};
+    for (const Fabric& fabric : fabrics) {
+        const bool first = &fabric == fabrics;
+        text.schema += (first ? "" : ", ") + quoted(fabric.name);
+        text.words += fmt::format("{}`{}`", first ? "" : ", ", quoted(fabric.name));
+    }
+    text.schema += "]";
+    return text;
+}
+
+std::string_view fabric_help() {
+    static const std::string help = [] {
+        std::string text =
+            "Sets areal_density, stiffness and friction, each of which may still be given to override it. Absent: "
+            "their "
+            "own defaults.";
+        for (const Fabric& fabric : fabrics)
+            text += fmt::format(" {}: {} kg/m^2, stretch {}, shear {} N/m, bend {:g} N m, friction {}. {}", fabric.name,
+                                fabric.areal_density, fabric.stiffness.stretch, fabric.stiffness.shear,
+                                fabric.stiffness.bend, fabric.friction, fabric.source);
+        return text;
+    }();
+    return help;
+}
+
+bool read_fabric(const SceneNode& node, Cloth& cloth) {
+    std::string name;
+    if (!node) return true;
+    if (!node.read(name)) return false;
+    if (const Fabric* fabric = find_fabric(name)) {
+        set_fabric(cloth, *fabric);
+        return true;
+    }
+    std::vector<std::string_view> names;
+    for (const Fabric& fabric : fabrics) names.push_back(fabric.name);
+    const std::string_view nearest = nearest_word(name, names);
+    std::string expected;
+    for (const std::string_view each : names)
+        if (nearest.empty() || each == nearest) expected += (expected.empty() ? "" : " or ") + quoted(each);
+    return node.fail_expected(expected);
+}
+
+void note_fabric(const SceneNode& cloth) {
+    const SceneNode name = cloth.member("fabric"), stiffness = cloth.member("stiffness");
+    const Fabric* fabric = name && name.value()->isString() ? find_fabric(name.value()->asString()) : nullptr;
+    if (!fabric) return;
+    const Stiffness& springs = fabric->stiffness;
+    const auto number = [](double value) { return fmt::format("{}", value); };
+    cloth.note_default("areal_density", number(fabric->areal_density));
+    cloth.note_default("friction", number(fabric->friction));
+    cloth.note_default("stiffness", fmt::format(R"({{"stretch": {}, "shear": {}, "bend": {}}})", springs.stretch,
+                                                springs.shear, springs.bend));
+    if (!stiffness || !stiffness.value()->isObject()) return;
+    stiffness.note_default("stretch", number(springs.stretch));
+    stiffness.note_default("shear", number(springs.shear));
+    stiffness.note_default("bend", number(springs.bend));
+}
+
+}  // namespace drape
