@@ -16,6 +16,7 @@ enum class ExitCode : int {
     validation = 6,
     comparison = 7,
     tolerance = 8,
+    sweep = 9,
     internal = 70,
     interrupted = 130,
     terminated = 143,
@@ -27,7 +28,7 @@ struct ExitCodeRow {
     const char* meaning;
 };
 
-inline constexpr std::array<ExitCodeRow, 12> exit_code_rows{{
+inline constexpr std::array<ExitCodeRow, 13> exit_code_rows{{
     {ExitCode::ok, "ok", "everything that was asked for is done"},
     {ExitCode::io, "file", "a file, a folder or stdout could not be read or written"},
     {ExitCode::usage, "usage", "the command line is wrong"},
@@ -37,6 +38,7 @@ inline constexpr std::array<ExitCodeRow, 12> exit_code_rows{{
     {ExitCode::validation, "validation", "a validation message was reported"},
     {ExitCode::comparison, "comparison", "a comparison or a measurement is over its limit"},
     {ExitCode::tolerance, "tolerance", "a frame misses the tolerance, or what method auto keeps"},
+    {ExitCode::sweep, "sweep", "some runs of a sweep failed or are missing"},
     {ExitCode::internal, "internal error", "a defect of the program; please report the message"},
     {ExitCode::interrupted, "interrupted", "stopped by SIGINT"},
     {ExitCode::terminated, "terminated", "stopped by SIGTERM"},

@@ -27,6 +27,15 @@ void check_stream(const RunRequest& request) {
     if (request.existing != ExistingFiles::refuse) throw UsageError("a stream cannot be overwritten or resumed");
 }
 
+/// Throws UsageError when a format cannot be written so, or cannot hold what the scene does.
+void check_formats(const RunRequest& request, const SceneDescription& scene) {
+    if (request.stream) check_stream(request);
+    for (const OutputFormat* format : output_formats(request.formats))
+        if (!format->follows_cuts && !scene.cutters.empty())
+            throw UsageError(
+                fmt::format("--export {}: its faces cannot change, but the scene has cutters", format->name));
+}
+
 bool needs_positions(const RunRequest& request) {
     return std::ranges::any_of(output_formats(request.formats),
                                [](const OutputFormat* format) { return !format->draws; });
@@ -334,7 +343,7 @@ RunSummary run_scene(const RunRequest& request) {
     };
     for (const std::string& warning : summary.warnings) say("warning: " + warning);
     std::optional<OutputFolder> folder;
-    if (request.stream) check_stream(request);
+    check_formats(request, scene.description);
     if (!request.stream) folder.emplace(request.output, request.existing);
     prefer_calling_thread(scene.description, request.draws());
     const Device device = device_of(request.scene);

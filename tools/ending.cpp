@@ -49,35 +49,40 @@ ExitCode report_validation(std::uint64_t message_count) {
     return ExitCode::validation;
 }
 
+Failure current_failure() {
+    try {
+        throw;
+    } catch (const SceneFailure& failure) {
+        return {failure.result().unreadable ? ExitCode::io : ExitCode::scene, failure.what(), true};
+    } catch (const UsageError& error) {
+        return {ExitCode::usage, error.what()};
+    } catch (const OutputError& error) {
+        return {ExitCode::io, error.what()};
+    } catch (const Diverged& error) {
+        return {ExitCode::diverged, error.what()};
+    } catch (const ToleranceMissed& error) {
+        return {ExitCode::tolerance, error.what()};
+    } catch (const vulkan::VulkanError& error) {
+        return {ExitCode::device, error.what() + vulkan_hint(error)};
+    } catch (const std::bad_alloc&) {
+        return {ExitCode::device, "out of memory"};
+    } catch (const std::exception& error) {
+        return {ExitCode::internal, fmt::format("internal error: {}", error.what())};
+    }
+}
+
 ExitCode report_current_exception() {
     try {
         throw;
     } catch (const ReaderGone&) {
         return ExitCode::io;
-    } catch (const SceneFailure& failure) {
-        print_message(failure.what());
-        return failure.result().unreadable ? ExitCode::io : ExitCode::scene;
-    } catch (const UsageError& error) {
-        print_error(error.what());
-        return ExitCode::usage;
-    } catch (const OutputError& error) {
-        print_error(error.what());
-        return ExitCode::io;
-    } catch (const Diverged& error) {
-        print_error(error.what());
-        return ExitCode::diverged;
-    } catch (const ToleranceMissed& error) {
-        print_error(error.what());
-        return ExitCode::tolerance;
-    } catch (const vulkan::VulkanError& error) {
-        print_error(error.what() + vulkan_hint(error));
-        return ExitCode::device;
-    } catch (const std::bad_alloc&) {
-        print_error("out of memory");
-        return ExitCode::device;
-    } catch (const std::exception& error) {
-        print_error(fmt::format("internal error: {}", error.what()));
-        return ExitCode::internal;
+    } catch (...) {
+        const Failure failure = current_failure();
+        if (failure.is_located)
+            print_message(failure.text);
+        else
+            print_error(failure.text);
+        return failure.code;
     }
 }
 

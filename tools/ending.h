@@ -19,6 +19,14 @@ ExitCode report_stop(const std::string& consequence);
 
 ExitCode report_validation(std::uint64_t message_count);
 
+/// What the current exception stands for. Call in a catch block.
+struct Failure {
+    ExitCode code;
+    std::string text;
+    bool is_located = false;  ///< the text says itself where: nothing stands before it
+};
+Failure current_failure();
+
 /// The exit code that the current exception stands for; prints its message. Call in a catch block.
 ExitCode report_current_exception();
 

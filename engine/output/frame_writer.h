@@ -22,6 +22,8 @@ struct WrittenCloth {
     std::uint32_t columns = 0, rows = 0;
     std::vector<std::uint32_t> faces;  ///< three particles per triangle, uncut
     std::string label = {};            ///< what the scene calls it: WrittenFrame::values has "<label>/..."
+    std::array<double, 2> size{1, 1};  ///< metres along columns, rows
+    std::vector<bool> held{};          ///< by particle: pinned at the start; empty: none
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
@@ -78,14 +80,15 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// A row of the table. The command line's help, the check of its options, the README's table (output_formats_test) and
 /// the names that `--overwrite` may remove are made of these.
 struct OutputFormat {
-    std::string_view name;   ///< of --export
-    std::string_view files;  ///< "positions.npy": with one cloth; FRAME stands for at least four digits
-    std::string_view holds;  ///< what is in them
-    std::string_view load;   ///< how to open them, a line of Markdown
-    bool draws = false;      ///< needs WrittenFrame::rgba, else positions
-    bool details = false;    ///< needs velocities and contacts
-    bool resumes = false;    ///< its files say which run they are of (kept_frames.h); others' are written anew
-    bool frame_files;        ///< a file per frame, each a result; else files that appear when the run is complete
+    std::string_view name;     ///< of --export
+    std::string_view files;    ///< "positions.npy": with one cloth; FRAME stands for at least four digits
+    std::string_view holds;    ///< what is in them
+    std::string_view load;     ///< how to open them, a line of Markdown
+    bool draws = false;        ///< needs WrittenFrame::rgba, else positions
+    bool details = false;      ///< needs velocities and contacts
+    bool resumes = false;      ///< its files say which run they are of (kept_frames.h); others' are written anew
+    bool follows_cuts = true;  ///< its faces may change; false: such a scene is refused
+    bool frame_files;          ///< a file per frame, each a result; else files that appear when the run is complete
     /// Whether the format may give a file this name.
     bool (*owns)(std::string_view file_name);
     /// The folder must outlive the writer.

@@ -28,6 +28,8 @@ std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, s
     return row_count;
 }
 
+}  // namespace
+
 std::string npy_header(const char* type, const std::string& shape) {
     std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
     constexpr size_t preamble_bytes = 10;  // magic, version, length of the rest
@@ -38,8 +40,6 @@ std::string npy_header(const char* type, const std::string& shape) {
     text += static_cast<char>(dictionary.size() >> 8);
     return text + dictionary;
 }
-
-}  // namespace
 
 NpyWriter::NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
                      std::uint32_t column_count, const NpyValues& values)

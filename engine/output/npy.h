@@ -12,6 +12,10 @@ namespace drape {
 // x y z per particle, of x y z w.
 std::vector<float> without_w(std::span<const float> xyzw);
 
+// What a NumPy file begins with: 128 bytes, so that the header of a file that grew can be replaced. `type` and `shape`
+// as below.
+std::string npy_header(const char* type, const std::string& shape);
+
 // A whole NumPy file: `type` as NumPy spells it ("<f4"), `shape` as in a tuple ("2, 3" or "2,").
 std::string npy_array(const char* type, const std::string& shape, std::span<const std::byte> values);
 

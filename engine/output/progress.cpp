@@ -82,9 +82,9 @@ std::string Progress::line(double now) const {
     const double rate = milliseconds_per_frame(now);
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
-    std::string text =
-        fmt::format("frame {} ({}/{}, {} %)  {:.1f} ms/frame  ETA {}{}{}", frame_, done_count_, frame_count_, percent,
-                    rate, duration_text(static_cast<double>(left) * rate / 1000), note_.empty() ? "" : "  ", note_);
+    std::string text = fmt::format(
+        "{0} {1} ({2}/{3}, {4} %)  {5:.1f} ms/{0}  ETA {6}{7}{8}", options_.unit, frame_, done_count_, frame_count_,
+        percent, rate, duration_text(static_cast<double>(left) * rate / 1000), note_.empty() ? "" : "  ", note_);
     if (options_.is_terminal && options_.columns > 1 && text.size() >= options_.columns)
         text.resize(options_.columns - 1);
     return text;

@@ -18,6 +18,7 @@ class Progress {
         bool is_terminal = false;                     // one that can redraw a line
         std::function<double()> seconds;              // a steady clock
         std::function<void(std::string_view)> write;  // to stderr, unbuffered
+        std::string_view unit = "frame";
         std::size_t columns = 0;  // of the terminal: a longer line, which could not be redrawn, is cut; 0: unknown
     };
     // For this process's stderr.

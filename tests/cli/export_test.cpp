@@ -33,7 +33,7 @@ TEST(Export, FormatsTogetherAreWhatEachIsAlone) {
         alone.merge(run(std::string(format->name)));
         all.insert(0, std::string(format->name) + ",");
     }
-    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 4 + 4 + 1 + 5);  // npy npz pc2 obj ply usda vtu
+    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 4 + 4 + 1 + 5 + 1);  // npy npz pc2 obj ply usda vtu mgn
     EXPECT_EQ(run(all), alone);
     EXPECT_EQ(alone.at("positions.pc2").substr(32), alone.at("positions.npy").substr(128));
     EXPECT_EQ(lasting_manifest(folder.out(all))["files"].size(), alone.size());

@@ -21,7 +21,7 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
     for (const char* command : {"new", "render", "simulate", "graph", "check", "schema", "devices", "bench", "verify",
-                                "help", "completions", "man"}) {
+                                "sweep", "help", "completions", "man"}) {
         EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
@@ -117,8 +117,8 @@ const WrongUsage wrong_usages[] = {
     {"QuietAndVerbose", {"render", "SCENE", "-o", "OUT", "-q", "-v"}, "excludes"},
     {"Export",
      {"simulate", "SCENE", "-o", "OUT", "--export", "npy,fbx"},
-     "expected npy, npz, pc2, obj, ply, usda, vtu, got 'fbx'"},
-    {"ExportOfAnotherCommand", {"simulate", "SCENE", "-o", "OUT", "--export", "y4m"}, "usda, vtu, got 'y4m'"},
+     "expected npy, npz, pc2, obj, ply, usda, vtu, mgn, got 'fbx'"},
+    {"ExportOfAnotherCommand", {"simulate", "SCENE", "-o", "OUT", "--export", "y4m"}, "usda, vtu, mgn, got 'y4m'"},
     {"StreamOfNoVideo", {"render", "SCENE", "-o", "-", "--export", "npy"}, "--export takes one of y4m, rgb"},
     {"StreamOfTwo", {"render", "SCENE", "-o", "-", "--export", "y4m,rgb"}, "--export takes one of y4m, rgb"},
     {"StreamOfArrays", {"simulate", "SCENE", "-o", "-"}, "only `drape render` writes to stdout"},

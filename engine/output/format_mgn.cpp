@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include "output/frame_writer.h"
+#include "output/npy.h"
+#include "output/zip_file.h"
+
+namespace drape {
+
+namespace {
+
+constexpr std::int32_t normal_node = 0, handle_node = 3;  // NodeType of MeshGraphNets' common.py
+
+/// All cloths as one mesh, its nodes one cloth after the other. The frames wait in a file beside the archive.
+class Trajectory : public FrameWriter {
+  public:
+    Trajectory(OutputFolder& folder, const WrittenRun& run)
+        : folder_(folder), run_(run), positions_(folder, "trajectory_frames.npz") {
+        for (const WrittenCloth& cloth : run_.cloths) node_count_ += cloth.particle_count();
+        positions_.append(bytes_of(header()));
+    }
+
+    void add(const WrittenFrame& frame) override {
+        for (const std::span<const float> cloth : frame.positions)
+            positions_.append(std::as_bytes(std::span<const float>(without_w(cloth))));
+        ++frame_count_;
+    }
+
+    std::vector<FileRecord> finish() override {
+        positions_.rewrite(0, bytes_of(header()));
+        ZipFile archive(folder_, "trajectory.npz");
+        archive.add("world_pos.npy", positions_);
+        add_mesh(archive);
+        return {archive.commit()};
+    }
+
+  private:
+    std::string header() const { return npy_header("<f4", fmt::format("{}, {}, 3", frame_count_, node_count_)); }
+
+    void add_mesh(ZipFile& archive) const {
+        std::vector<std::array<float, 2>> mesh_positions;
+        std::vector<std::uint32_t> cells;
+        std::vector<std::int32_t> types;
+        for (const WrittenCloth& cloth : run_.cloths) {
+            const auto first = static_cast<std::uint32_t>(types.size());
+            for (const std::uint32_t particle : cloth.faces) cells.push_back(first + particle);
+            for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle) {
+                const auto [u, v] = cloth.uv(particle);
+                mesh_positions.push_back(
+                    {static_cast<float>(u * cloth.size[0]), static_cast<float>(v * cloth.size[1])});
+                types.push_back(!cloth.held.empty() && cloth.held[particle] ? handle_node : normal_node);
+            }
+        }
+        archive.add("mesh_pos.npy",
+                    npy_array("<f4", fmt::format("1, {}, 2", node_count_), std::as_bytes(std::span(mesh_positions))));
+        archive.add("cells.npy",
+                    npy_array("<i4", fmt::format("1, {}, 3", cells.size() / 3), std::as_bytes(std::span(cells))));
+        archive.add("node_type.npy",
+                    npy_array("<i4", fmt::format("1, {}, 1", node_count_), std::as_bytes(std::span(types))));
+    }
+
+    OutputFolder& folder_;
+    WrittenRun run_;
+    std::size_t node_count_ = 0, frame_count_ = 0;
+    AtomicFile positions_;
+};
+
+}  // namespace
+
+extern const OutputFormat mgn_format{
+    .name = "mgn",
+    .files = "trajectory.npz",
+    .holds =
+        "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
+        "cells [1, cell, 3], node_type [1, node, 1]; not with cutters",
+    .load = "`numpy.load(\"out/trajectory.npz\")`",
+    .follows_cuts = false,
+    .frame_files = false,
+    .owns = [](std::string_view name) { return name == "trajectory.npz" || name == "trajectory_frames.npz"; },
+    .open = open_writer<Trajectory>};
+
+}  // namespace drape

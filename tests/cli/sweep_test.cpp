@@ -1,0 +1,126 @@
+// Sweeps: one run alone gives the bytes of the whole sweep; failures are counted; the data set opens in Python.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "program.h"
+#include "scenes.h"
+
+namespace drape {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// Six runs of the small scene; the third has no mass.
+constexpr const char* six_runs = R"({
+  "scene": "scene.json", "seed": 5, "set": {"/time/frames": 5},
+  "vary": {"/cloths/0/areal_density": {"grid": [0.1, 0.2, -1]}, "/cloths/0/damping": {"grid": [0, 1]},
+           "/gravity/0": {"uniform": [-1, 1]}}
+})";
+
+class Sweep : public testing::Test {
+  protected:
+    Sweep() : folder(small_scene(9)) { write_text(folder / "spec.json", six_runs); }
+
+    Outcome sweep(std::vector<std::string> more, const std::string& output = "out") const {
+        std::vector<std::string> arguments{"sweep", "spec.json", "-o", output};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return drape(arguments, {.folder = folder.path()});
+    }
+    std::string file(const std::string& name) const { return read_text(folder / name); }
+    /// Lines of the table, in order, without the times at their ends.
+    std::vector<std::string> results(const std::string& output = "out") const {
+        std::istringstream text(file(output + "/results.csv"));
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(text, line);) lines.push_back(line.substr(0, line.rfind(',')));
+        return lines;
+    }
+
+    SceneFolder folder;
+};
+
+TEST_F(Sweep, RunsAllCountsFailuresAndOneAloneHasEqualBytes) {
+    const Outcome all = sweep({"--jobs", "2", "-q"});
+    EXPECT_EQ(all.code, 9) << all.err;
+    EXPECT_THAT(all.err, AllOf(HasSubstr("4 done, 2 failed, 0 missing"), HasSubstr("run 4: scene: "),
+                               HasSubstr("areal_density: expected a number > 0"), HasSubstr("run 5: scene: ")));
+    const std::vector<std::string> lines = results();
+    ASSERT_EQ(lines.size(), 7u);
+    EXPECT_THAT(lines[0],
+                HasSubstr("index,status,exit_code,message,/cloths/0/areal_density,/cloths/0/damping,/gravity/0,"));
+    EXPECT_THAT(lines[1], HasSubstr("0,done,0,,0.1,0,"));
+    EXPECT_THAT(lines[4], HasSubstr("3,done,0,,0.2,1,"));
+    EXPECT_THAT(lines[6], HasSubstr("5,scene,3,"));
+    EXPECT_THAT(names_in(folder / "out/runs"), testing::UnorderedElementsAre("0000", "0001", "0002", "0003"));
+
+    for (int index = 5; index >= 0; --index)
+        EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, index < 4 ? 0 : 3);
+    EXPECT_EQ(sweep({"--collect", "-q"}, "alone").code, 9);
+    EXPECT_EQ(results("alone"), lines);
+    for (const char* run : {"0000", "0001", "0002", "0003"}) {
+        const std::string name = std::string("/runs/") + run;
+        EXPECT_EQ(file("alone" + name + "/positions.npz"), file("out" + name + "/positions.npz")) << run;
+        EXPECT_EQ(lasting_manifest(folder / ("alone" + name)), lasting_manifest(folder / ("out" + name))) << run;
+    }
+    EXPECT_NE(file("out/runs/0000/positions.npz"), file("out/runs/0001/positions.npz"));
+}
+
+TEST_F(Sweep, GoesOnWhereItWasAndSaysWhatIsMissing) {
+    EXPECT_EQ(sweep({"--index", "1,2-3"}).code, 0);
+    const Outcome collected = sweep({"--collect"});
+    EXPECT_EQ(collected.code, 9);
+    EXPECT_THAT(collected.err, HasSubstr("3 done, 0 failed, 3 missing"));
+    EXPECT_EQ(sweep({}).code, 1) << "without --resume";
+    const std::string kept = file("out/jobs/0001.json");
+    EXPECT_EQ(sweep({"--resume", "-q"}).code, 9);
+    EXPECT_EQ(file("out/jobs/0001.json"), kept);
+    EXPECT_EQ(results().size(), 7u);
+
+    write_text(folder / "spec.json",
+               std::string(six_runs).replace(std::string(six_runs).find("\"seed\": 5"), 9, "\"seed\": 6"));
+    const Outcome other = sweep({"--resume"});
+    EXPECT_EQ(other.code, 1);
+    EXPECT_THAT(other.err, HasSubstr("is another sweep's"));
+}
+
+TEST_F(Sweep, TellsItsRunsAndRefusesOthers) {
+    EXPECT_EQ(drape({"sweep", "spec.json", "--count"}, {.folder = folder.path()}).out, "6\n");
+    const std::string list = drape({"sweep", "spec.json", "--list"}, {.folder = folder.path()}).out;
+    EXPECT_EQ(std::ranges::count(list, '\n'), 6);
+    EXPECT_THAT(list, HasSubstr("3\t/cloths/0/areal_density=0.2\t/cloths/0/damping=1\t/gravity/0="));
+    for (const char* index : {"6", "1-", "a", "1,,2", "2-9"}) EXPECT_EQ(sweep({"--index", index}).code, 2) << index;
+    EXPECT_EQ(drape({"sweep", "spec.json"}, {.folder = folder.path()}).code, 2) << "no folder";
+    EXPECT_EQ(drape({"sweep", "absent.json", "-o", "x"}, {.folder = folder.path()}).code, 1);
+    std::filesystem::create_directory(folder / "full");
+    write_text(folder / "full/file", "mine");
+    EXPECT_EQ(sweep({}, "full").code, 1);
+}
+
+TEST_F(Sweep, ItsDataSetOpensInPython) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 3,
+        "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
+    const Outcome made = sweep({"--dataset", "-q"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    const Outcome loaded = Running("/usr/bin/python3", {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py",
+                                                        (folder / "out/dataset").string()})
+                               .wait();
+    EXPECT_EQ(loaded.code, 0) << loaded.err;
+    EXPECT_THAT(loaded.out, AllOf(HasSubstr("3 trajectories of 9 frames"), HasSubstr("'world_pos': [9, 48, 3]"),
+                                  HasSubstr("'cells': [1, 70, 3]")));
+    write_text(folder / "scene.json",
+               R"({"cloths": [{}], "gravity": [0, 0, 0], "cutters": [{"triangle": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+        "active": [0, 1]}]})");
+    const Outcome cut = sweep({"--dataset", "--resume"}, "other");
+    EXPECT_EQ(cut.code, 2);
+    EXPECT_THAT(cut.err, HasSubstr("the scene has cutters"));
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,214 @@
+// `drape sweep`: many runs of a scene, each with values of its own.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "ending.h"
+#include "options.h"
+#include "output/output_error.h"
+#include "program.h"
+#include "streams.h"
+#include "sweep/local_runs.h"
+
+namespace drape::cli {
+
+namespace {
+
+struct Options {
+    std::string spec, output, device;
+    std::vector<std::string> formats{"npz"};
+    std::string indices;
+    std::uint32_t jobs = 0;
+    bool dataset = false, resume = false, collect = false, list = false, count = false, quiet = false;
+};
+
+/// "7", "0-99", "1,5,9-12": the runs of a job.
+std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t count) {
+    std::vector<std::uint32_t> indices;
+    const auto wrong = [&] {
+        return UsageError(
+            fmt::format("--index: expected runs from 0 to {}, as in 7, 0-99 or 1,5,9-12, got '{}'", count - 1, text));
+    };
+    const char *at = text.data(), *end = text.data() + text.size();
+    const auto number = [&] {
+        std::uint32_t value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc{} || value >= count) throw wrong();
+        at = next;
+        return value;
+    };
+    for (;;) {
+        const std::uint32_t first = number();
+        const bool is_range = at != end && *at == '-';
+        if (is_range) ++at;
+        const std::uint32_t last = is_range ? number() : first;
+        for (std::uint32_t index = first; index <= last; ++index) indices.push_back(index);
+        if (at == end) return indices;
+        if (*at++ != ',') throw wrong();
+    }
+}
+
+RunRequest request_of(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
+                      std::uint32_t index) {
+    RunRequest request;
+    request.scene.path = spec.scene;
+    request.scene.overrides = spec.overrides_of(index);
+    request.scene.device = options.device;
+    request.output = folder.run_folder(index).string();
+    request.existing = ExistingFiles::overwrite;
+    request.formats = options.formats;
+    if (options.dataset) request.formats = {"mgn"};
+    request.quiet = true;
+    request.message = print_message;
+    request.stop = stop_requested;
+    return request;
+}
+
+/// One run, here. Nothing when it was stopped.
+std::optional<ExitCode> run_one(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
+                                std::uint32_t index) {
+    const auto begun = std::chrono::steady_clock::now();
+    sweep::JobRecord record{index};
+    try {
+        if (!run_scene(request_of(options, spec, folder, index)).complete) return std::nullopt;
+    } catch (...) {
+        const Failure failure = current_failure();
+        record.exit_code = static_cast<int>(failure.code);
+        record.message = failure.text;
+        print_error(fmt::format("run {}: {}", index, failure.text));
+    }
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    folder.write(record, options.dataset);
+    return static_cast<ExitCode>(record.exit_code);
+}
+
+/// The runs of --index, one after the other.
+ExitCode run_indices(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+    ExitCode worst = ExitCode::ok;
+    for (const std::uint32_t index : parse_indices(options.indices, spec.count)) {
+        const auto there = options.resume ? folder.record(index) : std::nullopt;
+        const auto code = there ? static_cast<ExitCode>(there->exit_code) : run_one(options, spec, folder, index);
+        if (!code) return report_stop(fmt::format("run {} left no record", index));
+        if (*code != ExitCode::ok) worst = *code;
+    }
+    return worst;
+}
+
+std::vector<std::string> command_of(const Options& options, std::uint32_t index) {
+    std::vector<std::string> command{
+        "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", index)};
+    if (!options.device.empty()) command.insert(command.end(), {"--device", options.device});
+    if (options.dataset) command.emplace_back("--dataset");
+    command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
+    return command;
+}
+
+ExitCode conclude(const Options& options, const sweep::SweepFolder& folder) {
+    const sweep::Tally tally = folder.collect(options.dataset);
+    if (!options.quiet || !tally.complete())
+        print_message(fmt::format("{}; {}", tally.text(), (folder.path() / "results.csv").string()));
+    return tally.complete() ? ExitCode::ok : ExitCode::sweep;
+}
+
+ExitCode run_all(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+    sweep::LocalRuns runs;
+    for (std::uint32_t index = 0; index < spec.count; ++index)
+        if (!folder.record(index)) runs.indices.push_back(index);
+    runs.processes = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+    // Where every core has a run, a driver's own threads would only be in the way.
+    if (runs.processes > 1) setenv("LP_NUM_THREADS", "0", 0);
+    runs.command = [&](std::uint32_t index) { return command_of(options, index); };
+    runs.stop = stop_requested;
+    runs.quiet = options.quiet;
+    runs.dataset = options.dataset;
+    if (!sweep::run_locally(runs, folder)) return report_stop("--resume goes on");
+    return conclude(options, folder);
+}
+
+std::string list(const sweep::SweepSpec& spec) {
+    std::string text;
+    for (std::uint32_t index = 0; index < spec.count; ++index) {
+        text += fmt::format("{}", index);
+        for (const auto& [pointer, value] : spec.parameters_of(index)) text += fmt::format("\t{}={}", pointer, value);
+        text += "\n";
+    }
+    return text;
+}
+
+/// A scene that cannot be run at all is told before the first run.
+void check_scene(const sweep::SweepSpec& spec, bool dataset) {
+    SceneResult result = read_scene(spec.scene, spec.overrides_of(0));
+    if (!result.scene) throw SceneFailure(std::move(result));
+    if (dataset && !result.scene->cutters.empty())
+        throw UsageError("--dataset: the cells of a trajectory cannot change, but the scene has cutters");
+}
+
+ExitCode run(const Options& options) {
+    const sweep::SweepSpec spec = sweep::read_sweep(options.spec);
+    if (options.count || options.list) {
+        print_data(options.count ? fmt::format("{}\n", spec.count) : list(spec));
+        return ExitCode::ok;
+    }
+    if (options.output.empty()) throw UsageError("sweep: --output is required");
+    check_scene(spec, options.dataset);
+    const bool fresh = options.indices.empty() && !options.resume && !options.collect;
+    const sweep::SweepFolder folder(options.output, spec, fresh);
+    catch_signals();
+    if (options.collect) return conclude(options, folder);
+    return options.indices.empty() ? run_all(options, spec, folder) : run_indices(options, spec, folder);
+}
+
+constexpr const char* details = R"text(
+SPEC is JSON, with // comments:
+  {"scene": "flag.json", "seed": 1, "count": 1000,
+   "set": {"/time/frames": 401},
+   "vary": {"/wind/velocity/0": {"uniform": [2, 8]},
+            "/cloths/0/stiffness/bend": {"log_uniform": [1e-6, 1e-4]},
+            "/cloths/0/areal_density": {"normal": [0.2, 0.05], "within": [0.1, 0.4]},
+            "/wind/gust/seed": {"integer": [0, 1000000]},
+            "/cloths/0/fabric": {"choice": ["cotton", "silk"]},
+            "/cloths/0/damping": {"grid": [0.1, 0.2, 0.4]}}}
+The values of run I follow from SPEC and I alone, each pointer's from a random
+number of its own: --index I anywhere gives the bytes that the whole sweep
+gives. Grids are counted through, the last pointer in alphabetical order
+fastest; without a count every combination runs once.
+
+DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
+results.csv, a line per run, failed ones too: exit code 9 when there is one.
+
+Examples:
+  drape sweep spec.json -o out/sweep                 all cores; a process per run
+  drape sweep spec.json -o out/sweep --resume        after an interruption
+  drape sweep spec.json -o out/data --dataset        layout of flag_simple
+  drape sweep spec.json -o out/sweep --index 17      one run, on any machine
+  drape sweep spec.json -o out/sweep --collect       results.csv of what is there
+)text";
+
+}  // namespace
+
+void add_sweep(Program& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = program.add("sweep", "Run a scene many times, with values drawn from a seed", details,
+                                    [=] { return run(*options); });
+    add_required_file(command, "SPEC", "What changes from run to run, as below", options->spec);
+    add_option(command, "-o,--output", "DIR", "Folder for all runs, made when missing", options->output);
+    add_option(command, "--index", "I,...", "Only these runs, here, one after the other:\n7, 0-99 or 1,5,9-12",
+               options->indices);
+    add_option(command, "--jobs", "N", "Processes at a time; default: one per core",
+               whole(1, [=](std::uint32_t value) { options->jobs = value; }));
+    add_format_option(command, "What each run writes; default: npz", options->formats);
+    add_flag(command, "--dataset",
+             "The layout of MeshGraphNets' flag_simple instead:\ndataset/meta.json and a trajectory per run",
+             options->dataset);
+    add_flag(command, "--resume", "Go on with a sweep: runs with a record are kept,\nfailed ones too", options->resume);
+    add_flag(command, "--collect", "Run nothing: results.csv of the records", options->collect);
+    add_flag(command, "--list", "Print every run's values", options->list);
+    add_flag(command, "--count", "Print the number of runs", options->count);
+    add_device_option(command, options->device);
+    add_flag(command, "-q,--quiet", "No progress", options->quiet);
+}
+
+}  // namespace drape::cli

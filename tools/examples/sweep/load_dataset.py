@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""Opens a data set of `drape sweep --dataset` as a training program would, and checks it.
+
+    tools/examples/sweep/load_dataset.py out/flag_simple/dataset
+
+Every trajectory has the arrays that meta.json lists, of the dtypes and shapes it says (-1: any); positions are finite,
+cells name nodes, nodes of type 3 (handles: pinned) stay where they start. Prints what was found; the exit code is not 0
+where it is otherwise. Needs python3-numpy.
+"""
+import glob
+import json
+import os
+import sys
+
+import numpy
+
+HANDLE = 3
+
+
+def trajectories(folder):
+    """(name, arrays by field) of every trajectory, in order."""
+    for path in sorted(glob.glob(os.path.join(folder, "trajectory_*.npz"))):
+        with numpy.load(path) as archive:
+            yield os.path.basename(path), {field: archive[field] for field in archive.files}
+
+
+def check(name, arrays, meta):
+    if sorted(arrays) != sorted(meta["field_names"]):
+        raise ValueError(f"{name} has {sorted(arrays)}")
+    for field, feature in meta["features"].items():
+        array = arrays[field]
+        fits = len(array.shape) == len(feature["shape"]) and all(
+            wanted in (-1, length) for length, wanted in zip(array.shape, feature["shape"]))
+        if not fits or array.dtype != feature["dtype"]:
+            raise ValueError(f"{name}: {field} is {array.dtype} {array.shape}, meta.json says {feature}")
+    world, cells, types = arrays["world_pos"], arrays["cells"][0], arrays["node_type"][0, :, 0]
+    if not numpy.isfinite(world).all():
+        raise ValueError(f"{name}: a position is not finite")
+    if cells.min() < 0 or cells.max() >= world.shape[1]:
+        raise ValueError(f"{name}: a cell names a node that is not there")
+    held = world[:, types == HANDLE]
+    if not numpy.array_equal(held, numpy.broadcast_to(held[:1], held.shape)):
+        raise ValueError(f"{name}: a pinned node moves")
+    if numpy.array_equal(world[0], world[-1]):
+        raise ValueError(f"{name}: nothing moves")
+
+
+def main():
+    folder = sys.argv[1]
+    with open(os.path.join(folder, "meta.json")) as file:
+        meta = json.load(file)
+    count = 0
+    for name, arrays in trajectories(folder):
+        check(name, arrays, meta)
+        count += 1
+    if count == 0:
+        raise ValueError(f"no trajectory in {folder}")
+    shapes = {field: feature["shape"] for field, feature in meta["features"].items()}
+    print(f"{count} trajectories of {meta['trajectory_length']} frames, {meta['dt']} s apart: {shapes}")
+
+
+main()

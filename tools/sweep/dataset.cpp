@@ -1,0 +1,85 @@
+#include "sweep/dataset.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <optional>
+
+#include "drape.h"
+#include "output/atomic_file.h"
+#include "output/json_text.h"
+#include "output/output_error.h"
+
+namespace drape::sweep {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What the shapes of a trajectory follow from; -1: not the same in all runs.
+struct Shape {
+    std::int64_t frames = 0, nodes = 0, cells = 0;
+    double dt = 0;
+};
+
+std::optional<Shape> shape_of(const SweepSpec& spec, std::uint32_t index) {
+    const SceneResult result = read_scene(spec.scene, spec.overrides_of(index));
+    if (!result.scene) return std::nullopt;
+    Shape shape{result.scene->time.frame_count, 0, 0, 1 / result.scene->time.fps};
+    for (const Cloth& cloth : result.scene->cloths) {
+        shape.nodes += std::int64_t{cloth.grid[0]} * cloth.grid[1];
+        shape.cells +=
+            cloth.holes.empty() ? 2 * (std::int64_t{cloth.grid[0]} - 1) * (cloth.grid[1] - 1) : -1'000'000'000;
+    }
+    return shape;
+}
+
+Shape common_shape(const SweepSpec& spec) {
+    std::optional<Shape> common;
+    for (std::uint32_t index = 0; index < spec.count; ++index) {
+        const auto shape = shape_of(spec, index);
+        if (!shape) continue;
+        if (!common) common = shape;
+        if (shape->frames != common->frames) common->frames = -1;
+        if (shape->nodes != common->nodes) common->nodes = -1;
+        if (shape->cells != common->cells) common->cells = -1;
+        if (shape->dt != common->dt) common->dt = -1;
+    }
+    if (common && common->cells < 0) common->cells = -1;  // holes: only the run itself knows
+    return common.value_or(Shape{-1, -1, -1, -1});
+}
+
+Json::Value feature(const char* type, std::vector<std::int64_t> shape, const char* dtype) {
+    Json::Value value(Json::objectValue);
+    value["type"] = type;
+    value["dtype"] = dtype;
+    for (const std::int64_t length : shape) value["shape"].append(Json::Int64{length});
+    return value;
+}
+
+}  // namespace
+
+void give_file(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::remove(to, error);
+    fs::create_hard_link(from, to, error);
+    if (error) fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (error) throw OutputError(fmt::format("cannot write '{}': {}", to.string(), error.message()));
+}
+
+void write_meta(const fs::path& folder, const SweepSpec& spec) {
+    const Shape shape = common_shape(spec);
+    Json::Value meta(Json::objectValue);
+    meta["simulator"] = fmt::format("drape {}", program_version());
+    meta["trajectory_length"] = Json::Int64{shape.frames};
+    if (shape.dt > 0) meta["dt"] = shape.dt;
+    Json::Value& features = meta["features"];
+    features["cells"] = feature("static", {1, shape.cells, 3}, "int32");
+    features["mesh_pos"] = feature("static", {1, shape.nodes, 2}, "float32");
+    features["node_type"] = feature("static", {1, shape.nodes, 1}, "int32");
+    features["world_pos"] = feature("dynamic", {shape.frames, shape.nodes, 3}, "float32");
+    for (const std::string& name : features.getMemberNames()) meta["field_names"].append(name);
+    write_file(folder / "meta.json", json_text(meta));
+}
+
+}  // namespace drape::sweep

@@ -1,0 +1,198 @@
+#include "sweep/sweep_folder.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "drape.h"
+#include "output/atomic_file.h"
+#include "output/json_text.h"
+#include "output/output_error.h"
+#include "sweep/dataset.h"
+
+namespace drape::sweep {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::optional<std::string> content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+Json::Value parsed(const std::string& text, const fs::path& path) {
+    Json::Value value;
+    std::istringstream stream(text);
+    std::string errors;
+    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &value, &errors))
+        throw OutputError(fmt::format("'{}' is not JSON: {}", path.string(), errors));
+    return value;
+}
+
+void make_folder(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) throw OutputError(fmt::format("cannot make '{}': {}", path.string(), error.message()));
+}
+
+/// Statistics that a table of runs has: the largest of any frame and cloth.
+constexpr std::string_view worst_values[] = {"stretch_max",   "stretch_rms",   "stretch_error_rms",
+                                             "penetration_m", "speed_max_m_s", "motion_error_m_s"};
+
+/// "flag/stretch_max" -> "stretch_max"
+std::string_view without_cloth(std::string_view name) { return name.substr(name.find('/') + 1); }
+
+std::map<std::string, double> manifest_values(const Json::Value& manifest) {
+    std::map<std::string, double> values;
+    for (const Json::Value& frame : manifest["statistics"])
+        for (const std::string& key : frame.getMemberNames()) {
+            const std::string_view name = without_cloth(key);
+            if (std::ranges::find(worst_values, name) == std::end(worst_values)) continue;
+            const auto [entry, is_new] = values.emplace(std::string(name) + "_worst", frame[key].asDouble());
+            if (!is_new) entry->second = std::max(entry->second, frame[key].asDouble());
+        }
+    const Json::Value& frames = manifest["statistics"];
+    if (!frames.empty()) {
+        const Json::Value& last = frames[frames.size() - 1];
+        for (const char* name : {"energy_j", "kinetic_energy_j"})
+            if (last.isMember(name)) values[std::string(name) + "_last"] = last[name].asDouble();
+    }
+    values["frames"] = static_cast<double>(frames.size());
+    for (const Json::Value& file : manifest["files"]) values["bytes"] += file["bytes"].asDouble();
+    return values;
+}
+
+/// By RFC 4180.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string field = "\"";
+    for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return field + "\"";
+}
+
+}  // namespace
+
+std::string JobRecord::status() const {
+    if (done()) return "done";
+    for (const ExitCodeRow& row : exit_code_rows)
+        if (static_cast<int>(row.code) == exit_code) return row.name;
+    return exit_code > 128 ? fmt::format("signal {}", exit_code - 128) : fmt::format("exit code {}", exit_code);
+}
+
+std::string Tally::text() const {
+    std::string text = fmt::format("{} done, {} failed, {} missing; {:.1f} MB", done, failed.size(), missing.size(),
+                                   static_cast<double>(bytes) / 1e6);
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < std::min(failed.size(), most); ++i)
+        text += fmt::format("\n  run {}: {}: {}", failed[i].index, failed[i].status(), failed[i].message);
+    if (failed.size() > most) text += fmt::format("\n  and {} more: results.csv lists all", failed.size() - most);
+    return text;
+}
+
+SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh) : path_(path), spec_(spec) {
+    Json::Value json(Json::objectValue);
+    json["format"] = "drape sweep 1";
+    json["program_version"] = program_version();
+    json["scene"] = spec.scene;
+    json["scene_hash"] = xxh3_128_hex(content(spec.scene).value_or(""));
+    json["count"] = spec.count;
+    json["specification"] = parsed(spec.text, "the specification");
+    const std::string text = json_text(json);
+    const fs::path file = path_ / "sweep.json";
+    const auto there = content(file);
+    if (there && *there != text)
+        throw OutputError(
+            fmt::format("'{}' is another sweep's: its specification, scene or program differs", path.string()));
+    if (fresh && fs::exists(path_ / "jobs") && !fs::is_empty(path_ / "jobs"))
+        throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
+    if (!there && fs::exists(path_) && !fs::is_empty(path_) && !fs::exists(path_ / "jobs"))
+        throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
+    for (const char* name : {"runs", "jobs"}) make_folder(path_ / name);
+    if (!there) write_file(file, text);
+}
+
+std::string SweepFolder::number(std::uint32_t index) const {
+    return fmt::format("{:0{}}", index, std::max<std::size_t>(4, fmt::formatted_size("{}", spec_.count - 1)));
+}
+
+fs::path SweepFolder::trajectory(std::uint32_t index) const {
+    return path_ / "dataset" / fmt::format("trajectory_{}.npz", number(index));
+}
+
+std::optional<JobRecord> SweepFolder::record(std::uint32_t index) const {
+    const fs::path file = path_ / "jobs" / (number(index) + ".json");
+    const auto text = content(file);
+    if (!text) return std::nullopt;
+    const Json::Value json = parsed(*text, file);
+    JobRecord record{index, json["exit_code"].asInt(), json["message"].asString(), json["seconds"].asDouble()};
+    for (const std::string& name : json["values"].getMemberNames())
+        record.values[name] = json["values"][name].asDouble();
+    return record;
+}
+
+void SweepFolder::write(JobRecord record, bool dataset) const {
+    const fs::path manifest = run_folder(record.index) / "manifest.json";
+    if (const auto text = content(manifest)) record.values = manifest_values(parsed(*text, manifest));
+    if (dataset && record.done()) {
+        make_folder(path_ / "dataset");
+        give_file(run_folder(record.index) / "trajectory.npz", trajectory(record.index));
+    }
+    Json::Value json(Json::objectValue);
+    json["index"] = record.index;
+    json["status"] = record.status();
+    json["exit_code"] = record.exit_code;
+    json["message"] = record.message;
+    json["seconds"] = record.seconds;
+    json["parameters"] = Json::Value(Json::objectValue);
+    for (const auto& [pointer, value] : spec_.parameters_of(record.index)) json["parameters"][pointer] = value;
+    json["values"] = Json::Value(Json::objectValue);
+    for (const auto& [name, value] : record.values) json["values"][name] = value;
+    write_file(path_ / "jobs" / (number(record.index) + ".json"), json_text(json));
+}
+
+Tally SweepFolder::collect(bool dataset) const {
+    Tally tally;
+    std::vector<JobRecord> records;
+    std::map<std::string, bool> names;
+    for (std::uint32_t index = 0; index < spec_.count; ++index) {
+        const auto found = record(index);
+        if (!found) {
+            tally.missing.push_back(index);
+            continue;
+        }
+        for (const auto& [name, value] : found->values) {
+            names[name];
+            if (name == "bytes") tally.bytes += static_cast<std::uint64_t>(value);
+        }
+        if (found->done())
+            ++tally.done;
+        else
+            tally.failed.push_back(*found);
+        records.push_back(*found);
+    }
+    std::string csv = "index,status,exit_code,message";
+    for (const auto& [pointer, distribution] : spec_.parameters) csv += "," + csv_field(pointer);
+    for (const auto& [name, unused] : names) csv += "," + name;
+    csv += ",seconds\n";
+    for (const JobRecord& job : records) {
+        csv += fmt::format("{},{},{},{}", job.index, job.status(), job.exit_code, csv_field(job.message));
+        for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_field(value);
+        for (const auto& [name, unused] : names) {
+            const auto value = job.values.find(name);
+            csv += value == job.values.end() ? "," : fmt::format(",{}", value->second);
+        }
+        csv += fmt::format(",{:.3f}\n", job.seconds);
+    }
+    write_file(path_ / "results.csv", csv);
+    if (dataset && tally.done > 0) write_meta(path_ / "dataset", spec_);
+    return tally;
+}
+
+}  // namespace drape::sweep

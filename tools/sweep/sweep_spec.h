@@ -1,0 +1,33 @@
+// A sweep: a scene, and which of its values change from run to run.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "drape/scene_reader.h"
+#include "sweep/distribution.h"
+
+namespace drape::sweep {
+
+inline constexpr std::uint32_t most_runs = 10'000'000;
+
+struct SweepSpec {
+    std::string scene;  ///< path, as it may be opened
+    std::uint64_t seed = 0;
+    std::uint32_t count = 0;                         ///< runs 0 .. count-1
+    std::vector<std::string> set;                    ///< "/pointer=value", in every run, before the others
+    std::map<std::string, Distribution> parameters;  ///< by JSON pointer
+    std::string text;                                ///< of the file
+
+    /// Values of the parameters of a run, by pointer, as JSON. A pure function of the specification and the index.
+    std::map<std::string, std::string> parameters_of(std::uint32_t index) const;
+    /// All "/pointer=value" of a run, as --set takes them.
+    std::vector<std::string> overrides_of(std::uint32_t index) const;
+};
+
+/// Reads a specification. Throws SceneFailure with every error, at its place.
+SweepSpec read_sweep(const std::string& path);
+SweepSpec read_sweep_text(std::string_view text, const std::string& path);
+
+}  // namespace drape::sweep
