@@ -1,0 +1,28 @@
+// Curves over time on linear axes, as SVG text.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace drape::report {
+
+struct Curve {
+    std::string name;                           ///< in the legend
+    std::vector<std::array<double, 2>> points;  ///< joined in this order; what is not finite is left out
+    std::size_t colour = 0;                     ///< of 8
+    bool dashed = false;                        ///< and in the legend's second row
+};
+
+struct CurvePlot {
+    std::string title, x_label, y_label;  ///< labels with units
+    std::vector<Curve> curves;
+};
+
+/// A picture of 560 x 300 units; every curve has a group of its own with its name as title.
+std::string svg_text(const CurvePlot& plot);
+
+/// Text in HTML, XML and SVG.
+std::string escaped(const std::string& text);
+
+}  // namespace drape::report

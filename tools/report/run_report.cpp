@@ -1,0 +1,239 @@
+#include "report/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "output/json_text.h"
+#include "report/curve_plot.h"
+
+namespace drape::report {
+
+namespace {
+
+constexpr const char* style = R"css(
+body { font: 15px/1.45 system-ui, sans-serif; margin: 0; color: #1c1e21; background: #f4f5f7; }
+main { max-width: 1240px; margin: 0 auto; padding: 1.2rem; }
+section { background: #fff; border: 1px solid #dfe2e6; border-radius: 8px; padding: .8rem 1.1rem; margin: 0 0 1rem; }
+h1 { font-size: 1.5rem; margin: .2rem 0 .8rem; } h2 { font-size: 1.1rem; margin: .2rem 0 .6rem; }
+.runs { display: grid; grid-template-columns: repeat(auto-fit, minmax(400px, 1fr)); gap: 1rem; }
+.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); gap: .6rem; }
+.sheet { display: grid; grid-template-columns: repeat(4, 1fr); gap: 4px; }
+.sheet .between { display: none; } .player { max-width: 760px; }
+.sheet figure { margin: 0; } .sheet img, .player img { width: 100%; display: block; border-radius: 3px; }
+figcaption { font-size: .75rem; color: #5a6068; } svg { width: 100%; height: auto; }
+table { border-collapse: collapse; } td, th { text-align: left; padding: .15rem .9rem .15rem 0; vertical-align: top; }
+td.number { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: 600; }
+.player input { width: 70%; vertical-align: middle; } .good { color: #08703f; } .bad { color: #b3261e; font-weight: 600; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .2rem 0; }
+)css";
+
+constexpr const char* script = R"js(
+for (const player of document.querySelectorAll('.player')) {
+  const frames = [...document.querySelectorAll('#' + player.dataset.frames + ' img')];
+  const shown = player.querySelector('img'), slider = player.querySelector('input');
+  const button = player.querySelector('button'), label = player.querySelector('output');
+  let timer = 0;
+  const show = at => { slider.value = at; shown.src = frames[at].src; label.textContent = frames[at].alt; };
+  const stop = () => { clearInterval(timer); timer = 0; button.textContent = 'Play'; };
+  slider.oninput = () => { stop(); show(+slider.value); };
+  button.onclick = () => {
+    if (timer) return stop();
+    button.textContent = 'Stop';
+    timer = setInterval(() => show((+slider.value + 1) % frames.length), 1000 * player.dataset.seconds);
+  };
+  show(0);
+}
+)js";
+
+std::string value_text(const Json::Value& value) {
+    if (value.isString()) return value.asString();
+    if (value.isDouble()) return fmt::format("{:.6g}", value.asDouble());
+    return json_line(value);
+}
+
+std::string row(const std::string& name, const std::string& value) {
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+}
+
+std::string title_of(const RunFolder& run) {
+    const std::string name = run.manifest["scene"]["name"].asString();
+    return name.empty() ? run.path.string() : name;
+}
+
+/// What is said of a run in a table: where it stands in the manifest is its name.
+std::string settings(const RunFolder& run) {
+    const Json::Value& manifest = run.manifest;
+    std::string html = "<table>\n" + row("folder", run.path.string());
+    for (const char* name : {"program_version", "run_key"}) html += row(name, value_text(manifest[name]));
+    for (const char* group : {"scene", "device", "frames", "picture", "solver", "validation"})
+        for (const std::string& name :
+             manifest.isMember(group) ? manifest[group].getMemberNames() : Json::Value::Members{})
+            html += row(fmt::format("{}.{}", group, name), value_text(manifest[group][name]));
+    html += row("created", value_text(manifest["run"]["created"]));
+    std::string command;
+    for (const Json::Value& word : manifest["run"]["command_line"])
+        command += (command.empty() ? "" : " ") + word.asString();
+    return html + row("command line", command) + "</table>\n";
+}
+
+std::string status(const RunFolder& run) {
+    const Json::Value& manifest = run.manifest;
+    const std::string state = manifest["status"].asString();
+    std::string html =
+        fmt::format("<p>Status: <span class=\"{}\">{}</span></p>\n", state == "done" ? "good" : "bad", escaped(state));
+    if (manifest.isMember("failure"))
+        html += fmt::format("<p class=\"bad\">{}</p>\n", escaped(manifest["failure"].asString()));
+    std::string items;
+    for (const Json::Value& warning : manifest["warnings"]) items += "<li>" + escaped(value_text(warning)) + "</li>\n";
+    for (const Json::Value& each : manifest["compromises"])
+        items += fmt::format("<li>{}: {}</li>\n", escaped(each["what"].asString()), escaped(each["reason"].asString()));
+    const auto messages = manifest["validation"]["messages"].asUInt64();
+    if (messages > 0) items += fmt::format("<li class=\"bad\">{} validation messages</li>\n", messages);
+    html += items.empty() ? "<p>No warnings.</p>\n" : "<ul>\n" + items + "</ul>\n";
+    if (manifest.isMember("certificate"))
+        html += "<h2>Certificate</h2>\n<pre>" + escaped(json_text(manifest["certificate"])) + "</pre>\n";
+    return html;
+}
+
+/// Milliseconds per frame by stage, of the device.
+std::string times(const RunFolder& run) {
+    const Json::Value& timing = run.manifest["run"];
+    std::string html = "<table>\n<tr><th>stage</th><th>ms per frame, median</th></tr>\n";
+    const Json::Value& stages = timing["stage_median_ms"];
+    for (const std::string& stage : stages.isObject() ? stages.getMemberNames() : Json::Value::Members{})
+        html += fmt::format("<tr><td>{}</td><td class=\"number\">{:.3f}</td></tr>\n", escaped(stage),
+                            stages[stage].asDouble());
+    if (timing.isMember("frame_ms"))
+        html += fmt::format("<tr><td>frame, wall clock</td><td class=\"number\">{:.3f}</td></tr>\n",
+                            timing["frame_ms"]["median"].asDouble());
+    return html + "</table>\n";
+}
+
+/// Numbers of the pictures that the page holds, evenly spread, the first and the last among them.
+std::vector<std::size_t> chosen(std::size_t count, std::size_t most) {
+    std::vector<std::size_t> numbers;
+    const std::size_t wanted = std::min(count, std::max<std::size_t>(most, 1));
+    for (std::size_t i = 0; i < wanted; ++i) numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
+    return numbers;
+}
+
+constexpr std::size_t sheet_pictures = 12;
+
+std::string pictures(const RunFolder& run, std::size_t id, const ReportOptions& options) {
+    if (run.pictures.empty()) return "<p>This run drew no pictures.</p>\n";
+    const std::vector<std::size_t> numbers = chosen(run.pictures.size(), options.frames);
+    const Json::Value& frames = run.manifest["frames"];
+    const double spacing = static_cast<double>(run.pictures.size()) / static_cast<double>(numbers.size()) *
+                           frames["step"].asDouble() / std::max(frames["fps"].asDouble(), 1e-3);
+    std::string html = fmt::format(
+        "<div class=\"player\" data-frames=\"frames{}\" data-seconds=\"{:.4f}\">\n<img alt=\"\"/>\n"
+        "<button type=\"button\">Play</button> <input type=\"range\" min=\"0\" max=\"{}\" value=\"0\"/> "
+        "<output></output>\n</div>\n<h2>Contact sheet</h2>\n<div class=\"sheet\" id=\"frames{}\">\n",
+        id, spacing, numbers.size() - 1, id);
+    // All are in the player; the sheet shows some.
+    const std::vector<std::size_t> shown = chosen(numbers.size(), sheet_pictures);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::string name = escaped(run.pictures[numbers[i]]);
+        const bool between = std::ranges::find(shown, i) == shown.end();
+        html += fmt::format(
+            "<figure{2}><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"/><figcaption>{0}</figcaption></figure>\n",
+            name, small_picture(run.path / run.pictures[numbers[i]], options.width),
+            between ? " class=\"between\"" : "");
+    }
+    return html + "</div>\n";
+}
+
+/// The largest over the cloths of what ends so; nothing where no cloth has it.
+Curve curve(const RunFolder& run, const std::string& name, const std::string& key, double factor) {
+    Curve result{name, {}};
+    const double fps = std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3);
+    for (const Json::Value& frame : run.manifest["statistics"]) {
+        double worst = -INFINITY;
+        for (const std::string& member : frame.getMemberNames())
+            if (member == key || member.ends_with("/" + key)) worst = std::max(worst, frame[member].asDouble());
+        if (worst > -INFINITY) result.points.push_back({frame["frame"].asDouble() / fps, worst * factor});
+    }
+    return result;
+}
+
+struct Line {
+    const char *name, *key;
+};
+struct Plot {
+    const char *title, *unit;
+    double factor;
+    std::vector<Line> lines;
+};
+
+const std::vector<Plot>& plots() {
+    static const std::vector<Plot> table{
+        {"Stretch",
+         "%",
+         100,
+         {{"largest", "stretch_max"}, {"RMS", "stretch_rms"}, {"error, RMS", "stretch_error_rms"}}},
+        {"Energy",
+         "J",
+         1,
+         {{"kinetic", "kinetic_energy_j"},
+          {"potential", "potential_energy_j"},
+          {"elastic", "elastic_energy_j"},
+          {"total", "energy_j"}}},
+        {"Penetration", "mm", 1000, {{"deepest", "penetration_m"}}},
+        {"Substeps and iterations", "per frame", 1, {{"substeps", "substeps"}, {"iterations", "iterations"}}},
+        {"Largest speed", "m/s", 1, {{"speed", "speed_max_m_s"}}},
+        {"Motion error, estimated", "mm/s", 1000, {{"error", "motion_error_m_s"}}},
+    };
+    return table;
+}
+
+std::string plot_section(const std::vector<RunFolder>& runs) {
+    std::string html = "<section>\n<h2>Over time</h2>\n<div class=\"plots\">\n";
+    for (const Plot& plot : plots()) {
+        CurvePlot drawing{plot.title, "s", plot.unit, {}};
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            for (std::size_t k = 0; k < plot.lines.size(); ++k) {
+                const std::string run = runs.size() == 1 ? "" : i == 0 ? "A " : "B ";
+                Curve one = curve(runs[i], run + plot.lines[k].name, plot.lines[k].key, plot.factor);
+                one.colour = k;
+                one.dashed = i > 0;
+                if (!one.points.empty()) drawing.curves.push_back(std::move(one));
+            }
+        if (!drawing.curves.empty()) html += "<div>" + svg_text(drawing) + "</div>\n";
+    }
+    return html + "</div>\n</section>\n";
+}
+
+/// A section with a column per run.
+std::string section(const std::string& title, const std::vector<RunFolder>& runs,
+                    const std::function<std::string(const RunFolder&, std::size_t)>& content) {
+    std::string html = fmt::format("<section>\n<h2>{}</h2>\n<div class=\"runs\">\n", title);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const std::string head =
+            runs.size() == 1 ? ""
+                             : fmt::format("<h2>{}: {}</h2>\n", i == 0 ? "A" : "B", escaped(runs[i].path.string()));
+        html += "<div>\n" + head + content(runs[i], i) + "</div>\n";
+    }
+    return html + "</div>\n</section>\n";
+}
+
+}  // namespace
+
+std::string report_html(const std::vector<RunFolder>& runs, const ReportOptions& options) {
+    std::string title = title_of(runs.front());
+    if (runs.size() > 1) title += " and " + title_of(runs[1]);
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
+        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
+        "<h1>{0}</h1>\n",
+        escaped(title), style);
+    html += section("Result", runs, [](const RunFolder& run, std::size_t) { return status(run); });
+    html += section("Pictures", runs, [&](const RunFolder& run, std::size_t id) { return pictures(run, id, options); });
+    html += plot_section(runs);
+    html += section("Times", runs, [](const RunFolder& run, std::size_t) { return times(run); });
+    html += section("Settings", runs, [](const RunFolder& run, std::size_t) { return settings(run); });
+    return html + "</main>\n<script>//<![CDATA[" + script + "//]]></script>\n</body>\n</html>\n";
+}
+
+}  // namespace drape::report
