@@ -20,9 +20,9 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     const Outcome general = drape({"--help"});
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
-    for (const char* command : {
-        "new", "render", "simulate", "graph", "check", "schema", "devices", "bench", "verify", "report", "sweep",
-            EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
+    for (const char* command : {"new", "render", "simulate", "graph", "check", "schema", "devices", "bench", "verify",
+                                "report", "sweep", "help", "completions", "man"}) {
+        EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_THAT(help.err, IsEmpty()) << command;

@@ -71,7 +71,8 @@ RunRequest request_of(const Options& options, const sweep::SweepSpec& spec, cons
 std::optional<ExitCode> run_one(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
                                 std::uint32_t index) {
     const auto begun = std::chrono::steady_clock::now();
-    sweep::JobRecord record{index};
+    sweep::JobRecord record;
+    record.index = index;
     try {
         if (!run_scene(request_of(options, spec, folder, index)).complete) return std::nullopt;
     } catch (...) {
