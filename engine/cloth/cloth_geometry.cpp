@@ -1,6 +1,7 @@
 #include "cloth/cloth_geometry.h"
 
 #include "cloth/texels.h"
+#include "scene/start.h"
 
 namespace drape {
 
@@ -9,6 +10,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       grid(cloth.grid[0], cloth.grid[1], cloth.holes),
       starts_masked(!grid.whole() || keeps_masks),
       placement(cloth.placement),
+      start_strain(drape::start_strain(cloth)),
       spacing{cloth.size[0] / (grid.columns() - 1), cloth.size[1] / (grid.rows() - 1)},
       inner_mass(cloth.areal_density * spacing[0] * spacing[1]),
       damping(cloth.damping),
@@ -19,7 +21,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     // An axis of two particles has no elements; explicit steps need not mind them.
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
-    place();
+    place(cloth);
     hold_pins(cloth.pins);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
@@ -29,12 +31,21 @@ float ClothGeometry::reach() const {
     return static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
 }
 
-void ClothGeometry::place() {
+void ClothGeometry::place(const Cloth& cloth) {
+    const double jitter = start_jitter(cloth);
+    std::vector<bool> is_held(grid.particle_count());
+    for (const Pin& pin : cloth.pins)
+        for (std::uint32_t row = pin.particles.first[1]; row <= pin.particles.last[1]; ++row)
+            for (std::uint32_t column = pin.particles.first[0]; column <= pin.particles.last[0]; ++column)
+                is_held[grid.particle(column, row)] = true;
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-            Vec3 at = placement.origin;
-            for (std::size_t k = 0; k < 3; ++k)
-                at[k] += column * spacing[0] * placement.u[k] + row * spacing[1] * placement.v[k];
+            Vec3 at = start_place(cloth, column, row);
+            const std::uint32_t particle = grid.particle(column, row);
+            if (jitter > 0 && !is_held[particle]) {
+                const Vec3 offset = start_offset(placement, jitter, particle);
+                for (std::size_t k = 0; k < 3; ++k) at[k] += offset[k];
+            }
             free_weight.push_back(grid.relative_inverse_mass(column, row));
             position.push_back(texel(at, free_weight.back()));
         }

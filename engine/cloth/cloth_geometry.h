@@ -36,6 +36,7 @@ struct ClothGeometry {
     Grid grid;
     bool starts_masked;  ///< holes: spring shares and cells are images from the start
     Placement placement;
+    double start_strain;                    ///< largest magnitude, of a spring along a row or column
     double spacing[2];                      ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
     double damping;                         ///< 1/s
@@ -58,7 +59,7 @@ struct ClothGeometry {
     float reach() const;
 
   private:
-    void place();
+    void place(const Cloth& cloth);
     void hold_pins(const std::vector<Pin>& pins);
     void set_tethers(const SceneDescription& scene, const Cloth& cloth);
 };

@@ -82,7 +82,7 @@ std::string in_collider(const SimulationModel& model, const ClothModel& cloth, c
 }
 
 std::string too_far_apart(const SimulationModel& model, const ClothModel& cloth, const std::vector<Held>& held) {
-    if (!cloth.rigid) return {};
+    if (!cloth.rigid || cloth.start_strain > 0) return {};
     const double limit = model.stretch_limits().worst;
     const std::size_t stride = held.size() / 256 + 1;  // all pairs of many take long
     double worst = 0;

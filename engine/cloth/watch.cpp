@@ -16,7 +16,9 @@ namespace {
 
 /// Over what is explained: tips of cloth whip, folds snap.
 constexpr double generous = 10;
-constexpr double calm_speed = 0.1;  ///< m/s that need no explanation
+constexpr double calm_speed = 0.1;   ///< m/s that need no explanation
+constexpr double settling_time = 5;  ///< s in which cloth may keep the strain that it starts with
+constexpr double rounding = 1.01;    ///< of strains that a cloth starts with
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
 /// Speeds of key-framed things are taken over this part of a frame.
@@ -69,7 +71,7 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
     const auto moving = [](const Collider& collider) { return collider.path.moves(); };
     passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
     for (const ClothModel& cloth : model.cloths) {
-        Start start{0, {}, cloth.reach(), false};
+        Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, false};
         const std::vector<float> share = mass_shares(cloth);
         double mass = 0;
         for (std::size_t i = 0; i < cloth.position.size(); ++i) {
@@ -125,7 +127,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
     const double travel = drives_[index].travel[frame], smaller = std::min(cloth.size[0], cloth.size[1]);
     const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0);
+    const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
+    const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released;
     const double speed = given + drives_[index].speed[frame] + recoil;
     const double flown = start.held ? 0 : 2 * time * (given + recoil);
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
@@ -142,7 +145,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     // stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
     const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
-    return worse(result, compare("energy gained, J", energy - start_energy, energy_share * scale,
+    return worse(result, compare("energy gained, J", energy - start_energy,
+                                 energy_share * scale + statistics.mass * released * released,
                                  "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"));
 }
 
@@ -156,8 +160,9 @@ double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cl
 
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
-    const double asked = model_.asked_tolerance;
+    const bool settling = frame <= settling_time * model_.scene.time.fps;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const double asked = std::max(model_.asked_tolerance, settling ? starts_[cloth].strain : 0);
         const ClothStatistics& statistics = cloths[cloth];
         Implausible found =
             worse(worst(frame, cloth, statistics),

@@ -29,7 +29,7 @@ class Watch {
     ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; of
     ///   held
     ///             cloth g t ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
-    ///             comes back at the speed of waves
+    ///             comes back at the speed of waves, as does what a cloth starts strained by
     ///   distance  from the origin: the start's, twice the stretched diagonal, the travel of pins and colliders, and
     ///             what free cloth may have flown at twice these speeds
     ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
@@ -37,8 +37,8 @@ class Watch {
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// What makes a frame no result: the same and, for methods whose frames are not judged, a stretch error above
-    /// 0.25 RMS or 1 in a single spring (or the scene's own tolerance): the first cloth's worst. Nothing: it is
-    /// plausible.
+    /// 0.25 RMS or 1 in a single spring (or the scene's own tolerance, or for 5 s the strain that it starts with): the
+    /// first cloth's worst. Nothing: it is plausible.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
   private:
@@ -52,6 +52,7 @@ class Watch {
         double distance;             ///< m, of the farthest particle from the origin
         std::array<double, 3> mean;  ///< m, centre of mass
         double diagonal;             ///< m
+        double strain;               ///< of its springs, where it starts stretched or compressed
         bool held;                   ///< for good
     };
     void extend(std::uint32_t frame);

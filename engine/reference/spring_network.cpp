@@ -7,6 +7,7 @@
 #include "cloth/grid.h"
 #include "reference/stable_hash.h"
 #include "scene/motion.h"
+#include "scene/start.h"
 
 namespace drape {
 
@@ -61,10 +62,7 @@ void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
             const int cells = (grid.cell(i - 1, j - 1) != 0) + (grid.cell(i, j - 1) != 0) + (grid.cell(i - 1, j) != 0) +
                               (grid.cell(i, j) != 0);
             mass.push_back(0.25 * cells * cloth.areal_density * dx * dy);
-            Vec3 at = cloth.placement.origin;
-            for (std::size_t k = 0; k < 3; ++k)
-                at[k] += column * dx * cloth.placement.u[k] + row * dy * cloth.placement.v[k];
-            rest_position.push_back(at);
+            rest_position.push_back(start_place(cloth, column, row));
         }
     pin_of.assign(mass.size(), -1);
 }

@@ -7,6 +7,7 @@
 
 #include "drape/scene_reader.h"
 #include "scene/scene_rules.h"
+#include "scene/start.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -19,9 +20,10 @@ std::array<Vec3, 4> corners(const Cloth& cloth) {
     std::array<Vec3, 4> points;
     for (std::size_t corner = 0; corner < 4; ++corner)
         for (std::size_t i = 0; i < 3; ++i)
-            points[corner][i] = cloth.placement.origin[i] +
-                                (corner % 2 == 1 ? cloth.placement.u[i] * cloth.size[0] : 0.0) +
-                                (corner / 2 == 1 ? cloth.placement.v[i] * cloth.size[1] : 0.0);
+            points[corner][i] =
+                cloth.placement.origin[i] +
+                (corner % 2 == 1 ? cloth.placement.u[i] * cloth.placement.scale[0] * cloth.size[0] : 0.0) +
+                (corner / 2 == 1 ? cloth.placement.v[i] * cloth.placement.scale[1] * cloth.size[1] : 0.0);
     return points;
 }
 
@@ -61,7 +63,7 @@ bool find_particles(const SceneNode& node, const Particle& grid, Pin& pin) {
 bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
     double farthest = 0.0;
     for (const Vec3& corner : corners(cloth))
-        for (const double x : corner) farthest = std::max(farthest, std::abs(x));
+        for (const double x : corner) farthest = std::max(farthest, std::abs(x) + cloth.placement.jitter);
     const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const auto single = static_cast<float>(farthest);
     const double ulp = static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
@@ -219,7 +221,13 @@ bool check_cloth(const Members& members, Cloth& cloth) {
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
-    if (members.fit({"grid", "size", "placement"})) fits = check_resolution(members.object(), cloth) && fits;
+    if (members.fit({"grid", "size", "placement"})) {
+        fits = check_resolution(members.object(), cloth) && fits;
+        if (const double jitter = start_jitter(cloth); fits && jitter > cloth.placement.jitter)
+            members["placement"].warn(fmt::format(
+                "the cloth starts on a {}, which no force would part: its particles are moved by up to {:.2g} m",
+                cloth.placement.scale == std::array<double, 2>{} ? "point" : "line", jitter));
+    }
     return fits;
 }
 

@@ -3,24 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/random.h"
+
 namespace drape {
-namespace {
-
-// Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
-std::uint64_t splitmix64(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
-}  // namespace
 
 std::array<double, 3> gust_phases(std::uint32_t seed) {
     std::array<double, 3> phases;
     for (std::uint64_t k = 1; k <= 3; ++k) {
-        const auto bits = static_cast<double>(splitmix64(seed + k) >> 11);
-        phases[k - 1] = 2 * std::numbers::pi * (bits * 0x1p-53);
+        phases[k - 1] = 2 * std::numbers::pi * unit_interval_of(splitmix64(seed + k));
     }
     return phases;
 }

@@ -85,6 +85,15 @@ const Object<Placement> placement{
         {"origin", &Placement::origin, vec3, "Metres: particle (column 0, row 0)."},
         {"u", &Placement::u, direction, "Direction of growing column."},
         {"v", &Placement::v, direction, "Direction of growing row; at right angles to u within 1e-6."},
+        {"scale", &Placement::scale, two_numbers(any_number),
+         "Distances at the start over those at rest, along u and v: above 1 the cloth starts stretched, below "
+         "compressed, below 0 turned over; 0 gathers it on a line, [0, 0] on a point. What starts on a line or a point "
+         "gets, with a warning, a jitter that single precision just resolves: nothing else would part it."},
+        {"jitter", &Placement::jitter, number(not_negative),
+         "Metres: every particle that no pin holds starts up to so far from its place along x, y and z. Particle p = "
+         "row * columns + column along axis k (0, 1, 2) by jitter * (2 r - 1), r being the top 53 bits of "
+         "splitmix64(splitmix64(seed) + 3 p + k) over 2^53 (splitmix64: see gust)."},
+        {"seed", &Placement::seed, integer(0, 0xFFFFFFFFu), "Picks the jitter."},
     },
     check_placement};
 

@@ -56,6 +56,15 @@ TEST(TwinTest, BendingWithHoles) {
     compare(scene);
 }
 
+TEST(TwinTest, GatheredOnAPointAndScattered) {
+    SceneDescription scene = everything();
+    scene.cloths[0].placement.scale = {0, 0};
+    compare(scene);
+    scene.cloths[0].placement.scale = {0.8, 1.3};
+    scene.cloths[0].placement.jitter = 0.01;
+    compare(scene);
+}
+
 TEST(TwinTest, PlainHangingSheet) {
     SceneDescription scene = test::sheet(65, 33, 1, 0.5, substep_count);
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};

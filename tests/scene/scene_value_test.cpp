@@ -44,7 +44,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.name, "banner");
     EXPECT_EQ(cloth.grid, (std::array<std::uint32_t, 2>{96, 64}));
     EXPECT_EQ(cloth.size, (std::array<double, 2>{1.5, 2.5}));
-    EXPECT_EQ(cloth.placement, (Placement{{0.25, 2, 0}, {0, 0, 1}, {0, -1, 0}}));
+    EXPECT_EQ(cloth.placement, (Placement{{0.25, 2, 0}, {0, 0, 1}, {0, -1, 0}, {1.5, 0.5}, 0.001, 3}));
     EXPECT_EQ(cloth.areal_density, 0.15);
     EXPECT_EQ(cloth.stiffness, (Stiffness{false, 2000, 150, 1e-5}));
     EXPECT_EQ(cloth.damping, 0.1);

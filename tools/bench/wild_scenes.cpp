@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "scene/random.h"
 
 namespace drape::bench {
 
@@ -11,21 +14,16 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// SplitMix64 (Steele, Lea, Flood 2014). No call draws twice in its arguments: their order would be the compiler's.
+/// No call draws twice in its arguments: their order would be the compiler's.
 class Dice {
   public:
-    Dice(std::uint64_t seed, std::uint32_t index) : state_(seed * 0x9E3779B97F4A7C15u + index) { next(), next(); }
+    Dice(std::uint64_t seed, std::uint32_t index) : state_(seed * splitmix64_step + index) { next(), next(); }
 
     double uniform(double low, double high) { return low + (high - low) * unit(); }
     double log_uniform(double low, double high) { return low * std::pow(high / low, unit()); }
     bool chance(double probability) { return unit() < probability; }
     std::uint32_t below(std::uint32_t count) { return std::min(static_cast<std::uint32_t>(unit() * count), count - 1); }
-    std::uint64_t next() {
-        std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return z ^ (z >> 31);
-    }
+    std::uint64_t next() { return splitmix64(std::exchange(state_, state_ + splitmix64_step)); }
     /// Uniform over the sphere.
     Vec3 direction() {
         const double z = uniform(-1, 1), angle = uniform(0, 2 * pi), r = std::sqrt(1 - z * z);
@@ -48,7 +46,7 @@ class Dice {
     }
 
   private:
-    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+    double unit() { return unit_interval_of(next()); }
     std::uint64_t state_;
 };
 

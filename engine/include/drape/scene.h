@@ -78,6 +78,9 @@ struct Placement {
     Vec3 origin{0, 0, 0};
     Vec3 u{1, 0, 0};
     Vec3 v{0, -1, 0};
+    std::array<double, 2> scale{1, 1};  ///< distances at the start over those at rest, along u and v
+    double jitter = 0;                  ///< m, along each axis, of particles that no pin holds
+    std::uint32_t seed = 0;             ///< of the jitter
     bool operator==(const Placement&) const = default;
 };
 

@@ -1,0 +1,66 @@
+#include "scene/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/random.h"
+#include "scene/vectors.h"
+
+namespace drape {
+
+namespace {
+
+/// From the first particle of a row (or column) to its last.
+Vec3 side(const Cloth& cloth, std::size_t axis) {
+    const Vec3& way = axis == 0 ? cloth.placement.u : cloth.placement.v;
+    const double length = cloth.placement.scale[axis] * cloth.size[axis];
+    return {length * way[0], length * way[1], length * way[2]};
+}
+
+/// m, what single precision tells apart where the cloth starts, four times over.
+double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
+    double farthest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        farthest = std::max(farthest, std::abs(cloth.placement.origin[k]) + std::abs(u[k]) + std::abs(v[k]));
+    const double cell = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
+}
+
+}  // namespace
+
+double start_jitter(const Cloth& cloth) {
+    const Vec3 u = side(cloth, 0), v = side(cloth, 1);
+    const double resolved = resolution(cloth, u, v), longer = std::max(length(u), length(v));
+    const Vec3 area{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const bool parted = length(area) > resolved * longer;
+    return parted ? cloth.placement.jitter : std::max(cloth.placement.jitter, resolved);
+}
+
+Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
+    const Placement& placement = cloth.placement;
+    const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
+    Vec3 at = placement.origin;
+    for (std::size_t k = 0; k < 3; ++k)
+        at[k] += column * dx * placement.scale[0] * placement.u[k] + row * dy * placement.scale[1] * placement.v[k];
+    return at;
+}
+
+Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t particle) {
+    Vec3 offset;
+    for (std::uint64_t k = 0; k < 3; ++k)
+        offset[k] = jitter * (2 * unit_interval_of(splitmix64(splitmix64(placement.seed) + 3ull * particle + k)) - 1);
+    return offset;
+}
+
+double start_strain(const Cloth& cloth) {
+    double strain = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double cell = cloth.size[axis] / (cloth.grid[axis] - 1);
+        const double far = 2 * std::sqrt(3.0) * cloth.placement.jitter / cell;
+        strain = std::max(strain, std::abs(std::abs(cloth.placement.scale[axis]) - 1) + far);
+    }
+    return strain;
+}
+
+}  // namespace drape

@@ -1,0 +1,58 @@
+// What one case of the stability benchmark came to, as a line of a file and in the report.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/bench_case.h"
+#include "bench/stability_case.h"
+
+namespace drape::bench {
+
+enum class Verdict {
+    holds,      ///< the numbers of tier A
+    bends,      ///< those of tier B: bounded, and it recovers
+    refuses,    ///< the program said so: when it read the scene, or with exit code 5 or 8 and a reason
+    unsettled,  ///< bounded, but not back under the law within `recovery_frames`
+    fails,      ///< pins, box, energy, mass, flight or non-finite values: silently
+};
+inline constexpr Spelling<Verdict> verdict_spellings[] = {{"holds", Verdict::holds},
+                                                          {"bends", Verdict::bends},
+                                                          {"refuses", Verdict::refuses},
+                                                          {"unsettled", Verdict::unsettled},
+                                                          {"fails", Verdict::fails}};
+
+struct StabilityResult {
+    std::string name, key;
+    Verdict verdict = Verdict::fails;
+    std::string reason;   ///< why it is not better
+    std::string garbage;  ///< what the judge calls silent garbage; empty: nothing
+    std::string method;   ///< in use
+    Metrics numbers;      ///< stability_judge.h, and wall_s
+    bool operator==(const StabilityResult&) const = default;
+};
+
+/// One line of JSON, and back; nothing when it is not one.
+std::string stability_line(const StabilityResult& result);
+std::optional<StabilityResult> parsed_stability(const std::string& line);
+
+/// What is wrong with a case for its tier: A may not bend, B may not fail or stay unsettled, C must be refused. Empty:
+/// nothing.
+std::string shortfall(const StabilityCase& each, const StabilityResult& result);
+
+struct StabilityReport {
+    std::string program, device;
+    std::vector<StabilityCase> cases;  ///< those that were run
+    std::vector<StabilityResult> results;
+};
+
+/// A table of the extremes alone, counts of the rest, and every case that falls short.
+std::string stability_text(const StabilityReport& report);
+std::string stability_json(const StabilityReport& report);
+std::string stability_csv(const StabilityReport& report);
+/// Extremes against extremes by one method, alone on the diagonal, as SVG: a colour and a letter for each verdict.
+std::string stability_map(const StabilityReport& report, SolverMethod method);
+
+}  // namespace drape::bench
