@@ -115,6 +115,9 @@ std::string Image::obstacle(const Device& device, const ImageDescription& descri
         if (row_pitch != 0 && image.row_pitch() != row_pitch)
             return fmt::format("its rows are {} texels apart, not {}", image.row_pitch(), row_pitch);
     } catch (const VulkanError& error) {
+        // A call that fails for another reason (no memory, a lost device) tells nothing about such images.
+        const bool is_refusal = error.result() == VK_ERROR_UNKNOWN || error.result() == VK_ERROR_FORMAT_NOT_SUPPORTED;
+        if (!is_refusal) throw;
         return error.what();
     }
     return {};

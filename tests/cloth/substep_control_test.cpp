@@ -148,6 +148,12 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_EQ(verdict, Verdict::give_up);
 }
 
+TEST(SubstepControl, BeginsWithTheSubstepsThatTheLawProposes) {
+    for (const std::uint32_t proposed : {4u, 8u, 32u})
+        EXPECT_EQ(control(proposed).begin(6, false).substeps, first_rung(row_of(SolverMethod::line), proposed));
+    EXPECT_EQ(first_rung(row_of(SolverMethod::line), 8), 8u);
+}
+
 TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
     SubstepControl loop(row_of(SolverMethod::line), 2, 30, 6);
     EXPECT_EQ(loop.segment().substeps, 0u);

@@ -174,6 +174,28 @@ TEST_F(SimulationTest, TellsOfCutsAndHasTheTrianglesThatAreLeft) {
     EXPECT_EQ(whole - 3 * split, cuts.back().faces.size());
 }
 
+TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
+    SceneDescription moving = cut_sheet();
+    moving.cutters.clear();
+    moving.cloths[0].pins[0].particles = {{0, 0}, {11, 9}};  // all of it: nothing but the ball moves
+    moving.time = {.fps = 10, .frame_count = 4};
+    Collider ball{Sphere{{-0.6, 1, 0.8}, 0.2}};
+    ball.path.keys = {{0, {0, 0, 0}, {}}, {0.1, {0.4, 0, 0}, {}}, {0.2, {0.8, 0.2, 0}, {}}, {0.3, {1.2, 0, 0}, {}}};
+    moving.colliders = {ball};
+    Simulation simulation(moving, everything(), device());
+    for (std::size_t number = 0; number < 4; ++number) {
+        ASSERT_TRUE(simulation.step());
+        SceneDescription still = moving;
+        // There before the start, by way of all its places: shadow maps cover where a ball may be.
+        MotionPath& path = still.colliders[0].path;
+        for (MotionKey& key : path.keys) key.time -= 10;
+        path.keys.push_back({-1, ball.path.keys[number].translate, {}});
+        Simulation there(still, everything(), device());
+        ASSERT_TRUE(there.step());
+        EXPECT_TRUE(std::ranges::equal(simulation.frame().rgba, there.frame().rgba)) << "frame " << number;
+    }
+}
+
 TEST_F(SimulationTest, WhatIsNotWantedIsNotThere) {
     SimulationOptions options;
     options.positions = options.statistics = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "reference/kernels.h"
 #include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
@@ -102,6 +103,17 @@ TEST(ContactTest, Sphere) {
 TEST(ContactTest, Box) {
     expect_contact("box", drop({one_box}), 0.4, 0);
     expect_contact("moving box", drop({with_path(one_box, moving)}), 0.4, 0);
+}
+
+TEST(ContactTest, OutOfABoxLeadsTheNearestFace) {
+    const glsl::vec3 half{0.4f, 0.3f, 0.2f};
+    const auto way_out = [&](float x, float y, float z) {
+        const glsl::SurfacePoint point = glsl::box_surface({x, y, z}, half);
+        return std::array{point.normal.x, point.normal.y, point.normal.z, point.distance};
+    };
+    EXPECT_EQ(way_out(0.375f, 0, 0), (std::array{1.0f, 0.0f, 0.0f, 0.375f - 0.4f}));
+    EXPECT_EQ(way_out(0, -0.25f, 0.125f), (std::array{0.0f, -1.0f, 0.0f, 0.25f - 0.3f}));
+    EXPECT_EQ(way_out(0.125f, 0.125f, -0.125f), (std::array{0.0f, 0.0f, -1.0f, 0.125f - 0.2f}));
 }
 
 TEST(ContactTest, Ellipsoid) {
