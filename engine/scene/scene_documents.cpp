@@ -80,7 +80,8 @@ std::string scene_schema() {
     const std::vector<const Definition*> definitions = scene_definitions();
     const Definition& scene = *definitions.front();
     std::string text = fmt::format(
-        "{{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"$id\": \"urn:drape:scene\",\n  \"title\": \"Drape scene\",\n"
+        "{{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"$id\": \"urn:drape:scene\",\n  "
+        "\"title\": \"Drape scene\",\n"
         "  \"description\": {},\n{},\n  \"definitions\": {{\n",
         quoted(scene.help), object_schema(scene, "  "));
     for (std::size_t i = 1; i < definitions.size(); ++i)

@@ -33,9 +33,9 @@ const int pattern_checker = 1;
 const int pattern_stripes = 2;
 
 struct ClothPush {
-    uvec4 grid;   // columns, rows, pattern, particles from one to those that a fold may lift above it
-    vec4 size;    // x, y: metres along columns, rows; z: side of a pattern's square, m; w: thickness, m
-    vec4 front;   // colour of the side the normals point to
+    uvec4 grid;  // columns, rows, pattern, particles from one to those that a fold may lift above it
+    vec4 size;   // x, y: metres along columns, rows; z: side of a pattern's square, m; w: thickness, m
+    vec4 front;  // colour of the side the normals point to
     vec4 back;
     vec4 second;  // the pattern's other colour, on both sides
 };

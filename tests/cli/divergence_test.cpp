@@ -38,7 +38,8 @@ TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
                 AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"),
                       HasSubstr("the particle in column 0, row 0 is not finite"),
                       HasSubstr("(48 of the cloth's 48 particles are not)"), HasSubstr("(2 of 9 frames)")));
-    ASSERT_THAT(names_in(folder.out()), ElementsAre("failure.capsule", "manifest.json", "positions.npy", "positions.npz"));
+    ASSERT_THAT(names_in(folder.out()),
+                ElementsAre("failure.capsule", "manifest.json", "positions.npy", "positions.npz"));
     EXPECT_THAT(read_text(folder / "out/manifest.json"),
                 AllOf(HasSubstr("\"status\": \"diverged\""), HasSubstr("is not finite")));
     const std::string array = read_text(folder / "out/positions.npy");

@@ -61,8 +61,8 @@ void force_rows(const SheetView& sheet, const ForcePush& push, bool advance, Row
 void predict_rows(const SheetView& sheet, const PredictPush& push, bool advance, bool is_bdf2, Rows rows);
 void advance_rows(const SheetView& sheet, Rows rows);
 void spring_rows(const SheetView& sheet, const SpringPush& push, Rows rows);
-std::uint32_t solve_lines(const SheetView& sheet, const LinePush& push, bool first_iteration, bool is_bdf2, int first, int last,
-                  LineParticles* scratch);
+std::uint32_t solve_lines(const SheetView& sheet, const LinePush& push, bool first_iteration, bool is_bdf2, int first,
+                          int last, LineParticles* scratch);
 
 }  // namespace NATIVE_VARIANT
 

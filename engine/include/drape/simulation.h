@@ -115,7 +115,8 @@ struct ResourceMemory {
     std::uint64_t bytes = 0;  ///< all copies
 };
 
-/// What the frames of a simulation from some frame on depend on, besides its scene: named parts (engine/docs/checkpoint.md).
+/// What the frames of a simulation from some frame on depend on, besides its scene: named parts
+/// (engine/docs/checkpoint.md).
 using SimulationState = std::map<std::string, std::vector<std::byte>>;
 
 class Simulation {
