@@ -22,26 +22,37 @@ SceneDescription two_sheets() {
     return scene;
 }
 
+std::optional<FrameFailure> failure(const SimulationModel& model, std::uint32_t number,
+                                    const std::vector<ClothStatistics>& cloths) {
+    Watch watch(model);
+    FinishedFrame frame;
+    frame.frame = number;
+    frame.statistics = cloths;
+    return frame_failure(model, watch, frame);
+}
+
 TEST(FrameChecks, EveryClothIsLookedAtForWhatIsNotFinite) {
     const SimulationModel model(two_sheets());
     std::vector<ClothStatistics> cloths(2);
-    EXPECT_FALSE(divergence(model, 7, cloths));
+    EXPECT_FALSE(failure(model, 7, cloths));
     cloths[1].non_finite_count = 2;
     cloths[1].first_non_finite = 7;
+    ASSERT_TRUE(failure(model, 7, cloths));
     EXPECT_THAT(
-        divergence(model, 7, cloths).value_or(""),
+        failure(model, 7, cloths)->reason,
         HasSubstr("in frame 7, cloth 'second', the particle in column 2, row 1 is not finite (2 of the cloth's 15"));
     cloths[0].non_finite_count = 1;
-    EXPECT_THAT(divergence(model, 7, cloths).value_or(""), HasSubstr("cloth 'sheet', the particle in column 0, row 0"));
+    EXPECT_THAT(failure(model, 7, cloths)->reason, HasSubstr("cloth 'sheet', the particle in column 0, row 0"));
 }
 
 TEST(FrameChecks, TheToleranceIsTheScenesAndEveryCloths) {
     const SimulationModel model(two_sheets());
     std::vector<ClothStatistics> cloths(2);
     cloths[0].stretch_error_rms = cloths[1].stretch_error_rms = 0.0999;
-    EXPECT_FALSE(missed_tolerance(model, 3, cloths));
+    EXPECT_FALSE(failure(model, 3, cloths));
     cloths[1].stretch_error_rms = 0.101;
-    EXPECT_THAT(missed_tolerance(model, 3, cloths).value_or(""), HasSubstr("in frame 3, cloth 'second', the stretch"));
+    ASSERT_TRUE(failure(model, 3, cloths));
+    EXPECT_THAT(failure(model, 3, cloths)->reason, HasSubstr("in frame 3, cloth 'second', the stretch"));
 }
 
 TEST(RunStatisticsTest, TheWorstIsTheLargestOfAnyClothAndFrame) {
