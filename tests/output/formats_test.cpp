@@ -80,8 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Format, testing::ValuesIn(output_formats().begin(),
 TEST(Formats, HaveNamesOfTheirOwn) {
     for (const OutputFormat* format : output_formats()) EXPECT_EQ(find_output_format(format->name), format);
     EXPECT_EQ(find_output_format("fbx"), nullptr);
-    EXPECT_EQ(export_format_names(false), "npy, npz, pc2, obj, ply, usda, vtu");
-    EXPECT_EQ(export_format_names(true), "npy, npz, pc2, obj, ply, usda, vtu, y4m, rgb");
+    EXPECT_EQ(export_format_names(false), "npy, npz, pc2, obj, ply, usda, vtu, mgn");
+    EXPECT_EQ(export_format_names(true), "npy, npz, pc2, obj, ply, usda, vtu, mgn, y4m, rgb");
     EXPECT_EQ(stream_format_names(), "y4m, rgb");
 }
 
