@@ -8,20 +8,11 @@
 
 #include "graph/dump.h"
 #include "output/json_text.h"
+#include "scene/start.h"
 
 namespace drape {
 
 namespace {
-
-/// By particle: whether a pin holds it at the start.
-std::vector<bool> held_particles(const Cloth& cloth) {
-    std::vector<bool> held(std::size_t{cloth.grid[0]} * cloth.grid[1]);
-    for (const Pin& pin : cloth.pins)
-        for (std::uint32_t row = pin.particles.first[1]; row <= pin.particles.last[1]; ++row)
-            for (std::uint32_t column = pin.particles.first[0]; column <= pin.particles.last[0]; ++column)
-                held[std::size_t{row} * cloth.grid[0] + column] = true;
-    return held;
-}
 
 /// The scene as it is run, on one line of JSON.
 std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded) {
@@ -124,7 +115,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
         const Cloth& description = scene.cloths[cloth];
         run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
                               description.grid[1], simulation.triangles(cloth), description.name, description.size,
-                              held_particles(description)});
+                              held_at_start(description)});
     }
     return run;
 }

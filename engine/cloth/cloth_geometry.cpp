@@ -33,11 +33,7 @@ float ClothGeometry::reach() const {
 
 void ClothGeometry::place(const Cloth& cloth) {
     const double jitter = start_jitter(cloth);
-    std::vector<bool> is_held(grid.particle_count());
-    for (const Pin& pin : cloth.pins)
-        for (std::uint32_t row = pin.particles.first[1]; row <= pin.particles.last[1]; ++row)
-            for (std::uint32_t column = pin.particles.first[0]; column <= pin.particles.last[0]; ++column)
-                is_held[grid.particle(column, row)] = true;
+    const std::vector<bool> is_held = held_at_start(cloth);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
             Vec3 at = start_place(cloth, column, row);

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "cloth/collider_pose.h"
-#include "passes/cloth_places.h"
+#include "passes/picture_places.h"
 #include "scene/motion.h"
+#include "scene/start.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -35,11 +36,11 @@ class Fitter {
     }
 
   private:
-    Vec3 first(const Pin& pin) const { return particle_at(cloth_, pin.particles.first[0], pin.particles.first[1]); }
+    Vec3 first(const Pin& pin) const { return start_place(cloth_, pin.particles.first[0], pin.particles.first[1]); }
 
     void add(const Vec3& from, const Vec3& to, double radius, const Pin& pin) {
         const IndexBox& box = pin.particles;
-        const Vec3 centroid = middle(first(pin), particle_at(cloth_, box.last[0], box.last[1]));
+        const Vec3 centroid = middle(first(pin), start_place(cloth_, box.last[0], box.last[1]));
         found_.push_back({from, to, radius * size_, pin.path, pin.pivot.value_or(centroid)});
     }
     void add_knob(const Vec3& at, const Pin& pin, double radius = knob) { add(at, at, radius, pin); }
@@ -54,7 +55,7 @@ class Fitter {
         const std::size_t across = wide >= high ? 1 : 0;
         const bool at_end = box.last[across] + 1 == cloth_.grid[across] && box.first[across] > 0;
         from[across] = to[across] = at_end ? box.last[across] : box.first[across];
-        fit_bar(particle_at(cloth_, from[0], from[1]), particle_at(cloth_, to[0], to[1]), pin);
+        fit_bar(start_place(cloth_, from[0], from[1]), start_place(cloth_, to[0], to[1]), pin);
     }
 
     void fit_bar(Vec3 from, Vec3 to, const Pin& pin) {

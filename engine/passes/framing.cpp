@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "cloth/collider_pose.h"
-#include "passes/cloth_places.h"
+#include "passes/picture_places.h"
+#include "scene/start.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -35,10 +36,8 @@ struct Bounds {
 /// Corners of the cloth where it starts.
 std::array<Vec3, 4> corners(const Cloth& cloth) {
     std::array<Vec3, 4> result;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3 along_u = sum(cloth.placement.origin, cloth.placement.u, i % 2 == 0 ? 0 : cloth.size[0]);
-        result[i] = sum(along_u, cloth.placement.v, i / 2 == 0 ? 0 : cloth.size[1]);
-    }
+    for (std::uint32_t i = 0; i < 4; ++i)
+        result[i] = start_place(cloth, i % 2 * (cloth.grid[0] - 1), i / 2 * (cloth.grid[1] - 1));
     return result;
 }
 
@@ -68,7 +67,7 @@ std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& d
     for (const Pin& pin : cloth.pins)
         for (const bool last_column : {false, true})
             for (const bool last_row : {false, true}) {
-                const Vec3 held = particle_at(cloth, (last_column ? pin.particles.last : pin.particles.first)[0],
+                const Vec3 held = start_place(cloth, (last_column ? pin.particles.last : pin.particles.first)[0],
                                               (last_row ? pin.particles.last : pin.particles.first)[1]);
                 const double distance = length(sum(point, held, -1));
                 if (pin.release || distance >= nearest) continue;
@@ -95,7 +94,7 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
             if (hung && !scene.wind.blows())
                 points.push_back({(*hung)[0], std::max((*hung)[1], floor.value_or(-infinity)), (*hung)[2]});
             if (!hung && floor) {
-                const Vec3 middle = particle_at(cloth, cloth.grid[0] / 2, cloth.grid[1] / 2);
+                const Vec3 middle = start_place(cloth, cloth.grid[0] / 2, cloth.grid[1] / 2);
                 const Vec3 end = sum(middle, sum(corner, middle, -1), lands_on_bodies ? 0.5 : 1);
                 points.push_back({end[0], *floor, end[2]});
             }

@@ -6,7 +6,7 @@
 #include "cloth/texels.h"
 #include "include/tone.h"
 #include "passes/camera.h"
-#include "passes/cloth_places.h"
+#include "passes/picture_places.h"
 #include "scene/vectors.h"
 
 namespace drape {

@@ -37,6 +37,15 @@ double start_jitter(const Cloth& cloth) {
     return parted ? cloth.placement.jitter : std::max(cloth.placement.jitter, resolved);
 }
 
+std::vector<bool> held_at_start(const Cloth& cloth) {
+    std::vector<bool> held(std::size_t{cloth.grid[0]} * cloth.grid[1]);
+    for (const Pin& pin : cloth.pins)
+        for (std::uint32_t row = pin.particles.first[1]; row <= pin.particles.last[1]; ++row)
+            for (std::uint32_t column = pin.particles.first[0]; column <= pin.particles.last[0]; ++column)
+                held[std::size_t{row} * cloth.grid[0] + column] = true;
+    return held;
+}
+
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
     const Placement& placement = cloth.placement;
     const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);

@@ -1,6 +1,8 @@
 // Where the particles of a cloth start.
 #pragma once
 
+#include <vector>
+
 #include "drape/scene.h"
 
 namespace drape {
@@ -9,6 +11,9 @@ namespace drape {
 /// all particles would be on a line or a point every force acts along it and nothing parts them; they are then moved by
 /// what single precision just resolves, 4 units in the last place of the farthest coordinate.
 double start_jitter(const Cloth& cloth);
+
+/// By particle: whether a pin holds it at the start.
+std::vector<bool> held_at_start(const Cloth& cloth);
 
 /// m, of a particle without jitter.
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);

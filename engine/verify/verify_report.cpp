@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "output/json_text.h"
+#include "output/xml_text.h"
 #include "verify/verify.h"
 
 namespace drape::verify {
@@ -13,24 +14,6 @@ namespace {
 
 std::size_t missed_count(const Report& report) {
     return static_cast<std::size_t>(std::ranges::count(report.findings, false, &Finding::met));
-}
-
-/// For an attribute. XML has no way to say most control characters.
-std::string xml(std::string_view text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '"')
-            escaped += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            escaped += c;
-        else
-            escaped += ' ';
-    }
-    return escaped;
 }
 
 std::string error_text(const Report& report) {
@@ -43,15 +26,15 @@ std::string suite(const Report& report) {
     const std::size_t errors = report.errors.empty() ? 0 : 1, cases = report.findings.size() + errors;
     std::string text =
         fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
-                    xml(report.file), cases, missed_count(report), errors, report.seconds);
+                    xml_text(report.file), cases, missed_count(report), errors, report.seconds);
     if (errors > 0)
         text += fmt::format("    <testcase classname=\"{}\" name=\"scene\"><error message=\"{}\"/></testcase>\n",
-                            xml(report.file), xml(error_text(report)));
+                            xml_text(report.file), xml_text(error_text(report)));
     for (const Finding& finding : report.findings)
-        text += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(report.file),
-                            xml(finding.check),
-                            finding.met ? fmt::format("<system-out>{}</system-out>", xml(finding.text))
-                                        : fmt::format("<failure message=\"{}\"/>", xml(finding.text)));
+        text += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml_text(report.file),
+                            xml_text(finding.check),
+                            finding.met ? fmt::format("<system-out>{}</system-out>", xml_text(finding.text))
+                                        : fmt::format("<failure message=\"{}\"/>", xml_text(finding.text)));
     return text + "  </testsuite>\n";
 }
 

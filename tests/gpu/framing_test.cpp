@@ -99,6 +99,10 @@ TEST(FixtureTest, PinnedEdgesHangOnPolesAndRailsAndCornersOnPoles) {
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(found[0].from[1], 0.5, 1e-12);
     EXPECT_EQ(found[0].to, (Vec3{0.5, 2, 0}));
+    // Where the cloth starts, not where it would lie unstretched.
+    scene.cloths[0].placement.scale = {0.5, 1};
+    EXPECT_EQ(fixtures(scene)[0].to, (Vec3{0, 2, 0}));
+    scene.cloths[0].placement.scale = {1, 1};
     // Hooks in a line share a rail over all that they travel; each has a knob that moves with it.
     scene.cloths[0].pins.clear();
     for (const std::uint32_t column : {0u, 4u, 8u})

@@ -5,32 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/xml_text.h"
+#include "plot_colours.h"
+
 namespace drape::bench {
 
 namespace {
 
 constexpr double width = 760, height = 520, left = 78, right = 540, top = 44, bottom = 462;
-// Okabe and Ito's colours, which the colour-blind tell apart; yellow, too pale on white, is left out.
-constexpr std::array<const char*, 8> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                "#E69F00", "#56B4E9", "#000000", "#7F7F7F"};
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
-}
-
 bool drawable(const std::array<double, 2>& point) {
     return std::isfinite(point[0]) && std::isfinite(point[1]) && point[0] > 0 && point[1] > 0;
 }
@@ -76,7 +58,7 @@ std::string line(double x1, double y1, double x2, double y2, const char* style) 
 }
 
 std::string text(double x, double y, const std::string& content, const char* style) {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, escaped(content));
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, xml_text(content));
 }
 
 constexpr const char *major_line = "stroke=\"#c4c4c4\"", *minor_line = "stroke=\"#ebebeb\"";
@@ -112,7 +94,7 @@ std::string marker(std::size_t kind, double x, double y) {
         for (const auto& corner : corners) points += fmt::format("{:.1f},{:.1f} ", x + corner[0], y + corner[1]);
         return "<polygon points=\"" + points + "\"/>";
     };
-    switch (kind % colours.size()) {
+    switch (kind % plot_colours.size()) {
         case 0:
             return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>", x, y);
         case 1:
@@ -133,7 +115,7 @@ std::string marker(std::size_t kind, double x, double y) {
 }
 
 std::string series_group(const PlotSeries& series, std::size_t index, const Axes& axes) {
-    const char* colour = colours[index % colours.size()];
+    const char* colour = plot_colours[index % plot_colours.size()];
     std::string places, markers;
     for (std::size_t k = 0; k < series.points.size(); ++k) {
         const std::array<double, 2>& point = series.points[k];
@@ -148,7 +130,7 @@ std::string series_group(const PlotSeries& series, std::size_t index, const Axes
     return fmt::format(
         "<g class=\"series\" fill=\"{0}\"><title>{1}</title>\n"
         "<polyline points=\"{2}\" fill=\"none\" stroke=\"{0}\" stroke-width=\"1.8\"/>\n{3}\n</g>\n",
-        colour, escaped(series.name), places, markers);
+        colour, xml_text(series.name), places, markers);
 }
 
 /// Reference lines through a point a little inside, each labelled where it leaves the frame.
@@ -188,7 +170,7 @@ std::string legend(const LogPlot& plot) {
         result += fmt::format(
             "<g fill=\"{0}\"><line x1=\"{1}\" y1=\"{2}\" x2=\"{3}\" y2=\"{2}\" stroke=\"{0}\" "
             "stroke-width=\"1.8\"/>{4}</g>\n",
-            colours[k % colours.size()], right + 14, y, right + 42, marker(k, right + 28, y));
+            plot_colours[k % plot_colours.size()], right + 14, y, right + 42, marker(k, right + 28, y));
         result += text(right + 48, y + 4, plot.series[k].name, "fill=\"#202020\"");
     }
     const bool any_doubtful = std::ranges::any_of(plot.series, [](const PlotSeries& series) {
@@ -208,7 +190,7 @@ std::string svg_text(const LogPlot& plot) {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"sans-serif\" font-size=\"12\" fill=\"#202020\">\n<title>{2}</title>\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-        width, height, escaped(plot.title));
+        width, height, xml_text(plot.title));
     result +=
         text(0.5 * (left + right), 26, plot.title, "text-anchor=\"middle\" font-size=\"15\" font-weight=\"bold\"");
     result += grid(axes.x, true) + grid(axes.y, false);
@@ -221,7 +203,7 @@ std::string svg_text(const LogPlot& plot) {
     result += legend(plot);
     result += text(0.5 * (left + right), height - 16, plot.x_label, "text-anchor=\"middle\"");
     result += fmt::format("<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                          0.5 * (top + bottom), escaped(plot.y_label));
+                          0.5 * (top + bottom), xml_text(plot.y_label));
     return result + "</svg>\n";
 }
 

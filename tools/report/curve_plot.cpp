@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/xml_text.h"
+#include "plot_colours.h"
+
 namespace drape::report {
 
 namespace {
 
 constexpr double width = 560, height = 300, left = 70, right = 545, top = 62, bottom = 255;
-// Okabe and Ito's colours, which the colour-blind tell apart.
-constexpr std::array<const char*, 8> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                "#E69F00", "#56B4E9", "#000000", "#7F7F7F"};
-
 /// Values from `first` to `last`, a whole number of steps, along pixels.
 struct Axis {
     double first, last, step, begin, end;
@@ -34,7 +33,7 @@ Axis axis(double low, double high, double begin, double end) {
 bool drawable(const std::array<double, 2>& point) { return std::isfinite(point[0]) && std::isfinite(point[1]); }
 
 std::string text(double x, double y, const std::string& content, const char* style) {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, escaped(content));
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, xml_text(content));
 }
 
 std::string grid(const Axis& x, const Axis& y) {
@@ -56,7 +55,7 @@ std::string grid(const Axis& x, const Axis& y) {
 
 /// The curve and its place in the legend.
 std::string curve_group(const Curve& curve, const Axis& x, const Axis& y, double legend) {
-    const char* colour = colours[curve.colour % colours.size()];
+    const char* colour = plot_colours[curve.colour % plot_colours.size()];
     std::string path;
     std::size_t count = 0;
     for (const std::array<double, 2>& point : curve.points)
@@ -65,7 +64,7 @@ std::string curve_group(const Curve& curve, const Axis& x, const Axis& y, double
     if (count == 1) path += "h0.1";  // a dot, by its round ends
     const char* dash = curve.dashed ? " stroke-dasharray=\"5 3\"" : "";
     const double row = curve.dashed ? 48 : 34;
-    std::string svg = fmt::format("<g><title>{}</title>\n", escaped(curve.name));
+    std::string svg = fmt::format("<g><title>{}</title>\n", xml_text(curve.name));
     if (!path.empty())
         svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", path, colour,
                            count == 1 ? "5\" stroke-linecap=\"round" : "1.6", dash);
@@ -74,23 +73,6 @@ std::string curve_group(const Curve& curve, const Axis& x, const Axis& y, double
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
-}
 
 std::string svg_text(const CurvePlot& plot) {
     std::array<double, 2> low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
@@ -106,11 +88,11 @@ std::string svg_text(const CurvePlot& plot) {
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" role=\"img\" font-family=\"sans-serif\" "
         "font-size=\"11\">\n<title>{2}</title>\n",
-        width, height, escaped(plot.title));
+        width, height, xml_text(plot.title));
     svg += text(left, 18, plot.title, "font-size=\"14\" font-weight=\"bold\"") + grid(x, y);
     svg += text((left + right) / 2, height - 10, plot.x_label, "text-anchor=\"middle\"");
     svg += fmt::format("<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                       (top + bottom) / 2, escaped(plot.y_label));
+                       (top + bottom) / 2, xml_text(plot.y_label));
     std::array<double, 2> legend{left, left};
     for (const Curve& curve : plot.curves) {
         double& place = legend[curve.dashed ? 1 : 0];

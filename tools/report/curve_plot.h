@@ -22,7 +22,4 @@ struct CurvePlot {
 /// A picture of 560 x 300 units; every curve has a group of its own with its name as title.
 std::string svg_text(const CurvePlot& plot);
 
-/// Text in HTML, XML and SVG.
-std::string escaped(const std::string& text);
-
 }  // namespace drape::report

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "output/json_text.h"
+#include "output/xml_text.h"
 #include "report/curve_plot.h"
 
 namespace drape::report {
@@ -54,7 +55,7 @@ std::string value_text(const Json::Value& value) {
 }
 
 std::string row(const std::string& name, const std::string& value) {
-    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", xml_text(name), xml_text(value));
 }
 
 std::string title_of(const RunFolder& run) {
@@ -82,18 +83,19 @@ std::string status(const RunFolder& run) {
     const Json::Value& manifest = run.manifest;
     const std::string state = manifest["status"].asString();
     std::string html =
-        fmt::format("<p>Status: <span class=\"{}\">{}</span></p>\n", state == "done" ? "good" : "bad", escaped(state));
+        fmt::format("<p>Status: <span class=\"{}\">{}</span></p>\n", state == "done" ? "good" : "bad", xml_text(state));
     if (manifest.isMember("failure"))
-        html += fmt::format("<p class=\"bad\">{}</p>\n", escaped(manifest["failure"].asString()));
+        html += fmt::format("<p class=\"bad\">{}</p>\n", xml_text(manifest["failure"].asString()));
     std::string items;
-    for (const Json::Value& warning : manifest["warnings"]) items += "<li>" + escaped(value_text(warning)) + "</li>\n";
+    for (const Json::Value& warning : manifest["warnings"]) items += "<li>" + xml_text(value_text(warning)) + "</li>\n";
     for (const Json::Value& each : manifest["compromises"])
-        items += fmt::format("<li>{}: {}</li>\n", escaped(each["what"].asString()), escaped(each["reason"].asString()));
+        items +=
+            fmt::format("<li>{}: {}</li>\n", xml_text(each["what"].asString()), xml_text(each["reason"].asString()));
     const auto messages = manifest["validation"]["messages"].asUInt64();
     if (messages > 0) items += fmt::format("<li class=\"bad\">{} validation messages</li>\n", messages);
     html += items.empty() ? "<p>No warnings.</p>\n" : "<ul>\n" + items + "</ul>\n";
     if (manifest.isMember("certificate"))
-        html += "<h2>Certificate</h2>\n<pre>" + escaped(json_text(manifest["certificate"])) + "</pre>\n";
+        html += "<h2>Certificate</h2>\n<pre>" + xml_text(json_text(manifest["certificate"])) + "</pre>\n";
     return html;
 }
 
@@ -103,7 +105,7 @@ std::string times(const RunFolder& run) {
     std::string html = "<table>\n<tr><th>stage</th><th>ms per frame, median</th></tr>\n";
     const Json::Value& stages = timing["stage_median_ms"];
     for (const std::string& stage : stages.isObject() ? stages.getMemberNames() : Json::Value::Members{})
-        html += fmt::format("<tr><td>{}</td><td class=\"number\">{:.3f}</td></tr>\n", escaped(stage),
+        html += fmt::format("<tr><td>{}</td><td class=\"number\">{:.3f}</td></tr>\n", xml_text(stage),
                             stages[stage].asDouble());
     if (timing.isMember("frame_ms"))
         html += fmt::format("<tr><td>frame, wall clock</td><td class=\"number\">{:.3f}</td></tr>\n",
@@ -135,7 +137,7 @@ std::string pictures(const RunFolder& run, std::size_t id, const ReportOptions& 
     // All are in the player; the sheet shows some.
     const std::vector<std::size_t> shown = chosen(numbers.size(), sheet_pictures);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::string name = escaped(run.pictures[numbers[i]]);
+        const std::string name = xml_text(run.pictures[numbers[i]]);
         const bool between = std::ranges::find(shown, i) == shown.end();
         html += fmt::format(
             "<figure{2}><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"/><figcaption>{0}</figcaption></figure>\n",
@@ -212,7 +214,7 @@ std::string section(const std::string& title, const std::vector<RunFolder>& runs
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::string head =
             runs.size() == 1 ? ""
-                             : fmt::format("<h2>{}: {}</h2>\n", i == 0 ? "A" : "B", escaped(runs[i].path.string()));
+                             : fmt::format("<h2>{}: {}</h2>\n", i == 0 ? "A" : "B", xml_text(runs[i].path.string()));
         html += "<div>\n" + head + content(runs[i], i) + "</div>\n";
     }
     return html + "</div>\n</section>\n";
@@ -227,7 +229,7 @@ std::string report_html(const std::vector<RunFolder>& runs, const ReportOptions&
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
         "<meta name=\"viewport\" content=\"width=device-width\"/>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
         "<h1>{0}</h1>\n",
-        escaped(title), style);
+        xml_text(title), style);
     html += section("Result", runs, [](const RunFolder& run, std::size_t) { return status(run); });
     html += section("Pictures", runs, [&](const RunFolder& run, std::size_t id) { return pictures(run, id, options); });
     html += plot_section(runs);

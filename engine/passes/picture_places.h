@@ -1,4 +1,4 @@
-// Where points of a scene's cloths start, on the host: what framing and fixtures share.
+// What framing and fixtures share.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,6 @@ namespace drape {
 /// a + scale * b.
 inline Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
-}
-
-/// Where a particle starts, m.
-inline Vec3 particle_at(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
-    return sum(sum(cloth.placement.origin, cloth.placement.u, cloth.size[0] * column / (cloth.grid[0] - 1.0)),
-               cloth.placement.v, cloth.size[1] * row / (cloth.grid[1] - 1.0));
 }
 
 /// Height of the highest level floor that is not above `height`, m; nothing without one.

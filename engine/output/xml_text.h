@@ -1,0 +1,28 @@
+// Text within XML, SVG and HTML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace drape {
+
+/// For content and for attributes in double quotes. Control characters but tab and line feed, which XML cannot say,
+/// become spaces.
+inline std::string xml_text(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' ? ' ' : c;
+    }
+    return result;
+}
+
+}  // namespace drape
