@@ -106,7 +106,7 @@ std::optional<RunCheckpoint> Checkpoints::newest(const std::function<bool(const 
         }
         if (key != run_key_)
             throw OutputError(
-                fmt::format("cannot resume: '{}' was left by another run (other scene, size, samples, "
+                fmt::format("cannot resume: '{}' was left by another run (other scene, size, samples, view, "
                             "program version, device or driver): use --overwrite to replace an earlier "
                             "run's files, or choose another folder",
                             path));

@@ -45,12 +45,18 @@ std::string key_of(const RunRequest& request, const LoadedScene& scene, const De
     const ImageSettings& image = scene.description.image;
     parts.push_back(request.draws() ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
                                     : "arrays");
+    const PictureView& view = request.scene.view;
+    if (request.draws() && view.kind != View::shaded)
+        parts.push_back(fmt::format("{} {}", spelling(view_spellings, view.kind), view.range));
     return run_key(parts);
 }
 
 SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions, bool velocities) {
     SimulationOptions options;
+    if (request.view.range > 0 && !request.view.shows_strain())
+        throw UsageError("--view-range is for --view stretch, warp or weft");
     options.draw = draw;
+    options.view = request.view;
     options.positions = positions;
     options.velocities = velocities;
     options.skip = request.skip;

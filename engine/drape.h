@@ -13,6 +13,7 @@
 #include "drape/error.h"
 #include "drape/scene_reader.h"
 #include "drape/schedule.h"
+#include "drape/view.h"
 #include "exit_code.h"
 #include "output/output_folder.h"
 
@@ -29,6 +30,7 @@ struct SceneRequest {
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
+    PictureView view;
     std::string device;     ///< selector; empty: the best there is
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
@@ -71,10 +73,10 @@ struct RunSummary {
 /// ToleranceMissed (where failed frames are kept, after the last), DeviceError; nothing is written before everything
 /// that can be checked up front has been.
 ///
-/// ExistingFiles::resume goes on with an earlier run of the same scene, size, samples, program, device and driver: from
-/// its newest checkpoint (engine/docs/checkpoint.md), or, where there is none that serves, from frame 0, keeping the
-/// pictures. The folder then holds the bytes of an undisturbed run, but for the manifest's "run". Pictures and
-/// checkpoints of any other run are an OutputError. Files of several frames appear only when complete, or, with the
+/// ExistingFiles::resume goes on with an earlier run of the same scene, size, samples, view, program, device and
+/// driver: from its newest checkpoint (engine/docs/checkpoint.md), or, where there is none that serves, from frame 0,
+/// keeping the pictures. The folder then holds the bytes of an undisturbed run, but for the manifest's "run". Pictures
+/// and checkpoints of any other run are an OutputError. Files of several frames appear only when complete, or, with the
 /// frames before it, when the simulation diverged or missed its tolerance. Whether it did is seen at the frames that
 /// are written.
 RunSummary run_scene(const RunRequest& request);

@@ -10,6 +10,13 @@ namespace drape {
 
 namespace {
 
+/// m, of the stretch springs along columns, rows; 0 where there are none.
+std::array<double, 2> rest_lengths(const ClothModel& cloth) {
+    const StiffnessConstants& constants = cloth.stiffness_constant;
+    return {constants.spring[0] > 0 ? constants.rest_length[0] : 0,
+            constants.spring[1] > 0 ? constants.rest_length[1] : 0};
+}
+
 std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::vector<ClothState>& states) {
     std::vector<RasterCloth> cloths;
     for (const ClothState& state : states) {
@@ -17,7 +24,8 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
         const Grid& grid = state.model->grid;
         cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.thickness,
                           cloth.appearance, state[Field::position], state[Field::normal], state[Field::triangles],
-                          state.index_count, state[Field::cut_vertices]});
+                          state.index_count, state[Field::cut_vertices], state[Field::spring_share],
+                          rest_lengths(*state.model)});
     }
     return cloths;
 }
@@ -56,10 +64,11 @@ void FrameLoop::build_graphs() {
     frames_ = {};
     const bool cut =
         std::ranges::any_of(solver_.topologies(), [](const CutTopology& t) { return !t.vertices().empty(); });
-    if (options_.draw && (!raster_ || cut != draws_cut_)) {
+    const bool masked = std::ranges::any_of(solver_.topologies(), &CutTopology::masked);
+    if (options_.draw && (!raster_ || cut != draws_cut_ || masked != draws_masked_)) {
         raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height, options_.samples,
-                                               RasterOptions{.cut = cut});
-        draws_cut_ = cut;
+                                               RasterOptions{.view = options_.view, .cut = cut, .masked = masked});
+        draws_cut_ = cut, draws_masked_ = masked;
     }
     for (const FrameKind kind : kinds()) frames_[static_cast<std::size_t>(kind)] = build(kind, model_);
 }
@@ -232,6 +241,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         result.timings.push_back({std::move(timing.name), timing.milliseconds});
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
+        raster_->finish(bytes.first(raster_->readback_byte_count()));
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
     if (done.output && options_.positions) result.positions = arrays(slot, "position");

@@ -39,6 +39,7 @@ struct FrameLoopOptions {
     bool normals = false;     ///< arrays of normals are wanted
     bool statistics = false;  ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
+    PictureView view;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
     Schedule schedule = Schedule::automatic;
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
@@ -190,7 +191,7 @@ class FrameLoop {
     FrameLoopOptions options_;
     ClothSolver solver_;
     std::unique_ptr<RasterPass> raster_;
-    bool draws_cut_ = false;  ///< raster_ was made for cut cloths
+    bool draws_cut_ = false, draws_masked_ = false;  ///< what raster_ was made for
     std::array<Frame, frame_contents.size()> frames_;
     std::array<Frame, attempt_step_count> attempts_;
     std::map<std::uint32_t, Rung> rungs_;  ///< by substeps

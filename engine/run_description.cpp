@@ -8,6 +8,7 @@
 
 #include "graph/dump.h"
 #include "output/json_text.h"
+#include "passes/strain_scale.h"
 #include "scene/start.h"
 
 namespace drape {
@@ -49,6 +50,13 @@ std::string run_parameters(const SceneDescription& scene, const Manifest& manife
     return json_line(value);
 }
 
+Manifest::Picture picture_of(const SceneDescription& scene, const PictureView& view) {
+    Manifest::Picture picture{scene.image.size[0], scene.image.size[1], scene.image.samples, {}, 0};
+    if (view.kind != View::shaded) picture.view = spelling(view_spellings, view.kind);
+    if (const auto scale = strain_scale(view, scene)) picture.strain_range = scale->high;
+    return picture;
+}
+
 }  // namespace
 
 FrameRange frame_range(const RunRequest& request, const SceneDescription& scene, std::vector<std::string>& warnings) {
@@ -74,8 +82,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
     manifest.device = {device.name, device.driver, device.driver_version, device.api_version, device.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
-    if (request.draws())
-        manifest.picture = Manifest::Picture{scene.image.size[0], scene.image.size[1], scene.image.samples};
+    if (request.draws()) manifest.picture = picture_of(scene, request.scene.view);
     const bool chosen = facts.asked_method != facts.method;
     manifest.solver = {facts.method,
                        facts.schedule,

@@ -50,6 +50,7 @@ constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, 
 FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOptions& wanted) {
     FrameLoopOptions options;
     options.draw = wanted.draw;
+    options.view = wanted.view;
     options.positions = wanted.positions;
     options.normals = wanted.normals;
     options.velocities = wanted.velocities;

@@ -42,14 +42,6 @@ vec2 hidden_by_folds(ivec2 texel, vec3 at, vec3 up) {
     return vec2(dot(max(folds, 0.0), vec2(0.5)), dot(max(-folds, 0.0), vec2(0.5)));
 }
 
-/// Depth as if the cloth were nearer to the eye by its thickness: by so much contact keeps particles off a collider,
-/// and no more does a triangle between them cut into it.
-float depth_of_thickness(vec3 at, float clip_w) {
-    vec3 to_eye = frame[0].eye.xyz - at;
-    vec4 nearer = vec4(at + to_eye * min(push.size.w * inversesqrt(max(dot(to_eye, to_eye), 1e-30)), 0.5), 1.0);
-    return dot(frame[0].clip_from_world[2], nearer) / dot(frame[0].clip_from_world[3], nearer) * clip_w;
-}
-
 void main() {
     uint index = uint(gl_VertexIndex);
     uint particle = index;
@@ -65,5 +57,5 @@ void main() {
 #endif
     hidden = hidden_by_folds(texel, particle_position(particle), surface_normal);
     gl_Position = clip_position(world);
-    gl_Position.z = depth_of_thickness(world, gl_Position.w);
+    gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);
 }

@@ -103,6 +103,37 @@ void add_export_option(CLI::App& command, RunRequest& request) {
                 drawn, set);
 }
 
+std::string set_range(const std::string& text, double& range) {
+    double percent = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+    if (error != std::errc{} || end != text.data() + text.size() || !(percent > 0 && percent <= 1000))
+        return fmt::format("expected a strain in percent, above 0 and at most 1000, got '{}'", text);
+    range = percent / 100;
+    return {};
+}
+
+/// --view, --view-range
+void add_view_options(CLI::App& command, PictureView& view) {
+    std::string words;
+    for (const auto& [name, kind] : view_spellings) words += (words.empty() ? "" : "|") + std::string(name);
+    add_option(command, "--view", words.c_str(),
+               "What pictures show of the cloths. stretch: the largest strain of the springs at\n"
+               "each particle, as a heat map with its legend; warp, weft: strain along the\n"
+               "cloth's u (growing column) or v (growing row), also when pressed together; wire:\n"
+               "triangles; normals: 0.5 + 0.5 n of the side in view, in world axes, as sRGB.\n"
+               "Default: shaded",
+               [&view, words](const std::string& text) {
+                   const auto* found = std::ranges::find(view_spellings, text, &Spelling<View>::name);
+                   if (found == std::end(view_spellings)) return fmt::format("expected {}, got '{}'", words, text);
+                   view.kind = found->value;
+                   return std::string();
+               });
+    add_option(command, "--view-range", "PERCENT",
+               "Strain at the end of the heat map, the same in every frame; what is beyond it\n"
+               "has the end's colour. Default: by weight, wind and stiffness of the scene",
+               [&view](const std::string& text) { return set_range(text, view.range); });
+}
+
 }  // namespace
 
 SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
@@ -214,6 +245,7 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
     add_option(command, "--size", "WIDTHxHEIGHT",
                "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720",
                [&scene](const std::string& text) { return set_size(text, scene); });
+    add_view_options(command, scene.view);
     add_option(command, "--samples", "1|4", "Samples per pixel; default: the scene's, else 4",
                [&scene](const std::string& text) {
                    if (text != "1" && text != "4") return fmt::format("expected 1 or 4, got '{}'", text);
@@ -259,8 +291,8 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     command
         .add_flag_callback(
             "--resume", [&request] { request.existing = ExistingFiles::resume; },
-            request.draws() ? "Go on with an unfinished run of the same scene, size, samples, program, device\n"
-                              "and driver: from its newest checkpoint, or, without one, keeping its pictures,\n"
+            request.draws() ? "Go on with an unfinished run of the same scene, size, samples, view, program,\n"
+                              "device and driver: from its newest checkpoint, or, without one, keeping its pictures,\n"
                               "from frame 0. The result has the bytes of an undisturbed run. Refused,\n"
                               "changing nothing, when a picture or checkpoint there is another run's or\n"
                               "damaged"

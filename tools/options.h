@@ -52,7 +52,7 @@ void add_device_option(CLI::App& command, std::string& device);
 void add_validate_option(CLI::App& command, bool& validate);
 /// SCENE, --set, --device, --validate, --no-skip, --schedule
 void add_scene_options(CLI::App& command, SceneRequest& scene);
-/// --size, --samples
+/// --size, --samples, --view, --view-range
 void add_image_options(CLI::App& command, SceneRequest& scene);
 /// Those of add_scene_options and where, which frames, which formats, how talkative
 void add_run_options(CLI::App& command, RunRequest& request);

@@ -37,7 +37,7 @@ void check_text(const std::string& path, std::string_view name, const std::strin
     throw OutputError(fmt::format(
         "cannot resume: '{}' {}: {}", path,
         text.empty() ? "does not say which run drew it"
-                     : "was drawn by another run (other scene, size, samples, program version, device or driver)",
+                     : "was drawn by another run (other scene, size, samples, view, program version, device or driver)",
         remedy));
 }
 
@@ -84,7 +84,7 @@ void check_manifest(const OutputFolder& folder, const std::string& key) {
     if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &root, &errors) ||
         root["run_key"] != Json::Value(key)) {
         throw OutputError(
-            fmt::format("cannot resume: '{}' is that of another run (other command, scene, size, samples, "
+            fmt::format("cannot resume: '{}' is that of another run (other command, scene, size, samples, view, "
                         "program version, "
                         "device or driver): {}",
                         folder.path_of(name), remedy));

@@ -191,6 +191,8 @@ std::string manifest_json(const Manifest& manifest) {
         json["picture"]["width"] = manifest.picture->width;
         json["picture"]["height"] = manifest.picture->height;
         json["picture"]["samples"] = manifest.picture->samples;
+        if (!manifest.picture->view.empty()) json["picture"]["view"] = manifest.picture->view;
+        if (manifest.picture->strain_range > 0) json["picture"]["strain_range"] = manifest.picture->strain_range;
     }
     json["run_key"] = manifest.run_key;
     json["solver"] = solver_json(manifest.solver);

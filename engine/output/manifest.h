@@ -44,6 +44,8 @@ struct Manifest {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
         std::uint32_t samples = 0;  // per pixel
+        std::string view;           // what it shows, when not what a camera would
+        double strain_range = 0;    // of a heat map: strain at its end; 0: no heat map
     };
     struct Solver {
         std::string method;    // in use

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "include/tone.h"
+#include "passes/legend.h"
 #include "passes/raster_frame.h"
 #include "passes/raster_recording.h"
 
@@ -17,6 +19,7 @@ using graph::Handle;
 /// Newest handles of what a frame's passes write one after the other.
 struct RasterPass::Targets {
     Handle frame, colliders;
+    Handle heat_colors;                        ///< invalid where the view is no heat map
     Handle color, light, multisampled, depth;  ///< multisampled: invalid at one sample
     Handle shadow_map, shadow_depth;           ///< invalid without a shadow
 };
@@ -63,7 +66,59 @@ glsl::ClothPush cloth_push(const RasterCloth& cloth) {
             linear_color(cloth.appearance.second)};
 }
 
+glsl::StrainPush strain_push(const RasterCloth& cloth, const StrainScale& scale) {
+    const double range = scale.high - scale.low;
+    return {{cloth.columns, cloth.rows, 0, 0},
+            {static_cast<float>(cloth.rest_lengths[0]), static_cast<float>(cloth.rest_lengths[1]), 0,
+             static_cast<float>(cloth.thickness)},
+            {static_cast<float>(1 / range), static_cast<float>(-scale.low / range), 0, 0}};
+}
+
+/// As radiance: the tone curve turns them into the map's own colours.
+std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) {
+    std::array<glsl::vec4, glsl::heat_color_count> colors{};
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const std::array<double, 3> shown = color_at(map, static_cast<double>(i) / (colors.size() - 1.0));
+        const glsl::vec4 color = linear_color({shown[0] / 255, shown[1] / 255, shown[2] / 255});
+        colors[i] = {glsl::untoned(color.x), glsl::untoned(color.y), glsl::untoned(color.z), 0};
+    }
+    return colors;
+}
+
+/// How a view draws cloths.
+struct ClothShaders {
+    const char *vertex, *fragment;
+    bool lit;
+};
+
+ClothShaders cloth_shaders(View view) {
+    switch (view) {
+        case View::stretch:
+        case View::warp:
+        case View::weft:
+            return {"strain.vert", "strain.frag", false};
+        case View::wire:
+            return {"cloth.vert", "wire.frag", true};
+        case View::normals:
+            return {"cloth.vert", "normals.frag", false};
+        case View::shaded:
+            break;
+    }
+    return {"cloth.vert", "cloth.frag", true};
+}
+
+std::uint32_t strain_number(View view) {
+    return static_cast<std::uint32_t>(view == View::warp   ? glsl::strain_of_warp
+                                      : view == View::weft ? glsl::strain_of_weft
+                                                           : glsl::strain_of_both);
+}
+
 }  // namespace
+
+const vulkan::GraphicsPipeline& RasterPass::ClothPipelines::of(const RasterCloth& cloth) const {
+    if (cloth.cut_vertices.valid()) return *cut;
+    return cloth.spring_shares.valid() && masked ? *masked : *whole;
+}
 
 RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
                        std::uint32_t height, std::uint32_t samples, const RasterOptions& options)
@@ -72,18 +127,42 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       samples_(samples),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
-      shadow_skip_reason_(shadow_skip_reason(scene, options)) {
+      shadow_skip_reason_(shadow_skip_reason(scene, options)),
+      view_(options.view.kind),
+      scale_(strain_scale(options.view, scene)) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const BoundingSphere extent = scene_extent(scene);
     const Camera camera = picture_camera(scene, width, height);
     plane_extent_ = plane_extent(camera, extent);
     constants_ = frame_constants(scene, camera, extent, width, height, options.shift);
-    make_pipelines(device, !scene.cloths.empty(), options.cut, light_count(scene));
+    make_pipelines(device, scene, options);
 }
 
-void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth,
-                                std::uint32_t lights) {
+void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options,
+                                      vulkan::GraphicsState state, vulkan::GraphicsState shadow_state) {
+    const ClothShaders shaders = cloth_shaders(view_);
+    const bool strain = scale_.has_value(), shadow = casts_shadow();
+    state.fragment = {shaders.lit ? vulkan::variant_name(shaders.fragment, {{"shadowed", shadow}}) : shaders.fragment};
+    if (!shaders.lit) state.constants.clear();
+    if (strain) state.constants = {{"shown", strain_number(view_)}};
+    const auto make = [&](const char* name, vulkan::GraphicsState& of, const std::string& vertex) {
+        of.vertex = {vertex};
+        return std::make_unique<vulkan::GraphicsPipeline>(device, name, of);
+    };
+    cloth_.whole = make("raster cloth", state, shaders.vertex);
+    if (shadow) shadow_cloth_.whole = make("shadow cloth", shadow_state, "shadow_cloth.vert");
+    if (strain && options.masked)
+        cloth_.masked = make("raster masked cloth", state, vulkan::variant_name(shaders.vertex, {{"masked", true}}));
+    if (!options.cut) return;
+    cloth_.cut =
+        make("raster cut cloth", state, vulkan::variant_name(shaders.vertex, {{"cut", true}, {"masked", strain}}));
+    if (shadow) shadow_cloth_.cut = make("shadow cut cloth", shadow_state, "shadow_cloth_cut.vert");
+}
+
+void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescription& scene,
+                                const RasterOptions& options) {
     const bool shadow = casts_shadow();
+    const std::uint32_t lights = light_count(scene);
     vulkan::GraphicsState state;
     state.color_format = light_format;
     state.depth_format = depth_format;
@@ -93,20 +172,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, bool has_cloth, bo
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
-    if (has_cloth) {
-        state.vertex = {"cloth.vert"};
-        state.fragment = {vulkan::variant_name("cloth.frag", {{"shadowed", shadow}})};
-        cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cloth", state);
-        shadow_state.vertex = {"shadow_cloth.vert"};
-        if (shadow) shadow_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cloth", shadow_state);
-    }
-    if (has_cut_cloth) {
-        state.vertex = {"cloth_cut.vert"};
-        cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster cut cloth", state);
-        shadow_state.vertex = {"shadow_cloth_cut.vert"};
-        if (shadow)
-            shadow_cut_cloth_ = std::make_unique<vulkan::GraphicsPipeline>(device, "shadow cut cloth", shadow_state);
-    }
+    if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
     state.vertex = {"collider.vert"};
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
     shadow_state.vertex = {"shadow_collider.vert"};
@@ -143,6 +209,9 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
     targets.colliders =
         graph.buffer<glsl::ColliderInstance>(colliders_name, instance_count, graph::Lifetime::host_input);
+    if (scale_)
+        targets.heat_colors =
+            graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     targets.color = graph.image({color_name, color_format, width_, height_});
     targets.light = graph.image({light_name, light_format, width_, height_});
@@ -188,11 +257,12 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             begin_rendering(context, *attachments);
             for (const RasterCloth& cloth : cloths) {
                 const bool cut = cloth.cut_vertices.valid();
-                const vulkan::GraphicsPipeline& pipeline = cut ? *shadow_cut_cloth_ : *shadow_cloth_;
+                const vulkan::GraphicsPipeline& pipeline = shadow_cloth_.of(cloth);
                 std::vector<graph::Binding> bound{{"frame", frame}, {"position", cloth.position}};
                 if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
                 context.bind(pipeline, bound);
-                draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
+                context.push(pipeline, cloth_push(cloth));
+                draw_cloth(context, cloth.indices, cloth.index_count);
             }
             for (const Draw& draw : shadow_draws_) {
                 const graph::Binding bound[] = {{"frame", frame}, {"colliders", colliders}};
@@ -212,11 +282,13 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.frame, Access::fragment_read);
             setup.read(targets.colliders, Access::vertex_read);
             if (casts_shadow()) setup.read(targets.shadow_map, Access::fragment_read);
+            if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.normal, Access::vertex_read);
                 setup.read(cloth.indices, Access::index_read);
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
+                if (scale_ && cloth.spring_shares.valid()) setup.read(cloth.spring_shares, Access::vertex_read);
             }
             Handle& drawn = samples_ > 1 ? targets.multisampled : targets.light;
             attachments->color = drawn = setup.write(drawn, Access::color_write);
@@ -239,13 +311,18 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         all.insert(all.end(), own);
         return all;
     };
+    const bool lit = cloth_shaders(view_).lit;
     for (const RasterCloth& cloth : cloths) {
-        const bool cut = cloth.cut_vertices.valid();
-        const vulkan::GraphicsPipeline& pipeline = cut ? *cut_cloth_ : *cloth_;
-        std::vector<graph::Binding> bound = bindings({{"position", cloth.position}, {"normal", cloth.normal}});
-        if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
+        const vulkan::GraphicsPipeline& pipeline = cloth_.of(cloth);
+        std::vector<graph::Binding> bound = lit ? shared : std::vector<graph::Binding>{{"frame", targets.frame}};
+        bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
+        if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
+        if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
+        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_share_image", cloth.spring_shares});
         context.bind(pipeline, bound);
-        draw_cloth(context, pipeline, cloth_push(cloth), cloth.indices, cloth.index_count);
+        if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
+        if (!scale_) context.push(pipeline, cloth_push(cloth));
+        draw_cloth(context, cloth.indices, cloth.index_count);
     }
     for (const Draw& draw : draws_) {
         context.bind(*draw.pipeline, bindings({{"colliders", targets.colliders}}));
@@ -290,6 +367,13 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     const std::vector<glsl::ColliderInstance> instances = collider_instances(drawn_bodies(time), plane_extent_, time);
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
     write(colliders_name, std::as_bytes(std::span(instances)));
+    if (!scale_) return;
+    const auto colors = heat_colors(*scale_->map);
+    write(heat_colors_name, std::as_bytes(std::span(colors)));
+}
+
+void RasterPass::finish(std::span<std::byte> rgba) const {
+    if (scale_) draw_legend({reinterpret_cast<std::uint8_t*>(rgba.data()), rgba.size()}, width_, height_, *scale_);
 }
 
 std::uint64_t RasterPass::readback_byte_count() const { return std::uint64_t{4} * width_ * height_; }

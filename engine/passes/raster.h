@@ -5,14 +5,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "drape/scene.h"
+#include "drape/view.h"
 #include "graph/executor.h"
 #include "passes/collider_mesh.h"
 #include "passes/fixtures.h"
+#include "passes/strain_scale.h"
 #include "shared/raster_types.h"
 #include "vulkan/pipeline.h"
 
@@ -29,12 +32,16 @@ struct RasterCloth {
     Appearance appearance;
     graph::Handle position, normal, indices;
     std::uint32_t index_count = 0;
-    graph::Handle cut_vertices = {};  ///< valid on a cut cloth: indices from columns * rows on are in this buffer
+    graph::Handle cut_vertices = {};   ///< valid on a cut cloth: indices from columns * rows on are in this buffer
+    graph::Handle spring_shares = {};  ///< valid with holes or cuts: 0 where there is no spring
+    std::array<double, 2> rest_lengths{0, 0};  ///< m, of springs along columns, rows; 0: no such springs
 };
 
 struct RasterOptions {
     bool shadow = true;
-    bool cut = false;  ///< some cloth has cut vertices: their pipelines are made
+    PictureView view;
+    bool cut = false;     ///< some cloth has cut vertices: their pipelines are made
+    bool masked = false;  ///< some cloth has spring shares: likewise
     /// Pixels right and down by which the picture is moved: pictures moved by parts of a pixel add up to one of many
     /// samples.
     std::array<double, 2> shift{0, 0};
@@ -56,12 +63,16 @@ class RasterPass {
     /// Fills the host inputs of a slot for the picture at `time` (s).
     void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
 
+    /// Draws what is drawn on the host, the legend of a heat map, into a picture that was read back.
+    void finish(std::span<std::byte> rgba) const;
+
     bool casts_shadow() const { return shadow_skip_reason_.empty(); }
     std::uint64_t readback_byte_count() const;
 
     static constexpr const char* readback_name = "color/readback";
     static constexpr const char* frame_name = "raster/frame";
     static constexpr const char* colliders_name = "raster/colliders";
+    static constexpr const char* heat_colors_name = "raster/heat colors";
     static constexpr const char* color_name = "color";
     static constexpr const char* light_name = "light";  ///< radiance, resolved
     static constexpr const char* multisampled_name = "light/multisampled";
@@ -76,7 +87,15 @@ class RasterPass {
     };
     struct Targets;
 
-    void make_pipelines(const vulkan::Device& device, bool has_cloth, bool has_cut_cloth, std::uint32_t lights);
+    /// What draws a cloth, by what it has.
+    struct ClothPipelines {
+        std::unique_ptr<vulkan::GraphicsPipeline> whole, masked, cut;
+        const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
+    };
+
+    void make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options, vulkan::GraphicsState state,
+                              vulkan::GraphicsState shadow_state);
+    void make_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options);
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
@@ -94,8 +113,9 @@ class RasterPass {
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
-    std::unique_ptr<vulkan::GraphicsPipeline> cloth_, shadow_cloth_;
-    std::unique_ptr<vulkan::GraphicsPipeline> cut_cloth_, shadow_cut_cloth_;
+    View view_;
+    std::optional<StrainScale> scale_;  ///< of a heat map
+    ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
     std::unique_ptr<vulkan::GraphicsPipeline> encoding_;
 };

@@ -17,15 +17,6 @@ Vec3 unit(const Vec3& v) {
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 1, 0};
 }
 
-/// What the tone curve shows as `shown` (0..1): its inverse, so that a background has the colour that the scene says.
-float radiance_of(float shown) {
-    if (shown <= glsl::tone_knee) return shown;
-    const double white = (glsl::tone_white - glsl::tone_knee) / (1.0 - glsl::tone_knee);
-    const double above = (shown - glsl::tone_knee) / (1.0 - glsl::tone_knee), left = 1 - above;
-    const double solved = 0.5 * white * white * (std::sqrt(left * left + 4 * above / (white * white)) - left);
-    return static_cast<float>(glsl::tone_knee + (1 - glsl::tone_knee) * solved);
-}
-
 void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants) {
     for (std::size_t i = 0; i < light_count(scene); ++i) {
         const DirectionalLight& light = scene.lights[i];
@@ -87,7 +78,7 @@ glsl::FrameConstants frame_constants(const SceneDescription& scene, const Camera
     constants.ambient = texel(scene.ambient, 0);
     constants.ground = texel(scene.ambient_ground, 0);
     const glsl::vec4 background = linear_color(scene.image.background);
-    constants.background = {radiance_of(background.x), radiance_of(background.y), radiance_of(background.z), 0};
+    constants.background = {glsl::untoned(background.x), glsl::untoned(background.y), glsl::untoned(background.z), 0};
     constants.background.w = static_cast<float>(height);
     constants.fade = texel(camera.target, fade_radius(camera, extent));
     write_lights(scene, constants);

@@ -47,9 +47,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     vkCmdSetScissor(context.commands(), 0, 1, &scissor);
 }
 
-void draw_cloth(graph::PassContext& context, const vulkan::GraphicsPipeline& pipeline, const glsl::ClothPush& push,
-                graph::Handle indices, std::uint32_t index_count) {
-    context.push(pipeline, push);
+void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count) {
     vkCmdBindIndexBuffer(context.commands(), context.buffer(indices).handle(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexed(context.commands(), index_count, 1, 0, 0, 0);
 }

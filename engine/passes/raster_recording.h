@@ -23,8 +23,7 @@ struct RasterAttachments {
 /// resolved.
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments);
 
-void draw_cloth(graph::PassContext& context, const vulkan::GraphicsPipeline& pipeline, const glsl::ClothPush& push,
-                graph::Handle indices, std::uint32_t index_count);
+void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count);
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
 

@@ -10,6 +10,14 @@ vec4 clip_position(vec3 world) {
                 dot(frame[0].clip_from_world[2], point), dot(frame[0].clip_from_world[3], point));
 }
 
+/// Depth as if the cloth were nearer to the eye by its thickness: by so much contact keeps particles off a collider,
+/// and no more does a triangle between them cut into it.
+float depth_of_thickness(vec3 at, float thickness, float clip_w) {
+    vec3 to_eye = frame[0].eye.xyz - at;
+    vec4 nearer = vec4(at + to_eye * min(thickness * inversesqrt(max(dot(to_eye, to_eye), 1e-30)), 0.5), 1.0);
+    return dot(frame[0].clip_from_world[2], nearer) / dot(frame[0].clip_from_world[3], nearer) * clip_w;
+}
+
 /// Texel coordinates and depth in the shadow map.
 vec3 shadow_position(vec3 world) {
     vec4 point = vec4(world, 1.0);

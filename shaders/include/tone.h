@@ -21,6 +21,14 @@ SHARED float toned(float radiance) {
     return above > 0.0f ? tone_knee + (1.0f - tone_knee) * shoulder : radiance;
 }
 
+/// The radiance that is shown as `shown` (0..1): the curve's inverse, so that a colour comes out as it was said.
+SHARED float untoned(float shown) {
+    float white = (tone_white - tone_knee) / (1.0f - tone_knee);
+    float above = (shown - tone_knee) / (1.0f - tone_knee), left = 1.0f - above;
+    float solved = 0.5f * white * white * (sqrt(left * left + 4.0f * above / (white * white)) - left);
+    return above > 0.0f ? tone_knee + (1.0f - tone_knee) * solved : shown;
+}
+
 #ifdef __cplusplus
 }  // namespace drape::glsl
 #endif

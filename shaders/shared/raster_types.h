@@ -40,6 +40,20 @@ struct ClothPush {
     vec4 second;  // the pattern's other colour, on both sides
 };
 
+/// Colours of a heat map, at even places from its low end to its high end.
+const int heat_color_count = 256;
+
+// Which springs a heat map looks at.
+const int strain_of_both = 0;  // the most stretched
+const int strain_of_warp = 1;  // along columns, whichever way it is strained most
+const int strain_of_weft = 2;  // along rows
+
+struct StrainPush {
+    uvec4 grid;    // columns, rows; z, w unused
+    vec4 springs;  // x, y: rest lengths along columns, rows, m, 0: no such springs; z unused; w: thickness, m
+    vec4 place;    // on the heat map: x strain + y; z, w unused
+};
+
 #ifdef __cplusplus
 }  // namespace drape::glsl
 #endif

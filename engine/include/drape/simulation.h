@@ -19,6 +19,7 @@
 #include "drape/scene_reader.h"
 #include "drape/schedule.h"
 #include "drape/statistics.h"
+#include "drape/view.h"
 
 namespace drape {
 
@@ -71,6 +72,7 @@ enum class Timings { none, stages, passes };
 
 struct SimulationOptions {
     bool draw = false;  ///< pictures of the scene's size and samples
+    PictureView view;   ///< of them
     bool positions = true;
     bool velocities = false;  ///< at the frames' ends, as the statistics' energies are; implies statistics
     bool normals = false;

@@ -1,0 +1,60 @@
+// A cloth's particles as vertices of a heat map: what the springs that meet in a particle are strained by. A strain is
+// (length - rest length) / rest length, as in the statistics; of a particle's springs the one that is strained most
+// counts, so that a picture's extremes are the statistics' own. CUT: and the vertices on its cut springs, each with its
+// own side's particle. MASKED: spring shares come from an image (holes, cuts); without a share there is no spring.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants CUT MASKED
+#include "shared/raster_types.h"
+#ifdef CUT
+#include "shared/cut_types.h"
+#endif
+#include "include/raster_frame.h"
+
+layout(constant_id = 0) const int shown = strain_of_both;
+layout(push_constant) uniform Push { StrainPush push; };
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
+#ifdef MASKED
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+layout(location = 0) out vec3 world;
+layout(location = 1) out vec3 surface_normal;
+layout(location = 2) out float place;  // on the heat map
+#include "include/cloth_vertex.h"
+
+/// `strain`, or that of the spring from a particle to the next along columns (0) or rows (1) where it counts more.
+float with_spring(float strain, ivec2 first, int direction) {
+    ivec2 second = first + ivec2(1 - direction, direction);
+    if (any(lessThan(first, ivec2(0))) || any(greaterThanEqual(second, ivec2(push.grid.xy)))) return strain;
+    float rest_length = push.springs[direction];
+    if (!(rest_length > 0.0)) return strain;
+#ifdef MASKED
+    if (!(imageLoad(spring_share_image, first)[direction] > 0.0)) return strain;
+#endif
+    float current = distance(imageLoad(position, first).xyz, imageLoad(position, second).xyz);
+    float found = (current - rest_length) / rest_length;
+    bool more = shown == strain_of_both ? found > strain : abs(found) > abs(strain);
+    return more ? found : strain;
+}
+
+float strain_at(ivec2 texel) {
+    float strain = 0.0;
+    if (shown != strain_of_weft) strain = with_spring(with_spring(strain, texel, 0), texel - ivec2(1, 0), 0);
+    if (shown != strain_of_warp) strain = with_spring(with_spring(strain, texel, 1), texel - ivec2(0, 1), 1);
+    return strain;
+}
+
+void main() {
+    uint index = uint(gl_VertexIndex);
+    uint particle = index;
+    world = vertex_position(index);
+#ifdef CUT
+    if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
+#endif
+    ivec2 texel = particle_texel(particle);
+    surface_normal = imageLoad(normal, texel).xyz;
+    place = push.place.x * strain_at(texel) + push.place.y;
+    gl_Position = clip_position(world);
+    gl_Position.z = depth_of_thickness(world, push.springs.w, gl_Position.w);
+}
