@@ -13,6 +13,7 @@
 #include "frame_loop.h"
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
+#include "scene/overlap.h"
 
 namespace drape {
 
@@ -103,6 +104,10 @@ const SceneDescription& checked(const SceneDescription& scene) {
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
            "pixels, of 1 or 4 samples");
     expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
+    if (result.errors.empty() && scene.overlap == Overlap::refuse)
+        for (const StartOverlap& overlap : start_overlaps(scene))
+            expect(false, fmt::format("/cloths/{}", overlap.cloth),
+                   ("a start outside all colliders: " + overlap_text(scene, overlap)).c_str());
     if (!result.errors.empty()) throw SceneFailure(std::move(result));
     return scene;
 }

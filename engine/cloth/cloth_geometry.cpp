@@ -32,18 +32,11 @@ float ClothGeometry::reach() const {
 }
 
 void ClothGeometry::place(const Cloth& cloth) {
-    const double jitter = start_jitter(cloth);
-    const std::vector<bool> is_held = held_at_start(cloth);
+    const std::vector<Vec3> start = start_positions(cloth);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-            Vec3 at = start_place(cloth, column, row);
-            const std::uint32_t particle = grid.particle(column, row);
-            if (jitter > 0 && !is_held[particle]) {
-                const Vec3 offset = start_offset(placement, jitter, particle);
-                for (std::size_t k = 0; k < 3; ++k) at[k] += offset[k];
-            }
             free_weight.push_back(grid.relative_inverse_mass(column, row));
-            position.push_back(texel(at, free_weight.back()));
+            position.push_back(texel(start[grid.particle(column, row)], free_weight.back()));
         }
     if (!starts_masked)
         skipped.push_back({name + "/spring shares", "no holes or cuts: the grid's extent gives every stiffness"});

@@ -1,8 +1,8 @@
 #include <array>
 
-#include "cloth/collider_pose.h"
 #include "cloth/cut_topology.h"
 #include "cloth/texels.h"
+#include "scene/collider_pose.h"
 #include "scene/motion.h"
 
 namespace drape {

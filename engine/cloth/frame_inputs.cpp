@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/collider_pose.h"
+#include "scene/collider_pose.h"
 #include "scene/gust.h"
 #include "scene/motion.h"
 
@@ -19,6 +19,12 @@ RigidTransform pin_transform(const DynamicPin& pin, double time) {
 }
 
 namespace {
+
+template <int kind>
+using Shape = std::variant_alternative_t<kind, ColliderShape>;
+static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
+              std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid> &&
+              std::is_same_v<Shape<glsl::kind_capsule>, Capsule>);
 
 glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
     return {static_cast<float>(m[3 * k]), static_cast<float>(m[3 * k + 1]), static_cast<float>(m[3 * k + 2]),

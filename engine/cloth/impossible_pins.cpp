@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/collider_pose.h"
 #include "cloth/frame_inputs.h"
+#include "scene/collider_pose.h"
 #include "scene/vectors.h"
 
 namespace drape {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/collider_pose.h"
+#include "scene/collider_pose.h"
 
 namespace drape {
 namespace {

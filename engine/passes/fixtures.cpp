@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/collider_pose.h"
 #include "passes/picture_places.h"
+#include "scene/collider_pose.h"
 #include "scene/motion.h"
 #include "scene/start.h"
 #include "scene/vectors.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/collider_pose.h"
 #include "passes/picture_places.h"
+#include "scene/collider_pose.h"
 #include "scene/start.h"
 #include "scene/vectors.h"
 

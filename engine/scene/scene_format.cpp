@@ -386,6 +386,9 @@ const Object<SceneDescription> scene{
         {"cloths", &SceneDescription::cloths, list<Cloth>(cloth, cloth_count, 1, 1024),
          "The cloths. They do not collide with each other or with themselves.", cloth_count},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
+        {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
+         "Cloth that starts inside a collider, which is warned of: `resolve` moves it out by contact, at no more than "
+         "0.1 m/s; `refuse` makes it an error of the scene."},
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},

@@ -62,6 +62,24 @@ Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t parti
     return offset;
 }
 
+std::vector<Vec3> start_positions(const Cloth& cloth) {
+    const double jitter = start_jitter(cloth);
+    const std::vector<bool> is_held = held_at_start(cloth);
+    std::vector<Vec3> positions;
+    positions.reserve(is_held.size());
+    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column) {
+            const auto particle = static_cast<std::uint32_t>(positions.size());
+            Vec3 at = start_place(cloth, column, row);
+            if (jitter > 0 && !is_held[particle]) {
+                const Vec3 offset = start_offset(cloth.placement, jitter, particle);
+                for (std::size_t k = 0; k < 3; ++k) at[k] += offset[k];
+            }
+            positions.push_back(at);
+        }
+    return positions;
+}
+
 double start_strain(const Cloth& cloth) {
     double strain = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {

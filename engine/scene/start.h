@@ -21,6 +21,9 @@ Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);
 /// m, of a particle that starts up to `jitter` from its place.
 Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t particle);
 
+/// m, of every particle, row by row: its place, and without a pin what the jitter moves it by.
+std::vector<Vec3> start_positions(const Cloth& cloth);
+
 /// The most that a spring along u or v starts too long or too short by, over its length.
 double start_strain(const Cloth& cloth);
 

@@ -8,11 +8,14 @@
 
 #include "scene/gust.h"
 #include "scene/motion.h"
+#include "scene/surface_distance.h"
 #include "shared/collider_types.h"
 #include "verify/scene_oracles.h"
-#include "verify/surface_distance.h"
 
 namespace drape::verify {
+
+using exact::minus;
+using exact::norm;
 
 namespace {
 

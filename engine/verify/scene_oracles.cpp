@@ -11,9 +11,13 @@
 
 #include "scene/motion.h"
 #include "scene/oracle_kinds.h"
-#include "verify/surface_distance.h"
+#include "scene/surface_distance.h"
 
 namespace drape::verify {
+
+using exact::minus;
+using exact::norm;
+using exact::surface_distance;
 
 double Limits::operator[](const std::string& name) const {
     for (const auto& [key, value] : oracle_.limits)

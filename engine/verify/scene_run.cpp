@@ -6,10 +6,13 @@
 #include <iterator>
 #include <map>
 
+#include "scene/surface_distance.h"
 #include "verify/pieces.h"
-#include "verify/surface_distance.h"
 
 namespace drape::verify {
+
+using exact::minus;
+using exact::norm;
 
 Vec3 SceneRun::at(std::size_t frame, std::size_t cloth, std::size_t particle) const {
     const glsl::vec4& x = frames.at(frame).at(cloth).at(particle);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "cloth/collider_pose.h"
 #include "passes/camera.h"
 #include "raster_picture.h"
+#include "scene/collider_pose.h"
 
 namespace drape {
 namespace {

@@ -263,6 +263,10 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
     refused("/cloths/0/size", [](SceneDescription& scene) { scene.cloths[0].size = {1, NAN}; });
     refused("/cloths/0/pins/0", [](SceneDescription& scene) { scene.cloths[0].pins[0].particles.last = {12, 0}; });
     refused("/cloths/0/holes/0", [](SceneDescription& scene) { scene.cloths[0].holes = {{{3, 3}, {2, 9}}}; });
+    refused("/cloths/0", [](SceneDescription& scene) {
+        scene.overlap = Overlap::refuse;
+        scene.colliders = {{Sphere{{0, 0, 0}, 100}}};
+    });
     refused("/cloths/1/name", [](SceneDescription& scene) { scene.cloths.push_back(scene.cloths[0]); });
     refused("/time", [](SceneDescription& scene) { scene.time.fps = 0; });
     refused("/solver", [](SceneDescription& scene) { scene.solver.substeps = 0; });

@@ -13,7 +13,7 @@ inline constexpr const char* full_scene = R"json({
            "air_density": 1.1, "drag": 0.9, "lift": 0.4},
   "cloths": [
     {"name": "banner", "grid": [96, 64], "size": [1.5, 2.5],
-     "placement": {"origin": [0.25, 2, 0], "u": [0, 0, 2], "v": [0, -3, 0], "scale": [1.5, 0.5], "jitter": 0.001, "seed": 3},
+     "placement": {"origin": [0.25, 20, 0], "u": [0, 0, 2], "v": [0, -3, 0], "scale": [1.5, 0.5], "jitter": 0.001, "seed": 3},
      "fabric": "denim", "areal_density": 0.15, "stiffness": {"stretch": 2000, "shear": 150, "bend": 1e-5},
      "damping": 0.1, "friction": 0.35, "thickness": 0.004, "velocity": [1, 2, 3],
      "holes": [[[40, 20], [50, 30]]],
@@ -36,6 +36,7 @@ inline constexpr const char* full_scene = R"json({
     "capsules": [{"from": [0, 1, 0.25], "to": [1, 2, 3], "radii": [0.2, 0.1], "friction": 0.7, "rotate": [1, 8, 9],
                   "color": [0.5, 0.1, 0.2], "path": [{"t": 4}]},
                  {"radius": 0.125}]},
+  "overlap": "refuse",
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],
   "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01, "tolerance_worst": 0.2, "tolerance_motion": 0.03, "strain_damping": 0.05, "tethers": true},
   "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},

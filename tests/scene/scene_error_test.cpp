@@ -78,7 +78,7 @@ const Malformed syntax_cases[] = {
      "{\"cloths\": [{}],\n\"" + std::string(16'000'000, 'k') + "\": 0}",
      {"2:1: /" + std::string(77, 'k') +
       "...: expected one of $schema, name, time, gravity, wind, cloths, colliders, "
-      "cutters, solver, camera, lights, ambient, ambient_ground, image, oracles, got the unknown key \"" +
+      "overlap, cutters, solver, camera, lights, ambient, ambient_ground, image, oracles, got the unknown key \"" +
       std::string(37, 'k') + "...\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneErrors, ::testing::ValuesIn(syntax_cases), name_of);

@@ -24,6 +24,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.time, (TimeSettings{30, 12}));
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
+    EXPECT_EQ(scene.overlap, Overlap::refuse);
     EXPECT_EQ(scene.solver,
               (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, CollideWhen::substep, true, 0.05}));
     EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
@@ -44,7 +45,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.name, "banner");
     EXPECT_EQ(cloth.grid, (std::array<std::uint32_t, 2>{96, 64}));
     EXPECT_EQ(cloth.size, (std::array<double, 2>{1.5, 2.5}));
-    EXPECT_EQ(cloth.placement, (Placement{{0.25, 2, 0}, {0, 0, 1}, {0, -1, 0}, {1.5, 0.5}, 0.001, 3}));
+    EXPECT_EQ(cloth.placement, (Placement{{0.25, 20, 0}, {0, 0, 1}, {0, -1, 0}, {1.5, 0.5}, 0.001, 3}));
     EXPECT_EQ(cloth.areal_density, 0.15);
     EXPECT_EQ(cloth.stiffness, (Stiffness{false, 2000, 150, 1e-5}));
     EXPECT_EQ(cloth.damping, 0.1);

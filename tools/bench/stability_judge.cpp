@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "cloth/cloth_statistics.h"
-#include "cloth/collider_pose.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/impossible_pins.h"
 #include "cloth/solver_choice.h"
+#include "scene/collider_pose.h"
 #include "scene/vectors.h"
 
 namespace drape::bench {

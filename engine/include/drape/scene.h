@@ -199,6 +199,10 @@ enum class CollideWhen { iteration, substep };
 inline constexpr Spelling<CollideWhen> collide_spellings[] = {{"iteration", CollideWhen::iteration},
                                                               {"substep", CollideWhen::substep}};
 
+/// What becomes of cloth that starts inside a collider: contact moves it out, without speed; or the scene is an error.
+enum class Overlap { resolve, refuse };
+inline constexpr Spelling<Overlap> overlap_spellings[] = {{"resolve", Overlap::resolve}, {"refuse", Overlap::refuse}};
+
 struct SolverSettings {
     SolverMethod method = SolverMethod::automatic;  ///< `auto`: solver_choice.h
     std::uint32_t substeps = 20;
@@ -256,6 +260,7 @@ struct SceneDescription {
     Wind wind;
     std::vector<Cloth> cloths;
     std::vector<Collider> colliders;
+    Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
     SolverSettings solver;
     std::optional<Camera> camera;                             ///< without one: passes/framing.h finds one

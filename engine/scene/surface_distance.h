@@ -1,17 +1,18 @@
-// Signed distances in double precision, by methods other than the shaders': the oracle for contact tests.
+// Signed distances in double precision, by methods other than the shaders': for where cloth starts, and the oracle
+// for contact tests.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "cloth/collider_pose.h"
 #include "drape/scene.h"
+#include "scene/collider_pose.h"
+#include "scene/vectors.h"
 
-namespace drape::verify {
+namespace drape::exact {
 
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 inline Vec3 to_local(const ColliderPose& pose, const Vec3& world) {
@@ -107,4 +108,4 @@ inline double surface_distance(const std::vector<Collider>& colliders, double ti
     return least;
 }
 
-}  // namespace drape::verify
+}  // namespace drape::exact

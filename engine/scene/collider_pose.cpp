@@ -1,11 +1,10 @@
-#include "cloth/collider_pose.h"
+#include "scene/collider_pose.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "scene/motion.h"
-#include "shared/collider_types.h"
 
 namespace drape {
 namespace {
@@ -52,12 +51,6 @@ ShapeGeometry geometry(const Capsule& capsule) {
             0.5 * apart + std::max(capsule.radii[0], capsule.radii[1]),
             std::array{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}};
 }
-
-template <int kind>
-using Shape = std::variant_alternative_t<kind, ColliderShape>;
-static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
-              std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid> &&
-              std::is_same_v<Shape<glsl::kind_capsule>, Capsule>);
 
 }  // namespace
 

@@ -1,0 +1,115 @@
+// Cloth that starts inside a collider is noticed: which, how deep, how much of it; and refused where the scene says so.
+#include "scene/overlap.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drape/scene_reader.h"
+
+namespace drape {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// 5 x 5 particles, 0.25 m apart about the y axis, 0.1 m above the origin.
+SceneResult over(const std::string& colliders, const std::vector<std::string>& overrides = {}) {
+    return read_scene_text(fmt::format(R"({{"name": "over",
+"cloths": [{{"name": "sheet", "grid": [5, 5], "size": [1, 1],
+  "placement": {{"origin": [-0.5, 0.1, -0.5], "u": [1, 0, 0], "v": [0, 0, 1]}}}}],
+"colliders": {{{}}}}})",
+                                       colliders),
+                           "over.json", overrides);
+}
+
+/// The warnings of a scene that is fine otherwise.
+std::vector<std::string> warned(const std::string& colliders, const std::vector<std::string>& overrides = {}) {
+    const SceneResult result = over(colliders, overrides);
+    EXPECT_TRUE(result.scene) << (result.errors.empty() ? "" : result.errors[0].text());
+    std::vector<std::string> texts;
+    for (const SceneError& warning : result.warnings) texts.push_back(warning.text());
+    return texts;
+}
+
+const std::string ball = R"("spheres": [{"radius": 0.3, "center": [0, 0, 0]}])";
+
+/// Depths and counts by hand.
+TEST(OverlapTest, EveryKindOfCollider) {
+    const auto expect = [](const std::string& colliders, const std::string& text) {
+        EXPECT_THAT(warned(colliders), ElementsAre(HasSubstr("cloth \"sheet\" starts up to " + text + ": contact")));
+    };
+    expect(R"("planes": [{"normal": [0, 1, 0], "offset": 0.2}])", "0.1 m inside /colliders/planes/0 (25 particles)");
+    expect(ball, "0.2 m inside /colliders/spheres/0 (5 particles)");
+    expect(R"("boxes": [{"center": [0, 0, 0], "half_extents": [0.3, 0.25, 0.3]}])",
+           "0.15 m inside /colliders/boxes/0 (9 particles)");
+    expect(R"("ellipsoids": [{"center": [0, 0, 0], "radii": [0.4, 0.2, 0.4]}])",
+           "0.1 m inside /colliders/ellipsoids/0 (5 particles)");
+    expect(R"("capsules": [{"from": [-1, 0, 0], "to": [1, 0, 0], "radius": 0.15}])",
+           "0.05 m inside /colliders/capsules/0 (5 particles)");
+}
+
+TEST(OverlapTest, IsSaidWhereTheClothIsPlaced) {
+    EXPECT_THAT(warned(ball),
+                ElementsAre("over.json:3:16: /cloths/0/placement: cloth \"sheet\" starts up to 0.2 m inside "
+                            "/colliders/spheres/0 (5 particles): contact moves free particles out at 0.1 m/s, and held "
+                            "ones stay"));
+}
+
+TEST(OverlapTest, FollowsThePlacement) {
+    EXPECT_THAT(warned(ball, {"/cloths/0/placement/origin=[-0.5,0.31,-0.5]"}), IsEmpty());
+    EXPECT_THAT(warned(ball, {"/cloths/0/placement/origin=[0,0.1,0]"}), ElementsAre(HasSubstr("0.2 m")));
+    EXPECT_THAT(warned(ball, {"/cloths/0/placement/v=[0,1,0]", "/cloths/0/placement/origin=[0,0.1,-0.5]"}), IsEmpty());
+    EXPECT_THAT(warned(ball, {"/cloths/0/placement/scale=[0.5,1]"}), ElementsAre(HasSubstr("(7 particles)")));
+    const auto scattered = warned(ball, {"/cloths/0/placement/jitter=0.05"});
+    ASSERT_EQ(scattered.size(), 1u);
+    EXPECT_THAT(scattered[0], Not(HasSubstr("up to 0.2 m")));
+}
+
+TEST(OverlapTest, FollowsTheCollidersPoseAtTheStart) {
+    const auto moved = [](const char* path) {
+        return warned(R"("spheres": [{"radius": 0.3, "center": [0, 0, 0], "path": )" + std::string(path) + "}]");
+    };
+    EXPECT_THAT(moved(R"([{"t": 0, "translate": [0, -1, 0]}, {"t": 1}])"), IsEmpty());
+    EXPECT_THAT(moved(R"([{"t": 0, "translate": [0, 0.1, 0]}, {"t": 1, "translate": [0, 5, 0]}])"),
+                ElementsAre(HasSubstr("0.3 m")));
+    const std::string thin = R"("center": [0, -0.3, 0], "half_extents": [0.05, 0.5, 0.05])";
+    EXPECT_THAT(warned("\"boxes\": [{" + thin + "}]"), ElementsAre(HasSubstr("0.05 m")));
+    EXPECT_THAT(warned("\"boxes\": [{" + thin + R"(, "rotate": [0, 0, 90]}])"), IsEmpty());
+}
+
+TEST(OverlapTest, TheDeepestIsNamedByItsPlaceInTheFile) {
+    EXPECT_THAT(warned(R"("planes": [{"offset": -5}, {"normal": [0, 1, 0], "offset": 0.15}],
+"spheres": [{"radius": 0.1, "center": [0, 5, 0]}, {"radius": 0.3, "center": [0, 0, 0]}])"),
+                ElementsAre(HasSubstr("0.2 m inside /colliders/spheres/1 (5 particles), and inside 1 other collider")));
+}
+
+TEST(OverlapTest, WhatLiesOnASurfaceIsNotInside) {
+    EXPECT_THAT(warned(R"("planes": [{"normal": [0, 1, 0], "offset": 0.1}])"), IsEmpty()) << "thickness is not depth";
+    EXPECT_THAT(warned(R"("planes": [{"normal": [0, 1, 0], "offset": 0.101}])"), ElementsAre(HasSubstr("0.001 m")));
+}
+
+TEST(OverlapTest, HolesHaveNoCloth) {
+    const std::string pea = R"("spheres": [{"radius": 0.2, "center": [0, 0, 0]}])";
+    EXPECT_THAT(warned(pea), ElementsAre(HasSubstr("(1 particle)")));
+    EXPECT_THAT(warned(pea, {"/cloths/0/holes=[[[1,1],[3,3]]]"}), IsEmpty());
+    EXPECT_THAT(warned(pea, {"/cloths/0/holes=[[[1,1],[2,3]],[[2,1],[3,3]]]"}), IsEmpty()) << "of two holes";
+    EXPECT_THAT(warned(pea, {"/cloths/0/holes=[[[1,1],[2,3]]]"}), ElementsAre(HasSubstr("(1 particle)")));
+}
+
+TEST(OverlapTest, IsAnErrorWhereTheSceneRefusesIt) {
+    const SceneResult refused = over(ball, {"/overlap=\"refuse\""});
+    EXPECT_FALSE(refused.scene);
+    ASSERT_EQ(refused.errors.size(), 1u);
+    EXPECT_EQ(refused.errors[0].text(),
+              "over.json:3:16: /cloths/0/placement: expected a start outside all colliders (/overlap is \"refuse\"): "
+              "cloth \"sheet\" starts up to 0.2 m inside /colliders/spheres/0 (5 particles)");
+    const SceneResult outside = over(ball, {"/overlap=\"refuse\"", "/cloths/0/placement/origin=[-0.5,0.4,-0.5]"});
+    ASSERT_TRUE(outside.scene);
+    EXPECT_EQ(outside.scene->overlap, Overlap::refuse);
+    EXPECT_THAT(outside.warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace drape
