@@ -16,233 +16,218 @@ namespace {
 
 /// Over what is explained: tips of cloth whip, folds snap.
 constexpr double generous = 10;
-constexpr double calm_speed = 0.1; ///< m/s that need no explanation
-constexpr double settling_time =
-    5; ///< s in which cloth may keep the strain that it starts with
-constexpr double rounding = 1.01; ///< of strains that a cloth starts with
+constexpr double calm_speed = 0.1;   ///< m/s that need no explanation
+constexpr double settling_time = 5;  ///< s in which cloth may keep the strain that it starts with
+constexpr double rounding = 1.01;    ///< of strains that a cloth starts with
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
+constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< of a spring; diagonals per second
+/// Of a start that has to settle, and in how many frames at a scene's end it must have: one may be a snap.
+constexpr double strained_start = 0.5;
+constexpr std::uint32_t last_frames = 6;
 /// Speeds of key-framed things are taken over this part of a frame.
 constexpr int parts_of_a_frame = 4;
 
-double distance(const Vec3 &a, const Vec3 &b) {
-  return length({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+double distance(const Vec3& a, const Vec3& b) { return length({a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
+
+/// How far a point within `reach` of the centre gets between two poses, at most.
+double moved(const std::array<double, 9>& turned, const std::array<double, 9>& turn, double reach) {
+    double square = 0;
+    for (std::size_t k = 0; k < 9; ++k) square += (turn[k] - turned[k]) * (turn[k] - turned[k]);
+    return square > 0 ? std::sqrt(square) * reach : 0;
 }
 
-/// How far a point within `reach` of the centre gets between two poses, at
-/// most.
-double moved(const std::array<double, 9> &turned,
-             const std::array<double, 9> &turn, double reach) {
-  double square = 0;
-  for (std::size_t k = 0; k < 9; ++k)
-    square += (turn[k] - turned[k]) * (turn[k] - turned[k]);
-  return square > 0 ? std::sqrt(square) * reach : 0;
+double pin_moved(const DynamicPin& pin, double reach, double from, double to) {
+    const auto pivot_at = [&](const RigidTransform& motion) {
+        Vec3 at = rotate(motion.rotation, pin.pivot);
+        for (std::size_t k = 0; k < 3; ++k) at[k] += motion.translation[k];
+        return at;
+    };
+    const RigidTransform before = pin_transform(pin, from), now = pin_transform(pin, to);
+    return distance(pivot_at(before), pivot_at(now)) + moved(before.rotation, now.rotation, reach);
 }
 
-double pin_moved(const DynamicPin &pin, double reach, double from, double to) {
-  const auto pivot_at = [&](const RigidTransform &motion) {
-    Vec3 at = rotate(motion.rotation, pin.pivot);
-    for (std::size_t k = 0; k < 3; ++k)
-      at[k] += motion.translation[k];
-    return at;
-  };
-  const RigidTransform before = pin_transform(pin, from),
-                       now = pin_transform(pin, to);
-  return distance(pivot_at(before), pivot_at(now)) +
-         moved(before.rotation, now.rotation, reach);
-}
-
-double collider_moved(const Collider &collider, double far, double from,
-                      double to) {
-  if (!collider.path.moves())
-    return 0;
-  const ColliderPose before = collider_pose(collider, from),
-                     now = collider_pose(collider, to);
-  return distance(before.center, now.center) +
-         moved(before.rotation, now.rotation,
-               std::min(shape_geometry(collider.shape).reach, far));
+double collider_moved(const Collider& collider, double far, double from, double to) {
+    if (!collider.path.moves()) return 0;
+    const ColliderPose before = collider_pose(collider, from), now = collider_pose(collider, to);
+    return distance(before.center, now.center) +
+           moved(before.rotation, now.rotation, std::min(shape_geometry(collider.shape).reach, far));
 }
 
 /// `sentence` says the value and the bound, in this order.
-Implausible compare(const char *criterion, double value, double bound,
-                    const char *sentence,
+Implausible compare(const char* criterion, double value, double bound, const char* sentence,
                     std::optional<std::uint32_t> particle = {}) {
-  // The device squares in single precision: what overflowed there is at least
-  // this.
-  const double known = std::isinf(value) ? 1e19 : value;
-  return {known / bound, fmt::format(fmt::runtime(sentence), value, bound),
-          criterion,     value,
-          bound,         particle};
+    // The device squares in single precision: what overflowed there is at least this.
+    const double known = std::isinf(value) ? 1e19 : value;
+    return {known / bound, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
 }
 
-Implausible worse(const Implausible &a, const Implausible &b) {
-  return b.excess > a.excess ? b : a;
+Implausible worse(const Implausible& a, const Implausible& b) { return b.excess > a.excess ? b : a; }
+
+/// m/s at which strain comes back. Inextensible cloth has no such speed: through all of it in a frame.
+double wave_speed(const Cloth& cloth, double diagonal, double fps) {
+    return cloth.stiffness.rigid ? diagonal * fps : std::sqrt(cloth.stiffness.stretch / cloth.areal_density);
 }
 
-/// m/s at which strain comes back. Inextensible cloth has no such speed:
-/// through all of it in a frame.
-double wave_speed(const Cloth &cloth, double diagonal, double fps) {
-  return cloth.stiffness.rigid
-             ? diagonal * fps
-             : std::sqrt(cloth.stiffness.stretch / cloth.areal_density);
+/// Largest, of springs along rows and columns that are held at both ends where the cloth starts.
+double held_strain(const ClothModel& cloth) {
+    double largest = 0;
+    const auto compare_ends = [&](std::uint32_t a, std::uint32_t b, double rest) {
+        const glsl::vec4 &p = cloth.position[a], &q = cloth.position[b];
+        if (p.w == 0 && q.w == 0)
+            largest = std::max(largest, std::abs(distance({p.x, p.y, p.z}, {q.x, q.y, q.z}) / rest - 1));
+    };
+    for (std::uint32_t row = 0; row < cloth.grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < cloth.grid.columns(); ++column) {
+            const std::uint32_t here = cloth.grid.particle(column, row);
+            if (column > 0) compare_ends(here, cloth.grid.particle(column - 1, row), cloth.spacing[0]);
+            if (row > 0) compare_ends(here, cloth.grid.particle(column, row - 1), cloth.spacing[1]);
+        }
+    return largest;
 }
 
-} // namespace
+}  // namespace
 
-Watch::Watch(const SimulationModel &model)
-    : model_(model), drives_(model.cloths.size(), {{0}, {0}}) {
-  const auto moving = [](const Collider &collider) {
-    return collider.path.moves();
-  };
-  passive_ =
-      !model.windy && std::ranges::none_of(model.scene.colliders, moving);
-  for (const ClothModel &cloth : model.cloths) {
-    Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, false};
-    const std::vector<float> share = mass_shares(cloth);
-    double mass = 0;
-    for (std::size_t i = 0; i < cloth.position.size(); ++i) {
-      const Vec3 at{cloth.position[i].x, cloth.position[i].y,
-                    cloth.position[i].z};
-      start.distance = std::max(start.distance, length(at));
-      for (std::size_t k = 0; k < 3; ++k)
-        start.mean[k] += share[i] * at[k];
-      mass += share[i];
-      start.held = start.held || (cloth.position[i].w == 0 && share[i] > 0);
+Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {{0}, {0}}) {
+    const auto moving = [](const Collider& collider) { return collider.path.moves(); };
+    passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
+    for (const ClothModel& cloth : model.cloths) {
+        Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, 0, false};
+        if (start.strain > 0) start.held_strain = rounding * held_strain(cloth);
+        const std::vector<float> share = mass_shares(cloth);
+        double mass = 0;
+        for (std::size_t i = 0; i < cloth.position.size(); ++i) {
+            const Vec3 at{cloth.position[i].x, cloth.position[i].y, cloth.position[i].z};
+            start.distance = std::max(start.distance, length(at));
+            for (std::size_t k = 0; k < 3; ++k) start.mean[k] += share[i] * at[k];
+            mass += share[i];
+            start.held = start.held || (cloth.position[i].w == 0 && share[i] > 0);
+        }
+        for (double& each : start.mean) each /= std::max(mass, 1e-300);
+        start.held = start.held && !cloth.has_release && model.scene.cutters.empty();
+        passive_ = passive_ && !cloth.has_motion;
+        starts_.push_back(start);
     }
-    for (double &each : start.mean)
-      each /= std::max(mass, 1e-300);
-    start.held =
-        start.held && !cloth.has_release && model.scene.cutters.empty();
-    passive_ = passive_ && !cloth.has_motion;
-    starts_.push_back(start);
-  }
 }
 
 /// m/s, largest of anything that may push the cloth in this time.
 double Watch::drive_speed(std::size_t cloth, double from, double to) const {
-  const ClothModel &model = model_.cloths[cloth];
-  double pins = 0, colliders = 0;
-  for (const DynamicPin &pin : model.dynamic_pins)
-    pins = std::max(pins, pin_moved(pin, starts_[cloth].diagonal, from, to));
-  for (const Collider &collider : model_.scene.colliders) {
-    const double far =
-        starts_[cloth].distance + length(shape_geometry(collider.shape).center);
-    colliders = std::max(colliders, collider_moved(collider, far, from, to));
-  }
-  return (pins + 2 * colliders) / (to - from);
+    const ClothModel& model = model_.cloths[cloth];
+    double pins = 0, colliders = 0;
+    for (const DynamicPin& pin : model.dynamic_pins)
+        pins = std::max(pins, pin_moved(pin, starts_[cloth].diagonal, from, to));
+    for (const Collider& collider : model_.scene.colliders) {
+        const double far = starts_[cloth].distance + length(shape_geometry(collider.shape).center);
+        colliders = std::max(colliders, collider_moved(collider, far, from, to));
+    }
+    return (pins + 2 * colliders) / (to - from);
 }
 
 void Watch::extend(std::uint32_t frame) {
-  const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
-  for (std::size_t cloth = 0; cloth < drives_.size(); ++cloth) {
-    Drive &drive = drives_[cloth];
-    while (drive.speed.size() <= frame) {
-      double speed = drive.speed.back(), travel = drive.travel.back();
-      const double begin =
-          static_cast<double>(drive.speed.size() - 1) * parts_of_a_frame;
-      for (int k = 0; k < parts_of_a_frame; ++k) {
-        const double now =
-            drive_speed(cloth, (begin + k) * part, (begin + k + 1) * part);
-        speed = std::max(speed, now);
-        travel += now * part;
-      }
-      drive.speed.push_back(speed);
-      drive.travel.push_back(travel);
+    const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
+    for (std::size_t cloth = 0; cloth < drives_.size(); ++cloth) {
+        Drive& drive = drives_[cloth];
+        while (drive.speed.size() <= frame) {
+            double speed = drive.speed.back(), travel = drive.travel.back();
+            const double begin = static_cast<double>(drive.speed.size() - 1) * parts_of_a_frame;
+            for (int k = 0; k < parts_of_a_frame; ++k) {
+                const double now = drive_speed(cloth, (begin + k) * part, (begin + k + 1) * part);
+                speed = std::max(speed, now);
+                travel += now * part;
+            }
+            drive.speed.push_back(speed);
+            drive.travel.push_back(travel);
+        }
     }
-  }
 }
 
-Implausible Watch::worst(std::uint32_t frame, std::size_t index,
-                         const ClothStatistics &statistics) {
-  const Cloth &cloth = model_.scene.cloths[index];
-  const Start &start = starts_[index];
-  const double time = frame / model_.scene.time.fps,
-               gravity = length(model_.scene.gravity);
-  const double fall =
-      start.held
-          ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal))
-          : gravity * time;
-  const double wind = length(model_.scene.wind.velocity) +
-                      std::abs(model_.scene.wind.gust.amplitude);
-  const double travel = drives_[index].travel[frame],
-               smaller = std::min(cloth.size[0], cloth.size[1]);
-  const double recoil =
-      std::min(travel / smaller, 1.0) *
-      wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-  const double released =
-      start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-  const double given =
-      length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released;
-  const double speed = given + drives_[index].speed[frame] + recoil;
-  const double flown = start.held ? 0 : 2 * time * (given + recoil);
-  const double diagonal =
-      start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
-  const Implausible result = worse(
-      compare("speed, m/s", statistics.largest_speed,
-              generous * speed + calm_speed,
-              "moves at {:.3g} m/s, where at most {:.3g} m/s are explained",
-              statistics.fastest),
-      compare(
-          "distance from the origin, m", statistics.largest_distance,
-          start.distance + 2 * diagonal + travel + flown,
-          "is {:.3g} m from the origin, where at most {:.3g} m are explained",
-          statistics.farthest));
-  if (!passive_)
-    return result;
-  const double moving =
-      0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
-  const double start_energy =
-      moving - statistics.mass * dot(model_.scene.gravity, start.mean);
-  // Without the elastic one, which is not negative and was 0: what a solver
-  // leaves stretched counts there at the full stiffness, though it was never
-  // stored.
-  const double energy = statistics.kinetic_energy + statistics.potential_energy;
-  const double scale =
-      moving + statistics.mass *
-                   (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
-  return worse(result, compare("energy gained, J", energy - start_energy,
-                               energy_share * scale +
-                                   statistics.mass * released * released,
-                               "the cloth has gained {:.3g} J, though nothing "
-                               "does work on it (bound {:.3g} J)"));
+Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const Start& start = starts_[index];
+    const double time = frame / model_.scene.time.fps, gravity = length(model_.scene.gravity);
+    const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
+    const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
+    const double travel = drives_[index].travel[frame], smaller = std::min(cloth.size[0], cloth.size[1]);
+    const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
+    const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
+    const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released;
+    const double speed = given + drives_[index].speed[frame] + recoil;
+    const double flown = start.held ? 0 : 2 * time * (given + recoil);
+    const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
+    const Implausible result =
+        worse(compare("speed, m/s", statistics.largest_speed, generous * speed + calm_speed,
+                      "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
+              compare("distance from the origin, m", statistics.largest_distance,
+                      start.distance + 2 * diagonal + travel + flown,
+                      "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
+    if (!passive_) return result;
+    const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
+    const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
+    // Without the elastic one, which is not negative and was 0: what a solver leaves stretched counts there at the full
+    // stiffness, though it was never stored.
+    const double energy = statistics.kinetic_energy + statistics.potential_energy;
+    const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
+    return worse(result, compare("energy gained, J", energy - start_energy,
+                                 energy_share * scale + statistics.mass * released * released,
+                                 "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"));
 }
 
-double Watch::excess(std::uint32_t frame,
-                     const std::vector<ClothStatistics> &cloths) {
-  extend(frame);
-  double most = 0;
-  for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
-    most = std::max(most, worst(frame, cloth, cloths[cloth]).excess);
-  return most;
+double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
+    extend(frame);
+    double most = 0;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
+        most = std::max(most, worst(frame, cloth, cloths[cloth]).excess);
+    return most;
 }
 
-std::optional<Implausible>
-Watch::implausible(std::uint32_t frame,
-                   const std::vector<ClothStatistics> &cloths) {
-  extend(frame);
-  const bool settling = frame <= settling_time * model_.scene.time.fps;
-  for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-    const double asked =
-        std::max(model_.asked_tolerance, settling ? starts_[cloth].strain : 0);
-    const ClothStatistics &statistics = cloths[cloth];
-    Implausible found =
-        worse(worst(frame, cloth, statistics),
-              compare("stretch error, RMS", statistics.stretch_error_rms,
-                      std::max(implausible_rms, asked),
-                      "begins the worst spring of a stretch error of {:.3g} "
-                      "RMS (bound {:.3g})",
-                      statistics.most_stretched));
-    found = worse(found, compare("stretch error of a spring",
-                                 statistics.stretch_error_max,
-                                 std::max(implausible_worst, asked),
-                                 "begins a spring whose stretch error is "
-                                 "{:.3g} of its length (bound {:.3g})",
-                                 statistics.most_stretched));
-    found.cloth = cloth;
-    if (found.excess > 1)
-      return found;
-  }
-  return std::nullopt;
+/// What a spring may be wrong by once the cloth has settled.
+double Watch::settled_stretch(std::size_t index) const {
+    if (model_.closed_loop()) return 3 * model_.stretch_limits().worst;
+    const ClothModel& cloth = model_.cloths[index];
+    const SolverSettings& solver = model_.scene.solver;
+    const double step = 1 / (model_.scene.time.fps * solver.substeps);
+    const double sweeps = model_.method().iterates() ? solver.iterations : 1;
+    double most = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double edges = (axis == 0 ? cloth.grid.columns() : cloth.grid.rows()) - 1;
+        most =
+            std::max(most, length(model_.scene.gravity) * step * step * edges * edges / (cloth.spacing[axis] * sweeps));
+    }
+    return std::min(3 * (0.02 + 0.12 * most), implausible_worst);
 }
 
-} // namespace drape
+Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
+    const Start& start = starts_[index];
+    const bool settles = frame <= settling_time * model_.scene.time.fps;
+    const double asked = std::max(model_.asked_tolerance, settles ? start.strain : start.held_strain);
+    const Implausible result = worse(
+        compare("stretch error, RMS", statistics.stretch_error_rms, std::max(implausible_rms, asked),
+                "begins the worst spring of a stretch error of {:.3g} RMS (bound {:.3g})", statistics.most_stretched),
+        compare("stretch error of a spring", statistics.stretch_error_max, std::max(implausible_worst, asked),
+                "begins a spring whose stretch error is {:.3g} of its length (bound {:.3g})",
+                statistics.most_stretched));
+    if (frame == 0 || result.excess > 1) return result;
+    if (start.strain > strained_start && frame + last_frames >= model_.scene.time.frame_count)
+        return compare("stretch error of a spring at the scene's end", statistics.stretch_error_max,
+                       std::max({settled_stretch(index), model_.asked_tolerance, start.held_strain}),
+                       "begins a spring whose stretch error is {:.3g} of its length (bound {:.3g}): what the cloth "
+                       "started strained by has not settled when the scene ends",
+                       statistics.most_stretched);
+    if (statistics.largest_speed > resting_speed * start.diagonal) return result;
+    return compare("stretch error of a spring at rest", statistics.stretch_error_max, std::max(resting_worst, asked),
+                   "begins a spring whose stretch error is {:.3g} of its length (bound {:.3g}), though the cloth rests",
+                   statistics.most_stretched);
+}
+
+std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
+    extend(frame);
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const ClothStatistics& statistics = cloths[cloth];
+        Implausible found = worse(worst(frame, cloth, statistics), worst_stretch(frame, cloth, statistics));
+        found.cloth = cloth;
+        if (found.excess > 1) return found;
+    }
+    return std::nullopt;
+}
+
+}  // namespace drape

@@ -99,6 +99,59 @@ TEST(WatchTest, StretchErrorsBeyondAnyUseAreNoResult) {
     EXPECT_THAT(said(hanging(), 1, stretched), HasSubstr("a spring whose stretch error is 2.2"));
 }
 
+TEST(WatchTest, WhatRestsIsExplainedByForces) {
+    ClothStatistics locked = resting();
+    locked.stretch_error_max = 0.4;
+    EXPECT_THAT(said(hanging(), 60, locked), HasSubstr("stretch error is 0.4 of its length (bound 0.333), though"));
+    locked.largest_speed = 0.015;  // m/s, of a diagonal of 1.41 m
+    EXPECT_THAT(said(hanging(), 60, locked), IsEmpty());
+    locked.largest_speed = 0;
+    EXPECT_THAT(said(hanging(), 0, locked), IsEmpty());
+    locked.stretch_error_max = 0.3;
+    EXPECT_THAT(said(hanging(), 60, locked), IsEmpty());
+    SceneDescription asked = hanging();
+    asked.solver.tolerance = 0.5;
+    locked.stretch_error_max = 0.4;
+    EXPECT_THAT(said(asked, 60, locked), IsEmpty());
+}
+
+TEST(WatchTest, WhatStartsStrainedHasSettledWhenTheSceneEnds) {
+    SceneDescription strained = hanging();  // 100 frames; of 4 edges, so Lambda = 1.1e-4 at 40 substeps
+    strained.cloths[0].placement.scale = {1, 10};
+    strained.solver.substeps = 40;
+    ClothStatistics unsettled = resting();
+    unsettled.largest_speed = 1;
+    unsettled.stretch_error_max = 0.07;
+    EXPECT_THAT(said(strained, 93, unsettled), IsEmpty());
+    EXPECT_THAT(said(strained, 94, unsettled),
+                HasSubstr("is 0.07 of its length (bound 0.06): what the cloth started"));
+    EXPECT_THAT(said(strained, 99, unsettled), HasSubstr("has not settled when the scene ends"));
+    unsettled.stretch_error_max = 0.05;
+    EXPECT_THAT(said(strained, 99, unsettled), IsEmpty());
+    unsettled.stretch_error_max = 0.9;  // more than coarse substeps leave anyway is more than any use
+    strained.solver.substeps = 1;
+    strained.gravity = {0, -9810, 0};
+    EXPECT_THAT(said(strained, 99, unsettled), IsEmpty());
+    SceneDescription little = hanging();
+    little.cloths[0].placement.scale = {1, 1.4};
+    EXPECT_THAT(said(little, 99, unsettled), IsEmpty());
+}
+
+TEST(WatchTest, WhatPinsHoldStrainedIsTheScenesOwn) {
+    SceneDescription held = hanging();
+    held.cloths[0].placement.scale = {3, 1};  // along the top, which the pins hold
+    held.time.frame_count = 1000;
+    ClothStatistics statistics = resting();
+    statistics.largest_speed = 1;
+    statistics.stretch_error_max = 2;
+    EXPECT_THAT(said(held, 900, statistics), IsEmpty());
+    EXPECT_THAT(said(held, 999, statistics), IsEmpty());
+    statistics.stretch_error_max = 2.1;
+    EXPECT_THAT(said(held, 900, statistics), HasSubstr("(bound 2.02)"));
+    held.cloths[0].placement.scale = {1, 3};
+    EXPECT_THAT(said(held, 900, statistics), HasSubstr("(bound 1)"));
+}
+
 TEST(WatchTest, TheWorstOfTheClothsCounts) {
     SceneDescription scene = hanging();
     scene.cloths.push_back(scene.cloths[0]);
