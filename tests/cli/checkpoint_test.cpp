@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "output/output_folder.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -125,6 +126,44 @@ TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
     ASSERT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "-q", "--resume", "-e", end}).code, 0);
     EXPECT_TRUE(checkpoints_in(folder.out()).empty());
     EXPECT_FALSE(fs::exists(folder / "out/journal.drape"));
+}
+
+/// What grows with the frames (arrays, journal) and what does not (pictures, meshes) meet the limit at different times.
+TEST(Checkpoint, AFileSizeLimitEndsTheRunWithNothingTornAndItGoesOn) {
+    const SceneFolder folder(eventful_scene(30));
+    const std::vector<std::string> arguments{"render", folder.scene(), "--export", "npy,npz,obj", "-q"};
+    const auto into = [&](const std::string& out, std::vector<std::string> more) {
+        more.insert(more.begin(), arguments.begin(), arguments.end());
+        more.insert(more.end(), {"-o", out});
+        return more;
+    };
+    ASSERT_EQ(drape(into(folder.out("whole"), {})).code, 0);
+    const auto whole = everything_below(folder.out("whole"));
+    std::set<std::string> stopped_at;
+    for (const std::uint64_t limit : {2048, 8192, 30000, 60000}) {
+        const Outcome stopped = drape(into(folder.out(), {"--checkpoint", "0"}), {.file_size_limit = limit});
+        EXPECT_EQ(stopped.code, 1) << limit << ": " << stopped.err;
+        EXPECT_FALSE(stopped.by_signal) << limit;
+        EXPECT_THAT(stopped.err, AllOf(HasSubstr("drape: cannot write '"), HasSubstr("': File too large"))) << limit;
+        stopped_at.insert(stopped.err);
+        for (const auto& [name, content] : everything_below(folder.out())) {
+            EXPECT_LE(content.size(), limit) << name;
+            EXPECT_FALSE(is_temporary_file_name(name)) << name;
+            if (name.ends_with(".png") || name.ends_with(".obj")) {
+                EXPECT_EQ(content, whole.at(name)) << limit << ": " << name;
+            }
+        }
+        const Outcome resumed = drape(into(folder.out(), {"--resume"}));
+        ASSERT_EQ(resumed.code, 0) << limit << ": " << resumed.err;
+        auto files = everything_below(folder.out());
+        for (const auto& [name, content] : whole)
+            if (name != "manifest.json") {
+                EXPECT_EQ(files[name], content) << limit << ": " << name;
+            }
+        EXPECT_EQ(files.size(), whole.size()) << limit;
+        fs::remove_all(folder.out());
+    }
+    EXPECT_GE(stopped_at.size(), 2u);
 }
 
 TEST(Checkpoint, NeverIsNone) {

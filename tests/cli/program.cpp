@@ -25,12 +25,14 @@ std::string content(std::FILE* file) {
 [[noreturn]] void become(const std::string& program, char* const* arguments, const StartOptions& options, int out,
                          int err) {
     // What a test ignores must not be ignored in the program.
-    for (const int signal : {SIGPIPE, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+    for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGXFSZ}) std::signal(signal, SIG_DFL);
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
     for (const std::string& variable : options.environment) putenv(const_cast<char*>(variable.c_str()));
     if (dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) _exit(126);
     if (options.close_stdout) close(STDOUT_FILENO);
     if (options.close_stderr) close(STDERR_FILENO);
+    const rlimit size{options.file_size_limit, options.file_size_limit};
+    if (options.file_size_limit > 0 && setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(126);
     execv(program.c_str(), arguments);
     _exit(127);
 }

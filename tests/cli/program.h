@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -24,6 +25,7 @@ struct StartOptions {
     std::vector<std::string> environment{};  ///< "NAME=value", added to or replacing this process's
     int stdout_descriptor = -1;              ///< instead of capturing; -1: capture
     bool close_stdout = false, close_stderr = false;
+    std::uint64_t file_size_limit = 0;  ///< bytes; 0: none
 };
 
 /// A running program; killed at the end of the test if it still runs.
