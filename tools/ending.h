@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "exit_code.h"
+#include "failure.h"
 
 namespace drape::cli {
 
@@ -18,14 +18,6 @@ bool stop_requested();
 ExitCode report_stop(const std::string& consequence);
 
 ExitCode report_validation(std::uint64_t message_count);
-
-/// What the current exception stands for. Call in a catch block.
-struct Failure {
-    ExitCode code;
-    std::string text;
-    bool is_located = false;  ///< the text says itself where: nothing stands before it
-};
-Failure current_failure();
 
 /// The exit code that the current exception stands for; prints its message. Call in a catch block.
 ExitCode report_current_exception();

@@ -50,7 +50,7 @@ the validation layer said nothing. Exit code 7 when anything is missed.
 
 Examples:
   drape verify scenes/flag.json
-  drape verify scenes/*.json --junit out/verify.xml
+  drape verify scenes/*.json --junit verify.xml
   drape verify my.json --penetration 1e-4 --stretch 0.05 --json
 )text",
                                     [=] { return run(*options); });

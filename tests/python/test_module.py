@@ -1,0 +1,260 @@
+"""The Python module: what it reads, hands out and refuses. Every simulation runs under Vulkan's validation."""
+import gc
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import drape
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Programs that do not ask for validation get it all the same.
+VALIDATING = dict(os.environ, PYTHONPATH=str(pathlib.Path(drape.__file__).resolve().parent),
+                  VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
+                  VK_LAYER_ENABLES="VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
+PROGRAM = pathlib.Path(drape.__file__).resolve().parents[1] / "drape"
+
+
+def sheet(**changes):
+    """A sheet of 9 x 7 particles that hangs by its upper corners."""
+    scene = {
+        "name": "sheet",
+        "time": {"fps": 50, "frames": 6},
+        "cloths": [{
+            "name": "cloth",
+            "grid": [9, 7],
+            "size": [0.8, 0.6],
+            "placement": {"origin": [-0.4, 1, 0], "u": [1, 0, 0], "v": [0, -1, 0]},
+            "pins": [{"corner": "top_left"}, {"corner": "top_right"}],
+        }],
+        "solver": {"method": "relax", "substeps": 4},
+        "image": {"size": [64, 48], "samples": 1},
+    }
+    scene.update(changes)
+    return scene
+
+
+class Validated(unittest.TestCase):
+    """Fails when a simulation made by `simulate` had a validation message."""
+
+    def setUp(self):
+        self.simulations = []
+
+    def simulate(self, scene, **options):
+        self.simulations.append(drape.Simulation(scene, validate=True, **options))
+        return self.simulations[-1]
+
+    def tearDown(self):
+        for simulation in self.simulations:
+            self.assertEqual(simulation.validation_count, 0)
+
+
+class Scenes(unittest.TestCase):
+    def test_path_text_and_dict_are_the_same_scene(self):
+        from_dict = drape.parse(sheet())
+        from_text = drape.parse("// a comment\n" + json.dumps(sheet()))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text(json.dumps(sheet()))
+            from_file = drape.load(path)
+        for scene in (from_dict, from_text, from_file):
+            self.assertEqual((scene.name, scene.fps, scene.frame_count, scene.cloths), ("sheet", 50, 6, ["cloth"]))
+            self.assertEqual(scene.to_dict(), from_dict.to_dict())
+
+    def test_to_dict_has_every_default_and_is_a_scene(self):
+        full = drape.parse(sheet()).to_dict()
+        self.assertEqual(full["cloths"][0]["friction"], 0.3)
+        self.assertEqual(drape.parse(full).to_dict(), full)
+
+    def test_overrides(self):
+        scene = drape.parse(sheet(), {"/time/frames": 3, "/cloths/0/size": [1, 1]})
+        self.assertEqual(scene.frame_count, 3)
+        self.assertEqual(scene.to_dict()["cloths"][0]["size"], [1, 1])
+
+    def test_warnings_say_where(self):
+        cloth = sheet()["cloths"][0]
+        overlapping = [cloth, dict(cloth, name="other")]
+        self.assertTrue(any("/cloths" in text for text in drape.parse(sheet(cloths=overlapping)).warnings))
+
+
+class Failures(Validated):
+    def test_scene_error_is_the_command_lines(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "wrong.json"
+            path.write_text('{\n  "cloths": [{"grid": [1, 2], "siez": [1, 1]}]\n}\n')
+            program = subprocess.run([PROGRAM, "check", str(path)], capture_output=True, text=True, check=False)
+            with self.assertRaises(drape.SceneError) as caught:
+                drape.load(path)
+        self.assertIsInstance(caught.exception, drape.Error)
+        self.assertEqual(caught.exception.exit_code, program.returncode)
+        for line in str(caught.exception).splitlines():
+            self.assertIn(line, program.stderr + program.stdout)
+        self.assertIn("wrong.json:2:", str(caught.exception))
+
+    def test_missing_file(self):
+        with self.assertRaises(drape.FileError) as caught:
+            drape.load("/nowhere/scene.json")
+        self.assertEqual(caught.exception.exit_code, 1)
+
+    def test_no_such_device(self):
+        with self.assertRaises(drape.DeviceError) as caught:
+            drape.Simulation(sheet(), device="no such device")
+        self.assertEqual(caught.exception.exit_code, 4)
+
+    def test_missed_tolerance(self):
+        simulation = self.simulate(sheet(solver={"method": "relax", "substeps": 1, "tolerance": 1e-9}))
+        with self.assertRaises(drape.ToleranceError) as caught:
+            for _ in simulation:
+                pass
+        self.assertEqual(caught.exception.exit_code, 8)
+        self.assertIn("stretch error", str(caught.exception))
+
+    def test_kept_failures_are_told(self):
+        scene = sheet(solver={"method": "relax", "substeps": 1, "tolerance": 1e-9})
+        failures = [step.failure for step in self.simulate(scene, keep_failed=True)]
+        self.assertEqual(len(failures), 6)
+        self.assertIn("stretch error", failures[-1])
+
+    def test_what_was_not_asked_for_is_refused(self):
+        simulation = self.simulate(sheet())
+        with self.assertRaises(ValueError):
+            simulation.positions()  # no frame yet
+        simulation.step()
+        with self.assertRaises(ValueError):
+            simulation.picture()
+        with self.assertRaises(ValueError):
+            simulation.normals()
+        with self.assertRaises(KeyError):
+            simulation.positions("curtain")
+        with self.assertRaises(IndexError):
+            simulation.positions(1)
+        with self.assertRaises(ValueError):
+            drape.Simulation(sheet(), view="heat")
+        with self.assertRaises(ValueError):
+            drape.Simulation(sheet(), view="wire", view_range=0.1)
+
+
+class Frames(Validated):
+    def test_arrays_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text(json.dumps(sheet()))
+            subprocess.run([PROGRAM, "simulate", path, "-o", folder + "/out", "-q", "--validate"], check=True)
+            written = np.load(folder + "/out/positions.npz")
+            manifest = json.loads(pathlib.Path(folder, "out/manifest.json").read_text())
+        simulation = self.simulate(sheet())
+        for number, step in enumerate(simulation):
+            self.assertEqual((step.frame, step.time), (number, number / 50))
+            np.testing.assert_array_equal(step.positions(), written["positions"][number])
+            np.testing.assert_array_equal(step.velocities("cloth"), written["velocities"][number])
+            for name, value in step.statistics.items():
+                self.assertEqual(manifest["statistics"][number][name], value, name)
+        self.assertEqual(number, 5)
+        self.assertFalse(simulation.step())
+        np.testing.assert_array_equal(simulation.faces(), written["faces"])
+        np.testing.assert_array_equal(simulation.uv(), written["uv"])
+
+    def test_views_share_memory_are_read_only_and_outlive_the_name(self):
+        simulation = self.simulate(sheet(), draw=True, normals=True)
+        simulation.step()
+        first, again = simulation.positions(), simulation.positions()
+        self.assertTrue(np.shares_memory(first, again))
+        self.assertEqual((first.shape, first.dtype, first.strides[2]), ((7, 9, 3), np.float32, 4))
+        for array in (first, simulation.velocities(), simulation.normals(), simulation.picture()):
+            with self.assertRaises(ValueError):
+                array[0, 0, 0] = 1
+        start = first.copy()
+        simulation.step()
+        self.assertFalse(np.array_equal(first, start))  # what is in a view is the newest frame
+        np.testing.assert_allclose(np.linalg.norm(simulation.normals(), axis=2), 1, atol=1e-5)
+        kept = first.copy()
+        self.simulations.clear()
+        del simulation, again
+        gc.collect()
+        np.testing.assert_array_equal(first, kept)
+
+    def test_picture(self):
+        simulation = self.simulate(sheet(), draw=True, size=(40, 30))
+        simulation.step()
+        picture = simulation.picture()
+        self.assertEqual((picture.shape, picture.dtype), ((30, 40, 4), np.uint8))
+        self.assertTrue((picture[..., 3] == 255).all())
+        wire = self.simulate(sheet(), draw=True, size=(40, 30), view="wire")
+        wire.step()
+        self.assertFalse(np.array_equal(picture, wire.picture()))
+
+    def test_cut_faces_are_fewer(self):
+        cutter = {"triangle": [[0.03, 2, -1], [0.03, 2, 1], [0.03, -1, 0]], "active": [0.03, 0.06]}
+        simulation = self.simulate(sheet(cutters=[cutter]))
+        simulation.step()
+        self.assertEqual(len(simulation.faces()), 8 * 6 * 2)
+        for _ in simulation:
+            pass
+        self.assertLess(len(simulation.faces()), 8 * 6 * 2)
+
+    def test_goes_on_from_what_was_saved(self):
+        simulation = self.simulate(sheet())
+        for _ in range(3):
+            simulation.step()
+        self.assertTrue(simulation.can_save)
+        saved = simulation.save()
+        simulation.step()
+        other = self.simulate(sheet())
+        other.restore(saved)
+        other.step()
+        self.assertEqual(other.frame, simulation.frame)
+        np.testing.assert_array_equal(other.positions(), simulation.positions())
+
+    def test_other_threads_run_while_it_steps(self):
+        scene = sheet(solver={"method": "relax", "substeps": 400})
+        scene["cloths"][0]["grid"] = [65, 65]
+        simulation = self.simulate(scene)
+        simulation.step()
+        ticks, done = [], threading.Event()
+
+        def tick():
+            while not done.is_set():
+                ticks.append(None)
+                time.sleep(0.0005)
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        before = len(ticks)
+        simulation.step()
+        during = len(ticks) - before
+        done.set()
+        thread.join()
+        self.assertGreater(during, 2)  # with the GIL held there would be at most one
+
+
+class Examples(unittest.TestCase):
+    def run_example(self, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            example = ROOT / "tools/examples/python" / words[0]
+            done = subprocess.run([sys.executable, example, *words[1:]], cwd=folder, env=VALIDATING, text=True,
+                                  capture_output=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotRegex(done.stdout + done.stderr, "VUID|SYNC-HAZARD|Validation Error")
+            files = {path.name: path.stat().st_size for path in pathlib.Path(folder).iterdir()}
+        return done.stdout, files
+
+    def test_wind_tunnel(self):
+        said, _ = self.run_example("wind_tunnel.py", "8")
+        self.assertEqual(len(said.splitlines()), 3)
+        self.assertIn("8 m/s: the free edge is ", said)
+
+    def test_heat_map(self):
+        said, files = self.run_example("heat_map.py", ROOT / "scenes/cloth_on_sphere.json", "3")
+        self.assertIn("stretch: 3 frames by ", said)
+        self.assertEqual(files["heat_map.ppm"], 2 * 480 * 360 * 3 + len("P6 960 360 255\n"))
+        self.assertEqual(files["positions.npy"], 128 + 3 * 65 * 65 * 3 * 4)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,369 @@
+// The library as a Python module: `import drape`. Scenes from files, text or dicts; simulations stepped with the GIL
+// released; positions, velocities, normals and pictures as NumPy arrays on the library's own memory.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "drape/simulation.h"
+#include "failure.h"
+#include "output/frame_writer.h"
+#include "run_statistics.h"
+
+namespace py = pybind11;
+
+namespace drape::python {
+
+namespace {
+
+/// A scene, and what it says with every default.
+struct Scene {
+    SceneDescription description;
+    std::string json;
+    std::vector<std::string> warnings;
+};
+
+/// {"/solver/substeps": 40} as `--set` has it.
+std::vector<std::string> override_texts(const py::dict& overrides) {
+    const py::object dumps = py::module_::import("json").attr("dumps");
+    std::vector<std::string> texts;
+    for (const auto& [pointer, value] : overrides)
+        texts.push_back(py::cast<std::string>(pointer) + "=" + py::cast<std::string>(dumps(value)));
+    return texts;
+}
+
+Scene scene_of(SceneResult result, const std::vector<std::string>& overrides) {
+    if (!result.scene) throw SceneFailure(std::move(result));
+    Scene scene{*result.scene, resolved_scene(result.text, overrides), {}};
+    for (const SceneError& warning : result.warnings) scene.warnings.push_back(warning.text());
+    return scene;
+}
+
+Scene parse(const py::object& source, const py::dict& overrides) {
+    const bool is_text = py::isinstance<py::str>(source);
+    const py::object text = is_text ? source : py::module_::import("json").attr("dumps")(source);
+    const std::vector<std::string> texts = override_texts(overrides);
+    SceneResult result = read_scene_text(py::cast<std::string>(text), is_text ? "text" : "dict", texts);
+    result.text = py::cast<std::string>(text);
+    return scene_of(std::move(result), texts);
+}
+
+Scene load(const py::object& path, const py::dict& overrides) {
+    const std::vector<std::string> texts = override_texts(overrides);
+    return scene_of(read_scene(py::cast<std::string>(py::module_::import("os").attr("fspath")(path)), texts), texts);
+}
+
+/// A Scene as it is; a dict is parsed, a path is loaded.
+Scene any_scene(const py::object& source) {
+    if (py::isinstance<Scene>(source)) return py::cast<Scene>(source);
+    return py::isinstance<py::dict>(source) ? parse(source, {}) : load(source, {});
+}
+
+struct Options {
+    std::string device;
+    bool draw, normals, validate, keep_failed;
+    std::string view;
+    std::optional<double> view_range;
+    std::optional<std::array<std::uint32_t, 2>> size;
+};
+
+PictureView picture_view(const Options& options) {
+    for (const auto& [name, kind] : view_spellings)
+        if (name == options.view) {
+            const PictureView view{kind, options.view_range.value_or(0)};
+            if (options.view_range && !(view.range > 0 && view.shows_strain()))
+                throw py::value_error("view_range is a strain above 0, for the views stretch, warp and weft");
+            return view;
+        }
+    throw py::value_error("view is none of shaded, stretch, warp, weft, wire, normals: '" + options.view + "'");
+}
+
+class PySimulation {
+  public:
+    PySimulation(const Scene& scene, const Options& options) : draws_(options.draw), has_normals_(options.normals) {
+        SceneDescription description = scene.description;
+        if (options.size) description.image.size = *options.size;
+        SimulationOptions wanted;
+        wanted.draw = options.draw;
+        wanted.view = picture_view(options);
+        wanted.velocities = true;
+        wanted.normals = options.normals;
+        wanted.keep_promises = !options.keep_failed;
+        const py::gil_scoped_release released;
+        device_.emplace(options.device, options.validate ? Validation::print : Validation::off);
+        simulation_.emplace(description, wanted, *device_);
+    }
+
+    bool step() {
+        const py::gil_scoped_release released;
+        const bool stepped = simulation_->step();
+        has_frame_ = has_frame_ || stepped;
+        return stepped;
+    }
+
+    const FinishedFrame& frame() const {
+        if (!has_frame_) throw py::value_error("there is no frame yet: call step() first");
+        return simulation_->frame();
+    }
+    const SceneDescription& scene() const { return simulation_->scene(); }
+    const Simulation& simulation() const { return *simulation_; }
+    Simulation& simulation() { return *simulation_; }
+    const Device& device() const { return *device_; }
+    bool draws() const { return draws_; }
+    bool has_normals() const { return has_normals_; }
+
+    /// By number or by name.
+    std::size_t cloth(const py::object& which) const {
+        const std::vector<Cloth>& cloths = scene().cloths;
+        if (py::isinstance<py::str>(which)) {
+            const auto found = std::ranges::find(cloths, py::cast<std::string>(which), &Cloth::name);
+            if (found == cloths.end()) throw py::key_error(py::cast<std::string>(which));
+            return static_cast<std::size_t>(found - cloths.begin());
+        }
+        const auto number = py::cast<std::size_t>(which);
+        if (number >= cloths.size()) throw py::index_error("no such cloth");
+        return number;
+    }
+
+  private:
+    bool draws_, has_normals_, has_frame_ = false;
+    std::optional<Device> device_;
+    std::optional<Simulation> simulation_;
+};
+
+/// A read-only view of the library's memory, which lives as long as `owner`.
+template <class T>
+py::array view(const T* data, const std::vector<py::ssize_t>& shape, const std::vector<py::ssize_t>& strides,
+               const py::object& owner) {
+    py::array array(py::dtype::of<T>(), shape, strides, data, owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+using Arrays = std::vector<std::span<const float>>;
+
+/// x y z of each particle: float32 [row, column, 3].
+py::array vectors(const py::object& owner, const py::object& which, Arrays FinishedFrame::*what) {
+    const auto& self = py::cast<const PySimulation&>(owner);
+    if (what == &FinishedFrame::normals && !self.has_normals())
+        throw py::value_error("no normals: the simulation was made without normals=True");
+    const std::size_t cloth = self.cloth(which);
+    const auto& [columns, rows] = self.scene().cloths[cloth].grid;
+    const auto pitch = static_cast<py::ssize_t>(4 * sizeof(float));
+    return view((self.frame().*what)[cloth].data(), {rows, columns, 3}, {columns * pitch, pitch, sizeof(float)}, owner);
+}
+
+py::array picture(const py::object& owner) {
+    const auto& self = py::cast<const PySimulation&>(owner);
+    if (!self.draws()) throw py::value_error("no pictures: the simulation was made without draw=True");
+    const auto& [width, height] = self.scene().image.size;
+    return view(self.frame().rgba.data(), {height, width, 4}, {py::ssize_t{4} * width, 4, 1}, owner);
+}
+
+py::array_t<std::int32_t> faces(const PySimulation& self, const py::object& which) {
+    const std::vector<std::uint32_t> corners = self.simulation().triangles(self.cloth(which));
+    py::array_t<std::int32_t> array({corners.size() / 3, std::size_t{3}});
+    std::ranges::copy(corners, array.mutable_data());
+    return array;
+}
+
+py::array_t<float> uv(const PySimulation& self, const py::object& which) {
+    const Cloth& cloth = self.scene().cloths[self.cloth(which)];
+    WrittenCloth written;
+    written.columns = cloth.grid[0], written.rows = cloth.grid[1];
+    py::array_t<float> array({cloth.grid[1], cloth.grid[0], 2u});
+    float* to = array.mutable_data();
+    for (std::size_t particle = 0; particle < std::size_t{cloth.grid[0]} * cloth.grid[1]; ++particle, to += 2)
+        std::ranges::copy(written.uv(particle), to);
+    return array;
+}
+
+py::dict state_of(const Simulation& simulation) {
+    py::dict state;
+    for (const auto& [name, bytes] : simulation.save())
+        state[py::str(name)] = py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return state;
+}
+
+void restore(Simulation& simulation, const std::map<std::string, std::string>& parts) {
+    SimulationState state;
+    for (const auto& [name, text] : parts) {
+        const auto bytes = std::as_bytes(std::span(text));
+        state[name].assign(bytes.begin(), bytes.end());
+    }
+    simulation.restore(state);
+}
+
+/// drape.Error and one class below it for each way to fail, with `exit_code` as the command line has it.
+class Errors {
+  public:
+    explicit Errors(py::module_& module) {
+        base_ = make(module, "Error", PyExc_RuntimeError, ExitCode::internal,
+                     "What drape's library cannot do; exit_code is the command line's.");
+        for (const auto& [code, name, help] : kinds) classes_[code] = make(module, name, base_.ptr(), code, help);
+    }
+    void raise(const Failure& failure) const {
+        const auto found = classes_.find(failure.code);
+        PyErr_SetString((found == classes_.end() ? base_ : found->second).ptr(), failure.text.c_str());
+    }
+
+  private:
+    struct Kind {
+        ExitCode code;
+        const char *name, *help;
+    };
+    static constexpr Kind kinds[] = {
+        {ExitCode::io, "FileError", "A file could not be read."},
+        {ExitCode::scene, "SceneError", "A scene is wrong: all of its errors, each with its place."},
+        {ExitCode::device, "DeviceError", "No usable device, a failing Vulkan call, or not enough memory."},
+        {ExitCode::diverged, "DivergedError", "A frame is not finite, or not plausible."},
+        {ExitCode::tolerance, "ToleranceError", "A frame misses the scene's tolerance, or what method auto keeps."}};
+
+    static py::object make(py::module_& module, const char* name, PyObject* base, ExitCode code, const char* help) {
+        py::dict members;
+        members["exit_code"] = static_cast<int>(code);
+        members["__doc__"] = help;
+        const std::string full = std::string("drape.") + name;
+        auto type = py::reinterpret_steal<py::object>(PyErr_NewException(full.c_str(), base, members.ptr()));
+        module.attr(name) = type;
+        return type;
+    }
+
+    py::object base_;
+    std::map<ExitCode, py::object> classes_;
+};
+
+void translate_errors(py::module_& module) {
+    static const Errors* const errors = new Errors(module);  // lives as long as the interpreter's modules do
+    py::register_exception_translator([](std::exception_ptr raised) {
+        try {
+            std::rethrow_exception(raised);
+        } catch (const Error&) {
+            errors->raise(current_failure());
+        }
+    });
+}
+
+void define_scene(py::module_& module) {
+    py::class_<Scene>(module, "Scene", "A scene that can be run. Made by load() and parse().")
+        .def_property_readonly("name", [](const Scene& scene) { return scene.description.name; })
+        .def_property_readonly("fps", [](const Scene& scene) { return scene.description.time.fps; })
+        .def_property_readonly("frame_count", [](const Scene& scene) { return scene.description.time.frame_count; })
+        .def_property_readonly(
+            "cloths",
+            [](const Scene& scene) {
+                std::vector<std::string> names;
+                for (const Cloth& cloth : scene.description.cloths) names.push_back(cloth.name);
+                return names;
+            },
+            "Names, in order.")
+        .def_readonly("warnings", &Scene::warnings, "Each with its place.")
+        .def(
+            "to_dict", [](const Scene& scene) { return py::module_::import("json").attr("loads")(scene.json); },
+            "The scene with every default written out, to change and parse() again.")
+        .def("__repr__", [](const Scene& scene) { return "<drape.Scene '" + scene.description.name + "'>"; });
+    module.def("load", &load, py::arg("path"), py::arg("overrides") = py::dict(),
+               "Reads a scene file. overrides: {'/json/pointer': value}, as --set.");
+    module.def("parse", &parse, py::arg("source"), py::arg("overrides") = py::dict(),
+               "A scene from a dict, or from the text of a scene file.");
+}
+
+std::unique_ptr<PySimulation> make_simulation(const py::object& scene, std::string device, bool draw, std::string shown,
+                                              std::optional<double> view_range,
+                                              std::optional<std::array<std::uint32_t, 2>> size, bool normals,
+                                              bool validate, bool keep_failed) {
+    const Options options{std::move(device), draw, normals, validate, keep_failed, std::move(shown), view_range, size};
+    return std::make_unique<PySimulation>(any_scene(scene), options);
+}
+
+void define_arrays(py::class_<PySimulation>& simulation) {
+    const auto which = py::arg("cloth") = 0;
+    const auto add = [&](const char* name, Arrays FinishedFrame::*what, const char* help) {
+        simulation.def(
+            name, [what](const py::object& self, const py::object& cloth) { return vectors(self, cloth, what); }, which,
+            help);
+    };
+    add("positions", &FinishedFrame::positions,
+        "float32 [row, column, 3], m. No copy: read-only, and the next step() changes what is in it. It keeps the "
+        "simulation alive. cloth: number or name.");
+    add("velocities", &FinishedFrame::velocities, "float32 [row, column, 3], m/s, at the frame's end; as positions.");
+    add("normals", &FinishedFrame::normals, "float32 [row, column, 3], unit, of the front; as positions.");
+    simulation
+        .def("picture", &picture,
+             "uint8 [height, width, 4], sRGB and 255, rows from the top; needs draw=True. No copy, as positions.")
+        .def("faces", &faces, which,
+             "int32 [face, 3]: particles (row * columns + column) of the triangles that no cut has split so far.")
+        .def("uv", &uv, which, "float32 [row, column, 2]: texture coordinates.");
+}
+
+void define_simulation(py::module_& module) {
+    py::class_<PySimulation> simulation(module, "Simulation", "A scene on a device, frame by frame.");
+    simulation
+        .def(py::init(&make_simulation), py::arg("scene"), py::kw_only(), py::arg("device") = "",
+             py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
+             py::arg("size") = py::none(), py::arg("normals") = false, py::arg("validate") = false,
+             py::arg("keep_failed") = false,
+             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is the best there "
+             "is. draw: pictures, of size (width, height), showing view (shaded, stretch, warp, weft, wire, normals; "
+             "view_range: strain at the end of the colours). normals: normals() are wanted. validate: Vulkan's "
+             "validation layer, messages on stderr. "
+             "keep_failed: go on after a frame that is no result.")
+        .def("step", &PySimulation::step,
+             "Computes the next frame, the first time frame 0, the start; False after the last. Other Python threads "
+             "run meanwhile.")
+        .def("__iter__", [](const py::object& self) { return self; })
+        .def("__next__",
+             [](const py::object& self) {
+                 if (!py::cast<PySimulation&>(self).step()) throw py::stop_iteration();
+                 return self;
+             })
+        .def_property_readonly("frame", [](const PySimulation& self) { return self.frame().frame; })
+        .def_property_readonly(
+            "time", [](const PySimulation& self) { return self.frame().frame / self.scene().time.fps; }, "s")
+        .def_property_readonly(
+            "statistics", [](const PySimulation& self) { return frame_values(self.scene(), self.frame()); },
+            "A dict of the frame's numbers, named as in manifest.json: strains, stretch errors, energies (J), ...")
+        .def_property_readonly(
+            "failure",
+            [](const PySimulation& self) {
+                const auto& failure = self.frame().failure;
+                return failure ? std::optional(failure->reason) : std::nullopt;
+            },
+            "Why the frame is no result, or None; with keep_failed.")
+        .def_property_readonly("cloths",
+                               [](const PySimulation& self) {
+                                   std::vector<std::string> names;
+                                   for (const Cloth& cloth : self.scene().cloths) names.push_back(cloth.name);
+                                   return names;
+                               })
+        .def_property_readonly("method", [](const PySimulation& self) { return self.simulation().facts().method; })
+        .def_property_readonly("device", [](const PySimulation& self) { return self.device().info().name; })
+        .def_property_readonly("validation_count",
+                               [](const PySimulation& self) { return self.device().validation_count(); })
+        .def_property_readonly("can_save", [](const PySimulation& self) { return self.simulation().can_save(); })
+        .def(
+            "save", [](const PySimulation& self) { return state_of(self.simulation()); },
+            "What the next frames depend on: a dict of bytes, for restore() of a simulation of the same scene.")
+        .def("restore", [](PySimulation& self, const std::map<std::string, py::bytes>& state) {
+            std::map<std::string, std::string> parts;
+            for (const auto& [name, bytes] : state) parts[name] = bytes;
+            restore(self.simulation(), parts);
+        });
+    define_arrays(simulation);
+}
+
+}  // namespace
+
+}  // namespace drape::python
+
+PYBIND11_MODULE(drape, module) {
+    module.doc() = "Cloth simulation on the GPU: scenes in, arrays and pictures out.";
+    drape::python::translate_errors(module);
+    drape::python::define_scene(module);
+    drape::python::define_simulation(module);
+    module.def("devices", [] {
+        std::vector<std::string> names;
+        for (const drape::DeviceInfo& device : drape::Device::list()) names.push_back(device.name);
+        return names;
+    });
+}
