@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace drape {
@@ -50,7 +51,7 @@ struct Canvas {
         if (x >= width || y >= height) return;
         for (std::size_t channel = 0; channel < 3; ++channel) {
             std::uint8_t& level = rgba[4 * (std::size_t{y} * width + x) + channel];
-            level = static_cast<std::uint8_t>(share * color[channel] + (1 - share) * level + 0.5);
+            level = static_cast<std::uint8_t>(std::lround(share * color[channel] + (1 - share) * level));
         }
     }
     void fill(std::uint32_t x, std::uint32_t y, std::uint32_t columns, std::uint32_t rows, const Color& color,

@@ -237,7 +237,7 @@ void translate_errors(py::module_& module) {
     static const Errors* const errors = new Errors(module);  // lives as long as the interpreter's modules do
     py::register_exception_translator([](std::exception_ptr raised) {
         try {
-            std::rethrow_exception(raised);
+            std::rethrow_exception(std::move(raised));
         } catch (const Error&) {
             errors->raise(current_failure());
         }
