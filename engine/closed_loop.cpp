@@ -120,8 +120,9 @@ void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
 
 void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (sleep_.asleep(frame)) return sleep_through(frame, asked);
-    control_->begin(probe_room(model_, frame), eventful(model_, frame));
-    if (control_->segment().probes) deliver_all(asked.finished);  // then only what is withheld is in flight
+    const Segment& begun = control_->begin(probe_room(model_, frame), drive_.eventful(frame));
+    if (begun.probes) drive_.probed(frame, begun.frame_count);
+    if (begun.probes) deliver_all(asked.finished);  // then only what is withheld is in flight
     FrameEffort effort{.attempts = 0};
     Judged judged;
     for (bool first = true;; first = false) {

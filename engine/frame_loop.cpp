@@ -39,6 +39,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       solver_(device, model_, options.schedule),
       watch_(model),
       sleep_(model),
+      drive_(model),
       state_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())

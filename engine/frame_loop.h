@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/drive.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/schedule.h"
 #include "cloth/sleep.h"
@@ -198,6 +199,7 @@ class FrameLoop {
     std::optional<SubstepControl> control_;
     Watch watch_;
     Sleep sleep_;
+    Drive drive_;
     /// Of the frames of the last attempt, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     std::uint32_t state_substeps_;    ///< that the state's history is of

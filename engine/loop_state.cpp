@@ -54,6 +54,7 @@ void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     sleep_.transfer(archive);
+    drive_.transfer(archive);
     bool has_statistics = !attempt_statistics_.empty();
     archive(has_statistics);
     if (!has_statistics) return;

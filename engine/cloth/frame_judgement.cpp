@@ -63,12 +63,12 @@ std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {
     for (; frame + room < end && room < probe_length(model); ++room) {
         const std::uint32_t each = frame + room;
         if (cutters_active(model.scene.cutters, (each - 1) / fps, each / fps)) break;
-        if (room > 0 && eventful(model, each)) break;
+        if (room > 0 && releases(model, each)) break;
     }
     return room;
 }
 
-bool eventful(const SimulationModel& model, std::uint32_t frame) {
+bool releases(const SimulationModel& model, std::uint32_t frame) {
     const double end = frame / model.scene.time.fps, start = end - 1 / model.scene.time.fps;
     for (const ClothModel& cloth : model.cloths)
         for (const DynamicPin& pin : cloth.dynamic_pins)

@@ -34,6 +34,6 @@ double stretch_judgement(const SimulationModel& model, const std::vector<ClothSt
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame);
 
 /// Whether a pin lets go in the frame: known ahead.
-bool eventful(const SimulationModel& model, std::uint32_t frame);
+bool releases(const SimulationModel& model, std::uint32_t frame);
 
 }  // namespace drape

@@ -64,16 +64,20 @@ bool held_by_lone_pins(const Cloth& cloth) {
 
 }  // namespace
 
+double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
+    if (!scene.wind.blows()) return 0;
+    const double pressure = 0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (speed * speed);
+    return wind_share * pressure / cloth.areal_density;
+}
+
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
     Hang hang{};
     hang.length = hanging_length(cloth);
     hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const double wind_speed = length(scene.wind.velocity) + scene.wind.gust.amplitude;
-    const double pressure =
-        0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (wind_speed * wind_speed);
     hang.gravity = length(scene.gravity);
-    hang.acceleration = length(scene.gravity) + (scene.wind.blows() ? wind_share * pressure / cloth.areal_density : 0);
+    hang.acceleration = length(scene.gravity) + wind_acceleration(scene, cloth, wind_speed);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
     hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && scene.cutters.empty();

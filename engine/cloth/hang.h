@@ -19,6 +19,9 @@ struct Hang {
     double longest_line;  ///< particles
 };
 
+/// m/s^2, of wind at a speed (m/s): the share of its pressure on a plate that stretches a cloth. 0 without wind.
+double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
+
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth);
 
 /// The worst frame of a moving cloth errs by so much more than a hanging one.

@@ -28,7 +28,7 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
     const double to = frame / scene.time.fps, from = to - 1 / scene.time.fps;
     if (model.windy && scene.wind.gust.amplitude != 0) return false;
-    if (eventful(model, frame) || cutters_active(scene.cutters, from, to)) return false;
+    if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
     // The step after the last key still sees its motion in the velocities of pins and surfaces.
     const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };
     return std::ranges::all_of(scene.colliders, still, &Collider::path) &&

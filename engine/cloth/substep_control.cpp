@@ -119,11 +119,15 @@ SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& ju
     return Verdict::unpredictable;
 }
 
-/// Whether four times the substeps or more have hardly reduced the motion's error: by less than their square root.
+/// Whether more substeps have hardly reduced the motion's error of the segment: by less than their square root.
+bool SubstepControl::hardly_fell(const Judgement& judgement) const {
+    return judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
+}
+
+/// Whether four times the substeps or more have not.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
-    return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps &&
-           judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
+    return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
 }
 
 /// From two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than the
@@ -138,11 +142,23 @@ void SubstepControl::learn_order(const Judgement& judgement) {
     probed_ = now;
 }
 
+/// How many times the substeps a failed attempt asks for. The stretch error falls about with their square, the motion's
+/// as attempts have shown; where it hardly fell, the next one tells whether anything helps (futile).
+double SubstepControl::wanted_factor(const Judgement& judgement) const {
+    constexpr double margin = 1.1, most = 4;
+    const double motion = judgement.motion / slack_;
+    double factor = margin * std::sqrt(judgement.stretch);
+    if (judgement.stretch <= 1 && before_.substeps > 0 && hardly_fell(judgement))
+        factor = most * before_.substeps / segment_.substeps;
+    else if (motion > 1)
+        factor = std::max(factor, margin * std::pow(motion, 1 / order_));
+    return std::clamp(factor, 1.0, most);
+}
+
 void SubstepControl::refine(const Judgement& judgement) {
-    const double worst = std::max(judgement.stretch, judgement.motion / slack_);
-    // Both errors fall about with the square of the substep.
-    const double factor = std::clamp(1.1 * std::sqrt(worst), 1.0, 4.0);
-    if (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps)
+    const double factor = wanted_factor(judgement);
+    const bool measured = segment_.probes && judgement.stretch <= 1;  // else its motion is not known
+    if (measured && (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps))
         before_ = {static_cast<double>(segment_.substeps), judgement.motion};
     tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
     segment_.substeps = rungs_[tried_];

@@ -40,11 +40,9 @@ class SubstepControl {
     /// Begins with `proposed` substeps, never has fewer than `least`. `probe_length`: frames of a probe, 2 or more.
     SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least, std::uint32_t probe_length);
 
-    /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: something
-    /// is let go of in the first of them, so it begins finer.
+    /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: the scene
+    /// tells of something in the first of them (frame_judgement.h), so it begins finer, with a probe.
     const Segment& begin(std::uint32_t room, bool eventful);
-    /// `unpredictable`: kept, though the motion's error is above its limit, since more substeps do not reduce it: the
-    /// cloth crumples, and neighbouring motions part whatever is done.
     enum class Verdict { keep, unpredictable, again, give_up };
     /// Of the attempt that `segment` says; `again`: with what `segment` says now.
     Verdict judge(const Judgement& judgement);
@@ -66,7 +64,9 @@ class SubstepControl {
   private:
     std::size_t rung_of(double substeps) const;
     std::size_t below(std::size_t rung, std::size_t by) const { return rung > lowest_ + by ? rung - by : lowest_; }
+    bool hardly_fell(const Judgement& judgement) const;
     bool futile(const Judgement& judgement) const;
+    double wanted_factor(const Judgement& judgement) const;
     Verdict accept_unpredictable(const Judgement& judgement, std::size_t rung);
     bool worth_looking_back(const Judgement& judgement) const;
     Verdict try_again_with(std::size_t rung);

@@ -48,6 +48,7 @@ TwinLoop::TwinLoop(const SimulationModel& model)
                probe_length(model)),
       watch_(model),
       sleep_(model),
+      drive_(model),
       state_(model),
       state_substeps_(model.scene.solver.substeps) {}
 
@@ -117,7 +118,8 @@ void TwinLoop::run(std::uint32_t last,
             finished(next_++, state_, {.attempts = 0, .asleep = true});
             continue;
         }
-        control_.begin(probe_room(model_, next_), eventful(model_, next_));
+        control_.begin(probe_room(model_, next_), drive_.eventful(next_));
+        if (control_.segment().probes) drive_.probed(next_, control_.segment().frame_count);
         FrameEffort effort{.attempts = 0};
         std::vector<Twin> frames;
         for (Verdict verdict = Verdict::again; verdict == Verdict::again;) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "cloth/drive.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
@@ -36,6 +37,7 @@ class TwinLoop {
     SubstepControl control_;
     Watch watch_;
     Sleep sleep_;
+    Drive drive_;
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     Twin state_;
     std::uint32_t next_ = 1, state_substeps_;

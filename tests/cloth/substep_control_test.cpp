@@ -103,6 +103,35 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
 }
 
+TEST(SubstepControl, WhatHardlyHelpsIsSettledWithFourTimesTheSubstepsAtOnce) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 1.2}), Verdict::again);
+    EXPECT_EQ(loop.segment().substeps, 12u);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 1.19}), Verdict::again);
+    EXPECT_EQ(loop.segment().substeps, 32u);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 1.18}), Verdict::unpredictable);
+}
+
+TEST(SubstepControl, AnErrorOfFirstOrderIsMetWithAsManyMoreSubsteps) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 3}), Verdict::again);
+    const double substeps = loop.segment().substeps, motion = 3 * 8 / substeps;
+    ASSERT_GT(motion, 1);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = motion}), Verdict::again);
+    EXPECT_GE(loop.segment().substeps, motion * substeps);
+}
+
+TEST(SubstepControl, AnAttemptThatFailedByItsStretchTellsNothingOfTheMotion) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge({.stretch = 9, .motion = 0}), Verdict::again);  // ended before it was compared
+    ASSERT_GE(loop.segment().substeps, 32u);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 1.2}), Verdict::again);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.5}), Verdict::keep);
+}
+
 /// Attempts until the verdict, of a cloth whose motion's error is `motion` of the substeps, begun near the top.
 Verdict verdict_near_the_top(SubstepControl& loop, double (*motion)(double)) {
     loop.begin(6, false);
@@ -162,7 +191,7 @@ TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
     EXPECT_EQ(run(easy, {1, 1}, 300).last, 32u);
 }
 
-TEST(SubstepControl, BeginsFinerWhereSomethingIsLetGoOf) {
+TEST(SubstepControl, BeginsFinerAndWithAProbeWhereTheSceneTellsOfSomething) {
     SubstepControl calm = control(8), loop = control(8);
     EXPECT_GT(loop.begin(6, true).substeps, calm.begin(6, false).substeps);
     EXPECT_TRUE(loop.segment().probes);

@@ -174,6 +174,21 @@ TEST(ClosedLoop, StillClothSleepsUntilSomethingMoves) {
     EXPECT_FALSE(asleep(60));
 }
 
+TEST(ClosedLoop, APinThatIsJerkedBetweenTwoProbesIsProbed) {
+    SceneDescription scene = test::sheet(33, 30, 1, 0.9, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins = {test::pin_top(cloth)};
+    cloth.pins[0].path.keys = {{0.7, {0, 0, 0}, {0, 0, 0}}, {0.75, {0, 0, 0.05}, {0, 0, 0}}};
+    scene.time.fps = 60;
+    scene = automatic(scene, 48);
+    const Seen seen = compare_loops(scene);
+    const auto probed = [&](std::uint32_t frame) { return std::isfinite(seen.efforts[frame - 1].motion_error); };
+    EXPECT_TRUE(probed(36));
+    EXPECT_FALSE(probed(42)) << "ends at 0.7 s";
+    EXPECT_TRUE(probed(43));
+    EXPECT_GT(seen.efforts[42].substeps, seen.efforts[41].substeps);
+}
+
 class Flight : public testing::TestWithParam<double> {};
 
 INSTANTIATE_TEST_SUITE_P(Damping, Flight, testing::Values(0.0, 1.0));

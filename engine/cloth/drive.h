@@ -1,0 +1,37 @@
+// What drives cloths, as far as the scene tells ahead: where it rises, the motion is probed. Pure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/simulation_model.h"
+
+namespace drape {
+
+/// Per cloth, the most of a frame, m/s^2: gravity, the wind's pull (hang.h), and what pins and colliders that move are
+/// accelerated by. A pin that has let go drives nothing.
+std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame);
+
+class Drive {
+  public:
+    /// `model`: of a closed loop; must outlive this.
+    explicit Drive(const SimulationModel& model) : model_(model) {}
+
+    /// Whether something happens in the frame that the last probe tells nothing of: a pin lets go, or a cloth is driven
+    /// by so much more than it was there that what was found easy need not be.
+    bool eventful(std::uint32_t frame) const;
+    /// So many frames from `frame` on are probed.
+    void probed(std::uint32_t frame, std::uint32_t count);
+
+    /// As SubstepControl's.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        archive(probed_);
+    }
+
+  private:
+    const SimulationModel& model_;
+    std::vector<double> probed_;  ///< per cloth, the most of the last probe's frames, m/s^2; empty: there was none
+};
+
+}  // namespace drape
