@@ -55,6 +55,7 @@ FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t subst
     Judged judged{solver_.statistics(*pool_, slot, *rung.model), {.substeps = substeps}, {}};
     for (graph::Timing& timing : rung.frame.recorded->timings(slot))
         judged.timings.push_back({std::move(timing.name), timing.milliseconds});
+    judged.self_records = solver_.self_records(*pool_, slot);
     return judged;
 }
 
@@ -90,6 +91,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
     const Finished& finished = segment.probes ? withhold_ : asked.finished;
     Judged judged;
     attempt_statistics_.clear();
+    attempt_self_records_.clear();
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const bool last = k + 1 == segment.frame_count;
         const std::uint32_t slot = take_slot(finished);
@@ -100,6 +102,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         deliver(next_slot_, finished);  // the frame before, while this one is simulated
         judged = take_judged(slot, run.substeps);
         attempt_statistics_.push_back(judged.statistics);
+        attempt_self_records_.push_back(judged.self_records);
         const double implausible = watch_.excess(frame + k, judged.statistics);
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
@@ -149,6 +152,8 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
 void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& asked) {
     const Segment& segment = control_->segment();
     for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, segment.substeps);
+    for (std::size_t k = 0; k < attempt_self_records_.size(); ++k)
+        note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
     if (!segment.probes)

@@ -1,5 +1,7 @@
 #include "frame_loop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -45,6 +47,8 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     if (model_.closed_loop())
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
                          probe_length(model_));
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+        if (model_.cloths[cloth].self_contact) self_contact_.push_back({cloth, {}, 0, 0});
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);
@@ -225,6 +229,24 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
 }
 
+void FrameLoop::note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records) {
+    for (std::size_t i = 0; i < self_contact_.size(); ++i) {
+        const glsl::SelfRecord& record = records[i];
+        SelfContactReport& report = self_contact_[i];
+        const ClothModel& cloth = model_.cloths[report.cloth];
+        if (record.most_pairs > static_cast<std::uint32_t>(cloth.self_contact->pair_room))
+            throw vulkan::VulkanError(
+                fmt::format("cloth '{}' meets itself in more places than there is memory for: in frame {} {} pairs of "
+                            "a particle and "
+                            "a triangle or of two edges are near each other, and the list holds {}; a smaller "
+                            "self_collision.thickness or more substeps make it shorter",
+                            cloth.name, frame, record.most_pairs, cloth.self_contact->pair_room));
+        report.most_pairs = std::max(report.most_pairs, record.most_pairs);
+        report.truncated += record.truncated;
+        if (record.unproved > 0 && !report.first_unproved) report.first_unproved = frame;
+    }
+}
+
 void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     slots_.wait(slot);
     if (!in_flight_[slot]) return;
@@ -240,6 +262,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     }
     for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
         result.timings.push_back({std::move(timing.name), timing.milliseconds});
+    if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_records(*pool_, slot));
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         raster_->finish(bytes.first(raster_->readback_byte_count()));

@@ -102,6 +102,9 @@ class FrameLoop {
     /// Three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
+    /// Of each cloth that meets itself, over the frames simulated so far.
+    const std::vector<SelfContactReport>& self_contact() const { return self_contact_; }
+
     const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
     const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
     const graph::ResourcePool& pool() const { return *pool_; }
@@ -119,6 +122,7 @@ class FrameLoop {
         std::vector<ClothStatistics> statistics;
         FrameEffort effort;
         std::vector<StageTime> timings;
+        std::vector<glsl::SelfRecord> self_records = {};
     };
     struct InFlight {
         std::uint32_t frame = 0;
@@ -152,6 +156,8 @@ class FrameLoop {
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
+    /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
+    void note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records);
     void deliver(std::uint32_t slot, const Finished& finished);
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
@@ -202,6 +208,8 @@ class FrameLoop {
     Drive drive_;
     /// Of the frames of the last attempt, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
+    std::vector<std::vector<glsl::SelfRecord>> attempt_self_records_;  ///< likewise
+    std::vector<SelfContactReport> self_contact_;
     std::uint32_t state_substeps_;    ///< that the state's history is of
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;         ///< of the last probe

@@ -238,10 +238,23 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
     if (from.failure) run.failure = kept_failure(*from.failure);
 }
 
+/// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
+bool needs_every_frame(const SceneDescription& scene) {
+    return !scene.cutters.empty() ||
+           std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
+}
+
+std::vector<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
+    std::vector<Manifest::SelfCollision> all;
+    for (const SelfContactReport& each : simulation.self_contact())
+        all.push_back(
+            {simulation.scene().cloths[each.cloth].name, each.first_unproved, each.most_pairs, each.truncated});
+    return all;
+}
+
 /// Simulates what is missing. Returns whether all is there.
 bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, const FrameRange& range) {
-    // Frames that a resumed run keeps still cut: the manifest lists every cut.
-    const bool to_the_end = !run.simulation.scene().cutters.empty();
+    const bool to_the_end = needs_every_frame(run.simulation.scene());
     const std::set<std::uint32_t>& frames = run.missing.frames;
     if (frames.empty() && !to_the_end) return true;
     if (from) go_on_from(*from, run, range);
@@ -372,6 +385,7 @@ RunSummary run_scene(const RunRequest& request) {
                            summary, failure, earlier_validation, device};
         summary.complete = run_missing(run, from, range);
         if (const auto warning = missed_limits(simulation.facts(), sink.statistics())) warn(*warning);
+        manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);
     }
     summary.validation_count = earlier_validation + device.validation_count();

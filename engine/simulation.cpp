@@ -190,6 +190,8 @@ SimulationFacts Simulation::facts() const {
     return facts;
 }
 
+std::vector<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+
 std::vector<PassWork> Simulation::work() const {
     const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);
     std::vector<PassWork> all;

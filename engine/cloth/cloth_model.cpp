@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cloth/self_contact.h"
+
 namespace drape {
 
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
@@ -55,6 +57,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
                  grid.size(),
                  0,
                  0};
+    if (cloth.self_collision) self_contact = self_contact_constants(scene, cloth, *this, extent);
 }
 
 }  // namespace drape

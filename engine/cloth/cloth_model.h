@@ -6,6 +6,7 @@
 #include "cloth/method.h"
 #include "cloth/solver_choice.h"
 #include "shared/residual_types.h"
+#include "shared/self_contact_types.h"
 
 namespace drape {
 
@@ -28,9 +29,10 @@ struct ClothModel : ClothGeometry {
     double substep_length;  ///< s
     bool collides;          ///< with colliders of the scene
     MethodPlan plan;
-    glsl::WindPush wind;            ///< substep is set per substep
-    glsl::CollisionPush collision;  ///< first is set per substep
-    glsl::ResidualPush residual;    ///< of the check between iterations
+    glsl::WindPush wind;                                ///< substep is set per substep
+    glsl::CollisionPush collision;                      ///< first is set per substep
+    glsl::ResidualPush residual;                        ///< of the check between iterations
+    std::optional<glsl::SelfContactPush> self_contact;  ///< level and first are set per step
 
     /// Of every particle at the start, 0 where pinned: row by row.
     std::vector<glsl::vec4> start_displacement() const;

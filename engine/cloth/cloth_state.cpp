@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "cloth/cloth_statistics.h"
+#include "cloth/self_contact.h"
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
@@ -33,6 +34,7 @@ bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
+bool meets_itself(Context c) { return c.cloth.self_contact.has_value(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -45,6 +47,10 @@ FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); 
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
+FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
+FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.cloth.grid.size())}; }
+FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.cloth.self_contact->pair_room)}; }
+FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
 
@@ -59,12 +65,38 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Through either view, as the schedule says.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
+std::vector<FieldRow> self_contact_rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    return {
+        {Field::self_boxes, "self boxes", buffer, layout_of<glsl::SelfBox>(), device, meets_itself, self_box_list},
+        {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, meets_itself, self_pair_list},
+        {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, meets_itself,
+         particle_list},
+        {Field::self_limits, "self limits", buffer, layout_of<float>(), device, meets_itself, particle_list},
+        {Field::self_shares, "self shares", buffer, layout_of<glsl::uint>(), device, meets_itself, particle_list},
+        {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, meets_itself, one},
+    };
+}
+
+/// All rows by field: those given and those of self-contact.
+std::vector<FieldRow> in_order(const std::vector<FieldRow>& given) {
+    const std::vector<FieldRow> own = self_contact_rows();
+    std::vector<FieldRow> all;
+    for (const FieldRow& row : given) {
+        if (all.size() == static_cast<std::size_t>(own.front().field))
+            for (const FieldRow& each : own) all.push_back(each);
+        all.push_back(row);
+    }
+    return all;
+}
+
 const std::vector<FieldRow>& rows() {
     using enum FieldLife;
     using enum FieldView;
     static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
                       &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
-    static const std::vector<FieldRow> table = {
+    static const std::vector<FieldRow> table = in_order({
         {Field::position, "position", stored, vector, state, always, particles,
          [](Context c) { return bytes_of(c.cloth.position); }},
         {Field::displacement, "displacement", stored, vector, state, always, particles,
@@ -116,7 +148,7 @@ const std::vector<FieldRow>& rows() {
          pinned_list, [](Context c) { return bytes_of(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
          [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
-    };
+    });
     return table;
 }
 

@@ -1,5 +1,7 @@
 #include "cloth/schedule.h"
 
+#include "cloth/self_contact.h"
+
 namespace drape {
 
 namespace {
@@ -19,6 +21,7 @@ class Substep {
         add(cloth_.plan.once);
         add_iterations();
         add_tethers();
+        add_self_contact();
     }
 
   private:
@@ -51,6 +54,21 @@ class Substep {
         if (cloth_.tethers.empty()) return;
         add(StepKind::tether);
         if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations);
+    }
+
+    /// Last of all, so that nothing moves a particle after its motion was found to cross nothing.
+    void add_self_contact() {
+        if (!cloth_.self_contact) return;
+        glsl::SelfContactPush push = *cloth_.self_contact;
+        push.first = substep_ == 0 ? 1 : 0;
+        const auto add_one = [&](StepKind kind) { add(kind).constants = push; };
+        for (push.level = 0; push.level <= push.top; push.level = push.last + 1) {
+            push.last = last_level(push, push.level);
+            add_one(StepKind::self_boxes);
+        }
+        for (const StepKind kind : {StepKind::self_pairs, StepKind::self_contact, StepKind::self_push}) add_one(kind);
+        if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations + 1);
+        for (const StepKind kind : {StepKind::self_room, StepKind::self_move}) add_one(kind);
     }
 
     const SimulationModel& model_;

@@ -9,6 +9,7 @@
 
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
+#include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
 
 namespace drape {
@@ -29,6 +30,12 @@ enum class StepKind {
     tether,
     collide,
     check,
+    self_boxes,
+    self_pairs,
+    self_contact,
+    self_push,
+    self_room,
+    self_move,
     advance
 };
 
@@ -36,7 +43,7 @@ enum class StepKind {
 /// set per iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush>;
+                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

@@ -92,6 +92,26 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
     return json;
 }
 
+Json::Value self_collision_json(const std::vector<Manifest::SelfCollision>& all) {
+    Json::Value json(Json::arrayValue);
+    for (const Manifest::SelfCollision& each : all) {
+        Json::Value row(Json::objectValue);
+        row["cloth"] = each.cloth;
+        row["proved"] = !each.first_unproved;
+        row["certificate"] = each.first_unproved
+                                 ? fmt::format(
+                                       "not proved from frame {} on: a held particle moved farther than was "
+                                       "shown to cross nothing",
+                                       *each.first_unproved)
+                                 : std::string("no crossing in any substep");
+        if (each.first_unproved) row["first_unproved_frame"] = *each.first_unproved;
+        row["most_pairs"] = each.most_pairs;
+        row["motions_cut_short"] = Json::UInt64(each.truncated);
+        json.append(row);
+    }
+    return json;
+}
+
 Json::Value skipped_json(const std::vector<Manifest::Skipped>& skipped) {
     Json::Value array(Json::arrayValue);
     for (const auto& [what, reason] : skipped) {
@@ -198,6 +218,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["solver"] = solver_json(manifest.solver);
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
+    if (!manifest.self_collision.empty()) json["self_collision"] = self_collision_json(manifest.self_collision);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);

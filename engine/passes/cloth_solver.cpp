@@ -17,6 +17,7 @@
 #include "passes/nested_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
+#include "passes/self_contact_pass.h"
 #include "passes/spring_pass.h"
 #include "passes/statistics_pass.h"
 #include "passes/tension_pass.h"
@@ -162,6 +163,8 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
         else
             for (ClothState& state : cloths_) add(state, step);
     }
+    for (const ClothState& state : cloths_)
+        if (state.model->self_contact) add_self_readback(graph, state);
 }
 
 void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
@@ -196,6 +199,18 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_collision(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::check:
             return add_check(graph, pipelines_, state, *run_, step);
+        case StepKind::self_boxes:
+            return add_self_boxes(graph, pipelines_, state, step);
+        case StepKind::self_pairs:
+            return add_self_pairs(graph, pipelines_, state, step);
+        case StepKind::self_contact:
+            return add_self_contact(graph, pipelines_, state, step);
+        case StepKind::self_push:
+            return add_self_push(graph, pipelines_, state, step);
+        case StepKind::self_room:
+            return add_self_room(graph, pipelines_, state, step);
+        case StepKind::self_move:
+            return add_self_move(graph, pipelines_, state, step);
         case StepKind::advance:
             return add_advance(graph, pipelines_, state);
     }
@@ -242,6 +257,15 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
         std::memcpy(&used, pool.buffer(iteration_readback_name(cloth), slot).mapped().data(), sizeof used);
         all.back().iteration_count = used.x;
     }
+    return all;
+}
+
+std::vector<glsl::SelfRecord> ClothSolver::self_records(const graph::ResourcePool& pool, std::uint32_t slot) const {
+    std::vector<glsl::SelfRecord> all;
+    for (const ClothModel& cloth : model_.cloths)
+        if (cloth.self_contact)
+            std::memcpy(&all.emplace_back(), pool.buffer(self_readback_name(cloth), slot).mapped().data(),
+                        sizeof(glsl::SelfRecord));
     return all;
 }
 

@@ -142,6 +142,18 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return collide(model, state, inputs, step.substep);
         case StepKind::check:
             return check(model, state, step);
+        case StepKind::self_boxes:
+            return self_boxes(model, state, step);
+        case StepKind::self_pairs:
+            return self_pairs(model, state, step);
+        case StepKind::self_contact:
+            return self_contact(state, step);
+        case StepKind::self_push:
+            return self_push(model, state, step);
+        case StepKind::self_room:
+            return self_room(state, step);
+        case StepKind::self_move:
+            return self_move(model, state, step);
         case StepKind::advance:
             return advance(model, state);
     }

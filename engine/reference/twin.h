@@ -46,6 +46,15 @@ struct TwinCloth {
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
+    /// What the passes of self-contact hand each other.
+    struct SelfContact {
+        std::vector<glsl::SelfBox> boxes;  ///< by particle
+        std::vector<glsl::uvec4> pairs;
+        std::vector<glsl::ivec4> corrections;
+        std::vector<float> limits;  ///< m
+        std::vector<glsl::uint> shares;  ///< bits
+        glsl::SelfRecord record{};
+    } self;
     bool iterates = true;               ///< what the last check found: conditional steps run
     std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
 };
@@ -88,6 +97,12 @@ class Twin {
     void twist(TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_boxes(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_pairs(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_contact(TwinCloth& state, const Step& step);
+    void self_push(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_room(TwinCloth& state, const Step& step);
+    void self_move(const ClothModel& model, TwinCloth& state, const Step& step);
     void advance(const ClothModel& model, TwinCloth& state);
 
     const SimulationModel* model_;

@@ -75,6 +75,25 @@ bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
                     farthest, ulp, edge));
 }
 
+// What the grid can keep apart, and the device's dispatches reach.
+bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
+    if (!cloth.self_collision) return true;
+    constexpr std::uint64_t most_particles = 4'000'000;
+    if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles)
+        return node.fail(fmt::format("expected at most {} particles in a cloth that meets itself, got {}",
+                                     most_particles, std::uint64_t{cloth.grid[0]} * cloth.grid[1]));
+    if (!cloth.self_collision->thickness) return true;
+    const double spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double least = least_self_thickness * spacing, most = most_self_thickness * spacing;
+    const double thickness = *cloth.self_collision->thickness;
+    if (thickness >= least && thickness <= most) return true;
+    return node.member("thickness")
+        .fail(fmt::format(
+            "expected {:.4g} to {:.4g} m, {:.3g} to {:.3g} times the grid's smaller spacing, got {:.6g}; {}", least,
+            most, least_self_thickness, most_self_thickness, thickness,
+            thickness < least ? "a finer grid allows less" : "a coarser grid allows more"));
+}
+
 // Particles a grid asks for, also where an axis is beyond its limit: the message should name the count.
 std::uint64_t requested_particle_count(const SceneNode& grid, const Cloth& cloth) {
     std::uint64_t count = 1;
@@ -152,7 +171,7 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
         if (other - cloths.begin() == static_cast<std::ptrdiff_t>(i)) continue;
         node.element(i).warn(
             fmt::format("cloths \"{}\" and \"{}\" are set to touch, but will pass through each other: "
-                        "cloth-cloth and self-collision are not simulated",
+                        "contact between cloths is not simulated",
                         other->name, cloths[i].name));
     }
 }
@@ -235,6 +254,8 @@ bool check_cloth(const Members& members, Cloth& cloth) {
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
+    if (members.fit({"grid", "size", "self_collision"}))
+        fits = check_self_collision(members["self_collision"], cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
         fits = check_resolution(members.object(), cloth) && fits;
         if (const double jitter = start_jitter(cloth); fits && jitter > cloth.placement.jitter)

@@ -142,6 +142,17 @@ const Object<Appearance> appearance{"appearance",
                                          "stripes, on both sides."},
                                     }};
 
+const Object<SelfCollision> self_collision{
+    "self_collision",
+    "Contact of a cloth with itself.",
+    {
+        {"thickness", &SelfCollision::thickness, optional(number(positive)),
+         "Metres kept between layers: 0.1 to 1 times the grid's smaller spacing. Absent: the cloth's thickness, within "
+         "these."},
+        {"friction", &SelfCollision::friction, optional(number(not_negative)),
+         "Coulomb coefficient between layers. Absent: the cloth's."},
+    }};
+
 const Object<Cloth> cloth{
     "cloth",
     "A rectangular grid of particles. At most 16000000 particles in all cloths together. Single precision must resolve "
@@ -163,6 +174,12 @@ const Object<Cloth> cloth{
         {"friction", &Cloth::friction, number(not_negative),
          "Coulomb coefficient of the cloth's side; a pair of surfaces uses the geometric mean."},
         {"thickness", &Cloth::thickness, number(not_negative), "Metres kept from colliders."},
+        {"self_collision", &Cloth::self_collision, true_or(self_collision),
+         "Whether the cloth meets itself. No triangle then passes through another of the same cloth in any substep; "
+         "the "
+         "manifest says whether that was proved. Different cloths still pass through each other, and so do triangles "
+         "that "
+         "a cutter has split."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},

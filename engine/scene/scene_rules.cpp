@@ -50,6 +50,22 @@ Value<Stiffness> rigid_or(const Value<Stiffness>& springs) {
     return value;
 }
 
+Value<std::optional<SelfCollision>> true_or(const Value<SelfCollision>& object) {
+    Value<std::optional<SelfCollision>> value;
+    value.text = {"\"anyOf\": [{\"type\": \"boolean\"}, {" + object.text.schema + "}]",
+                  "`true`, `false` or " + object.text.words, object.text.uses};
+    value.read = [object](const SceneNode& node, std::optional<SelfCollision>& field) {
+        if (!node) return true;
+        if (!node.value()->isBool() && !node.value()->isObject()) return node.fail_expected("true, false or an object");
+        field.reset();
+        if (node.value()->isBool() && !node.value()->asBool()) return true;
+        field.emplace();
+        return node.value()->isBool() || object.read(node, *field);
+    };
+    value.write = [](const std::optional<SelfCollision>& field) { return field ? "true" : "false"; };
+    return value;
+}
+
 Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point) {
     return {{"\"type\": \"array\", \"items\": {" + point.text.schema + "}, \"minItems\": 3, \"maxItems\": 3",
              "array of 3 points", point.text.uses},

@@ -15,6 +15,8 @@ Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
+/// true: all defaults, false: nothing.
+Value<std::optional<SelfCollision>> true_or(const Value<SelfCollision>& object);
 Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point);
 Value<std::string> check_name();
 // The name of a fabric, which sets several fields.

@@ -12,6 +12,7 @@
 #include "scene/motion.h"
 #include "scene/oracle_kinds.h"
 #include "scene/surface_distance.h"
+#include "verify/triangle_crossings.h"
 
 namespace drape::verify {
 
@@ -279,6 +280,21 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
+/// No triangle of a cloth crosses another one of it.
+Verdict uncrossed(const SceneRun& run, const Limits&) {
+    std::size_t worst = 0, worst_frame = 0;
+    for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+        const std::vector<std::uint32_t> triangles = ClothMeasure(run.scene, cloth).grid.triangle_indices();
+        for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
+            std::vector<TriangleCrossings::Point> points;
+            for (std::size_t i = 0; i < run.frames[frame][cloth].size(); ++i) points.push_back(run.at(frame, cloth, i));
+            const std::size_t crossings = TriangleCrossings(std::move(points), triangles).count();
+            if (crossings > worst) worst = crossings, worst_frame = frame;
+        }
+    }
+    return {worst == 0, fmt::format("{} pairs of triangles cross, most in frame {}", worst, worst_frame)};
+}
+
 }  // namespace
 
 std::span<const SceneCheck> shape_checks() {
@@ -291,6 +307,7 @@ std::span<const SceneCheck> shape_checks() {
                                             {"cut_pieces", cut_pieces},
                                             {"mass_kept", mass_kept},
                                             {"penetration", penetration},
+                                            {"uncrossed", uncrossed},
                                             {"supported", supported}};
     return checks;
 }

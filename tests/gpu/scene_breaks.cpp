@@ -42,6 +42,9 @@ void never_released(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths)
         for (Pin& pin : cloth.pins) pin.release.reset();
 }
+void no_self_collision(SceneDescription& scene) {
+    for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
+}
 void never_cut(SceneDescription& scene) { scene.cutters.clear(); }
 
 void pins_let_go(SimulationModel& model) {
@@ -80,6 +83,8 @@ const std::vector<SceneBreak>& scene_breaks() {
         {"flag", "torque", "no lift", 60, no_lift},
         {"flag", "blown", "no wind", 180, no_wind},
         {"flag", "stretch", "springs a thousand times too soft", 30, springs_a_thousand_times_too_soft},
+        {"folded", "penetration", "no collision", 40, no_collision},
+        {"folded", "uncrossed", "no self-collision", 60, no_self_collision},
         {"four_colliders", "falls", "gravity 1 % too strong", 8, gravity_one_percent_off},
         {"four_colliders", "penetration", "ellipsoids forgotten", 30, forgotten<Ellipsoid>},
         {"four_colliders", "supported", "moving colliders stay", 120, colliders_still},

@@ -51,6 +51,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.damping, 0.1);
     EXPECT_EQ(cloth.friction, 0.35);
     EXPECT_EQ(cloth.thickness, 0.004);
+    EXPECT_EQ(cloth.self_collision, (SelfCollision{0.006, 0.25}));
     EXPECT_EQ(cloth.velocity, (Vec3{1, 2, 3}));
     ASSERT_EQ(cloth.holes.size(), 1u);
     EXPECT_EQ(cloth.holes[0], (IndexBox{{40, 20}, {50, 30}}));
@@ -157,8 +158,7 @@ std::vector<std::string> warnings_of(std::string_view text) {
 TEST(SceneWarnings, ClothsSetToTouch) {
     const std::vector<std::string> expected{
         "s:2:1: /cloths/1: cloths \"a\" and \"b\" are set to touch, but will pass through each other: "
-        "cloth-cloth and "
-        "self-collision are not simulated"};
+        "contact between cloths is not simulated"};
     EXPECT_EQ(warnings_of("{\"cloths\": [{\"name\": \"a\"},\n{\"name\": \"b\", \"placement\": {\"origin\": "
                           "[0.5, 0.5, 0]}}]}"),
               expected);

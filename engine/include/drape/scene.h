@@ -121,6 +121,16 @@ struct Appearance {
     bool operator==(const Appearance&) const = default;
 };
 
+/// Thickness that contact of a cloth with itself can keep: shares of the grid's smaller spacing.
+inline constexpr double least_self_thickness = 0.1, most_self_thickness = 1.0;
+
+/// Contact of a cloth with itself.
+struct SelfCollision {
+    std::optional<double> thickness;  ///< m between layers; default: the cloth's thickness, within what the grid allows
+    std::optional<double> friction;   ///< Coulomb coefficient between layers; default: the cloth's
+    bool operator==(const SelfCollision&) const = default;
+};
+
 struct Cloth {
     std::string name;
     std::array<std::uint32_t, 2> grid{2, 2};  ///< particles: columns, rows
@@ -128,11 +138,12 @@ struct Cloth {
     Placement placement;
     double areal_density = 0.2;  ///< kg/m^2
     Stiffness stiffness;
-    double damping = 0.0;         ///< 1/s
-    double friction = 0.3;        ///< Coulomb coefficient of the cloth's own side
-    double thickness = 0.005;     ///< m, distance kept from colliders
-    Vec3 velocity{0, 0, 0};       ///< m/s
-    std::vector<IndexBox> holes;  ///< boxes of particle indices whose inner cells are missing
+    double damping = 0.0;                         ///< 1/s
+    double friction = 0.3;                        ///< Coulomb coefficient of the cloth's own side
+    double thickness = 0.005;                     ///< m, distance kept from colliders
+    std::optional<SelfCollision> self_collision;  ///< nothing: the cloth passes through itself
+    Vec3 velocity{0, 0, 0};                       ///< m/s
+    std::vector<IndexBox> holes;                  ///< boxes of particle indices whose inner cells are missing
     std::vector<Pin> pins;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;

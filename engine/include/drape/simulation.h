@@ -104,6 +104,16 @@ struct SimulationFacts {
     std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
 };
 
+/// What was proved of a cloth that meets itself, of all frames simulated so far.
+struct SelfContactReport {
+    std::size_t cloth = 0;
+    /// Frame in which a held particle first moved so that a crossing could not be ruled out; nothing: no triangle
+    /// passed through another in any substep.
+    std::optional<std::uint32_t> first_unproved;
+    std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, near each other
+    std::uint64_t truncated = 0;   ///< motions cut short because they would have crossed
+};
+
 /// What a kind of pass does in a frame that is handed out, of the substeps that the scene begins with.
 struct PassWork {
     std::string name, stage;  ///< as in FinishedFrame::timings: of passes, of stages
@@ -159,6 +169,8 @@ class Simulation {
     /// Three particles per triangle: those that no cut has split so far.
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
     SimulationFacts facts() const;
+    /// One for each cloth that meets itself.
+    std::vector<SelfContactReport> self_contact() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".

@@ -1,0 +1,57 @@
+#include "cloth/self_contact.h"
+
+#include <algorithm>
+
+#include "cloth/cloth_model.h"
+namespace drape {
+
+namespace {
+
+int top_level(glsl::ivec2 grid) {
+    int level = 0;
+    while (self_tree_boxes_of(grid, level) > 1) ++level;
+    return level;
+}
+
+}  // namespace
+
+glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, const Cloth& cloth,
+                                             const ClothGeometry& geometry, double extent) {
+    const double spacing = std::min(geometry.spacing[0], geometry.spacing[1]);
+    const SelfCollision& asked = *cloth.self_collision;
+    const double thickness = asked.thickness.value_or(
+        std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing));
+    const double substep = 1.0 / (scene.time.fps * scene.solver.substeps);
+    const glsl::ivec2 grid = geometry.grid.size();
+    return {grid,
+            {static_cast<float>(geometry.spacing[0]), static_cast<float>(geometry.spacing[1])},
+            static_cast<float>(thickness),
+            static_cast<float>(asked.friction.value_or(cloth.friction)),
+            static_cast<float>(recovery_speed * substep),
+            // A few roundings of the coordinates.
+            static_cast<float>(2e-6 * extent),
+            grid.x * grid.y * static_cast<int>(self_pairs_per_particle),
+            0,
+            0,
+            top_level(grid),
+            0,
+            0};
+}
+
+std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {
+    const auto nodes = [level](int particles) { return static_cast<std::uint32_t>(((particles - 1) >> level) + 1); };
+    return nodes(grid.x) * nodes(grid.y);
+}
+
+int last_level(const glsl::SelfContactPush& push, int level) {
+    const bool tail = level > 0 && self_tree_boxes_of(push.grid, level) <= glsl::self_tree_tail;
+    return tail ? push.top : level;
+}
+
+std::uint64_t self_tree_boxes(glsl::ivec2 grid) {
+    std::uint64_t count = 0;
+    for (int level = 0; level <= top_level(grid); ++level) count += self_tree_boxes_of(grid, level);
+    return count;
+}
+
+}  // namespace drape

@@ -1,0 +1,139 @@
+#include "passes/self_contact_pass.h"
+
+#include <volk.h>
+
+#include "cloth/self_contact.h"
+
+namespace drape {
+
+namespace {
+
+using graph::Access;
+using graph::PassSetup;
+
+/// A pass of `pipeline` over `width` x `height` invocations.
+template <class SetUp>
+void add_pass(graph::Graph& graph, const ClothState& state, const Step& step, const char* name,
+              const vulkan::ComputePipeline& pipeline, glsl::ivec2 size, const SetUp& set_up) {
+    graph.add_pass(state.step_name(name, step), set_up,
+                   [&pipeline, size, push = step.push<glsl::SelfContactPush>()](graph::PassContext& context) {
+                       context.dispatch(pipeline, push, static_cast<std::uint32_t>(size.x),
+                                        static_cast<std::uint32_t>(size.y));
+                   });
+}
+
+/// An invocation per particle, or per share of the pairs.
+glsl::ivec2 in_a_row(const ClothState& state) { return {static_cast<int>(state.model->grid.particle_count()), 1}; }
+
+void read_state(PassSetup& setup, const ClothState& state) {
+    setup.read(state[Field::position], Access::compute_read, "position");
+    setup.read(state[Field::displacement], Access::compute_read, "displacement");
+}
+
+/// Of a pass that moves particles.
+std::string touching(const char* shader, const ClothState& state) {
+    return vulkan::variant_name(shader, {{"history", state.model->plan.second_order}, {"buffered", state.buffered}});
+}
+void touch(PassSetup& setup, ClothState& state) {
+    setup.read(state[Field::position], Access::compute_read, "position");
+    update(setup, state[Field::displacement], "displacement");
+    if (!state.model->plan.second_order) return;
+    update_in_place(setup, state[Field::displacement_before], "displacement_before");
+    update_in_place(setup, state[Field::line_control], "control");
+}
+
+}  // namespace
+
+void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::SelfContactPush>();
+    const bool leaves = push.level == 0;
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("self_boxes.comp", {{"leaves", leaves}}));
+    const int count =
+        push.last > push.level ? glsl::workgroup_width : static_cast<int>(self_tree_boxes_of(push.grid, push.level));
+    add_pass(
+        graph, state, step, leaves ? "self boxes" : "self boxes above", pipeline, {count, 1}, [&](PassSetup& setup) {
+            if (leaves) {
+                read_state(setup, state);
+                state[Field::self_boxes] = setup.write(state[Field::self_boxes], Access::compute_write, "boxes");
+                state[Field::self_corrections] =
+                    setup.write(state[Field::self_corrections], Access::compute_write, "corrections");
+                state[Field::self_shares] = setup.write(state[Field::self_shares], Access::compute_write, "shares");
+                update_in_place(setup, state[Field::self_record], "record");
+            } else {
+                update_in_place(setup, state[Field::self_boxes], "boxes");
+            }
+        });
+}
+
+void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("self_pairs.comp", {{"masked", state.masked()}}));
+    add_pass(graph, state, step, "self pairs", pipeline, in_a_row(state), [&](PassSetup& setup) {
+        read_state(setup, state);
+        setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
+        state[Field::self_pairs] = setup.write(state[Field::self_pairs], Access::compute_write, "pairs");
+        update_in_place(setup, state[Field::self_record], "record");
+        if (state.masked()) setup.read(state[Field::cells], Access::compute_read, "cells");
+    });
+}
+
+void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    add_pass(graph, state, step, "self contact", pipelines.get("self_contact.comp"), in_a_row(state),
+             [&](PassSetup& setup) {
+                 read_state(setup, state);
+                 setup.read(state[Field::self_pairs], Access::compute_read, "pairs");
+                 setup.read(state[Field::self_record], Access::compute_read, "record");
+                 update_in_place(setup, state[Field::self_corrections], "corrections");
+             });
+}
+
+void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const vulkan::ComputePipeline& pipeline = pipelines.get(touching("self_push.comp", state));
+    add_pass(graph, state, step, "self push", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
+        touch(setup, state);
+        setup.read(state[Field::self_corrections], Access::compute_read, "corrections");
+        state[Field::self_limits] = setup.write(state[Field::self_limits], Access::compute_write, "limits");
+    });
+}
+
+void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    add_pass(graph, state, step, "self room", pipelines.get("self_room.comp"), in_a_row(state), [&](PassSetup& setup) {
+        read_state(setup, state);
+        setup.read(state[Field::self_pairs], Access::compute_read, "pairs");
+        update_in_place(setup, state[Field::self_record], "record");
+        setup.read(state[Field::self_limits], Access::compute_read, "limits");
+        update_in_place(setup, state[Field::self_shares], "shares");
+    });
+}
+
+void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const vulkan::ComputePipeline& pipeline = pipelines.get(touching("self_move.comp", state));
+    add_pass(graph, state, step, "self move", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
+        touch(setup, state);
+        setup.read(state[Field::self_shares], Access::compute_read, "shares");
+        setup.read(state[Field::self_limits], Access::compute_read, "limits");
+        update_in_place(setup, state[Field::self_record], "record");
+    });
+}
+
+std::string self_readback_name(const ClothModel& cloth) { return cloth.name + "/self record on the host"; }
+
+void add_self_readback(graph::Graph& graph, const ClothState& state) {
+    const graph::Handle empty =
+        graph.buffer({self_readback_name(*state.model), sizeof(glsl::SelfRecord), graph::Lifetime::host_output});
+    const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
+    graph.add_pass(
+        state.pass_name("self record readback", "simulate"),
+        [&](PassSetup& setup) {
+            setup.read(state[Field::self_record], Access::transfer_read);
+            *target = setup.write(empty, Access::transfer_write);
+        },
+        [record = state[Field::self_record], target](graph::PassContext& context) {
+            const VkBufferCopy whole{0, 0, sizeof(glsl::SelfRecord)};
+            vkCmdCopyBuffer(context.commands(), context.buffer(record).handle(), context.buffer(*target).handle(), 1,
+                            &whole);
+        });
+}
+
+}  // namespace drape

@@ -1,0 +1,74 @@
+// The tree of boxes over a cloth as it is at the start of a substep. LEAVES: its lowest level, a box per particle about
+// the cell whose first corner that is; and everything that the pairs of the substep will add up begins anew. Else the
+// levels from `level` to `last`, where several in one workgroup.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants LEAVES
+#include "shared/simulation_types.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfContactPush push; };
+#ifdef LEAVES
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 2, std430) writeonly buffer Boxes { SelfBox boxes[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Corrections { ivec4 corrections[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Shares { uint shares[]; };
+layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
+
+SelfBox particle_box(ivec2 texel) {
+    return self_point_box(imageLoad(position, texel).xyz, imageLoad(displacement, texel).xyz);
+}
+
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= push.grid.x * push.grid.y) return;
+    ivec2 texel = ivec2(index % push.grid.x, index / push.grid.x);
+    bool right = texel.x + 1 < push.grid.x;
+    bool below = texel.y + 1 < push.grid.y;
+    SelfBox box = particle_box(texel);
+    if (right) box = self_joined(box, particle_box(texel + ivec2(1, 0)));
+    if (below) box = self_joined(box, particle_box(texel + ivec2(0, 1)));
+    if (right && below) box = self_joined(box, particle_box(texel + ivec2(1, 1)));
+    boxes[index] = box;
+    corrections[index] = ivec4(0, 0, 0, 0);
+    shares[index] = floatBitsToUint(1.0f);
+    if (index > 0) return;
+    record[0].pair_count = 0u;
+    if (push.first == 0) return;
+    record[0].most_pairs = 0u;
+    record[0].unproved = 0u;
+    record[0].truncated = 0u;
+}
+#else
+layout(set = 0, binding = 0, std430) buffer Boxes { SelfBox boxes[]; };
+
+/// Box of the nodes below one.
+SelfBox node_box(ivec2 node, ivec2 below, int first) {
+    ivec2 corner = ivec2(2 * node.x, 2 * node.y);
+    bool right = corner.x + 1 < below.x;
+    bool lower = corner.y + 1 < below.y;
+    int at = first + corner.y * below.x + corner.x;
+    SelfBox box = boxes[at];
+    if (right) box = self_joined(box, boxes[at + 1]);
+    if (lower) box = self_joined(box, boxes[at + below.x]);
+    if (right && lower) box = self_joined(box, boxes[at + below.x + 1]);
+    return box;
+}
+
+void main() {
+    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
+    int first = 0;  // of the level below
+    for (int level = 1; level < push.level; ++level) first += self_tree_count(push.grid, level - 1);
+    for (int level = push.level; level <= push.last; ++level) {
+        ivec2 below = self_tree_size(push.grid, level - 1), size = self_tree_size(push.grid, level);
+        int own = first + below.x * below.y;
+        for (int i = int(gl_GlobalInvocationID.x); i < size.x * size.y; i += stride)
+            boxes[own + i] = node_box(ivec2(i % size.x, i / size.x), below, first);
+        first = own;
+        memoryBarrierBuffer();
+        barrier();
+    }
+}
+#endif

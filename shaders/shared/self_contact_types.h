@@ -1,0 +1,52 @@
+// Structs of the passes that keep a cloth from passing through itself, shared by GLSL and C++. std430.
+#ifndef DRAPE_SELF_CONTACT_TYPES_H
+#define DRAPE_SELF_CONTACT_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// Boxes of a level of the tree that one workgroup makes together with all levels above.
+const int self_tree_tail = 1024;
+/// Bit of a pair's first particle: two edges, else a particle and a triangle.
+const uint self_edge_pair = 0x80000000u;
+/// Units of a correction in a thickness; of a weight in 1. Integers, so that atomic sums are exact in any order.
+const float self_correction_units = 1048576.0f, self_weight_units = 65536.0f;
+
+/// A node of the tree of boxes, in which level 0 has a box per particle and each next one a box per 2 x 2 of those
+/// before. In the box: the triangles and edges that a particle owns, or all that of the nodes below.
+struct SelfBox {
+    vec4 lower;  // xyz m; w: most that one of its particles moves in this substep, m
+    vec4 upper;  // xyz m; w unused
+};
+
+struct SelfContactPush {
+    ivec2 grid;       // columns, rows
+    vec2 spacing;     // m along columns, rows, at rest
+    float thickness;  // m kept between layers
+    float friction;
+    float recovery;  // m that a substep gives back of a thickness that is missing
+    float least;     // m: distances that rounding leaves in doubt
+    int pair_room;   // pairs that the list can hold
+    int level;       // boxes: the first that this pass makes
+    int last;        // boxes: the last
+    int top;         // level of the root
+    int first;       // 1: the frame's first substep
+    int unused;
+};
+
+/// What a cloth's self-contact was in the substeps of a frame so far.
+struct SelfRecord {
+    uint pair_count;  // of this substep, those that found no room included
+    uint most_pairs;
+    uint unproved;   // motions of held particles that were not proved to cross nothing
+    uint truncated;  // motions of free particles that were cut short
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

@@ -1,0 +1,171 @@
+// Contact of a cloth with itself, on the twin: judged by a checker that shares nothing with it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "reference/kernels.h"
+#include "reference/twin.h"
+#include "support/self_contact_scenes.h"
+#include "verify/triangle_crossings.h"
+
+namespace drape {
+namespace {
+
+using verify::TriangleCrossings;
+
+std::size_t crossings(const ClothModel& model, const TwinCloth& state) {
+    std::vector<TriangleCrossings::Point> points;
+    for (const glsl::vec4& x : state[Field::position]) points.push_back({double(x.x), double(x.y), double(x.z)});
+    return TriangleCrossings(std::move(points), model.grid.triangle_indices()).count();
+}
+
+struct Found {
+    std::size_t crossed_frames = 0;
+    std::uint32_t most_pairs = 0, unproved = 0, truncated = 0;
+};
+
+Found run(const SceneDescription& scene, std::uint32_t frames) {
+    const SimulationModel model(scene);
+    Twin twin(model);
+    Found found;
+    for (std::uint32_t frame = 1; frame <= frames; ++frame) {
+        twin.run_frame(frame);
+        const TwinCloth& state = twin.cloth(0);
+        const std::size_t crossed = crossings(model.cloths[0], state);
+        found.crossed_frames += crossed > 0 ? 1 : 0;
+        found.most_pairs = std::max(found.most_pairs, state.self.record.most_pairs);
+        found.unproved += state.self.record.unproved;
+        found.truncated += state.self.record.truncated;
+        EXPECT_TRUE(crossed == 0 || !scene.cloths[0].self_collision || found.unproved > 0)
+            << "certified, but " << crossed << " triangles cross in frame " << frame;
+    }
+    std::printf("[ measured ] crossings in %zu of %u frames, %u pairs, %u motions cut short, %u not proved\n",
+                found.crossed_frames, frames, found.most_pairs, found.truncated, found.unproved);
+    return found;
+}
+
+void expect_apart(const SceneDescription& scene, std::uint32_t frames, bool pressed = false) {
+    const Found found = run(scene, frames);
+    EXPECT_EQ(found.crossed_frames, 0u);
+    EXPECT_EQ(found.unproved, 0u);
+    EXPECT_GT(found.most_pairs, 50u) << "nothing met";
+    if (pressed) {
+        EXPECT_GT(found.truncated, 0u);
+    }
+}
+
+TEST(SelfContactTest, WithoutItFoldsGoThroughEachOther) {
+    SceneDescription scene = test::fold(13, 0.5, SolverMethod::line, 16);
+    scene.cloths[0].self_collision.reset();
+    EXPECT_GT(run(scene, 45).crossed_frames, 0u);
+}
+
+TEST(SelfContactTest, FoldsLieOnEachOtherByLineSolves) {
+    expect_apart(test::fold(13, 0.5, SolverMethod::line, 16), 60);
+}
+
+TEST(SelfContactTest, ThinFoldsLieOnEachOtherByExplicitSteps) {
+    expect_apart(test::fold(13, 0.1, SolverMethod::explicit_steps, 50), 50);
+}
+
+TEST(SelfContactTest, FoldsAsThickAsAnEdge) { expect_apart(test::fold(13, 1, SolverMethod::line, 16), 50); }
+
+TEST(SelfContactTest, FoldsByRelaxation) { expect_apart(test::fold(13, 0.4, SolverMethod::relax, 16), 50); }
+
+/// Pulled tight around itself: motions are cut short.
+TEST(SelfContactTest, ATwistedSheetIsNeverCrossed) {
+    expect_apart(test::twist(13, 0.4, SolverMethod::line, 30, 3, 1), 60, true);
+}
+
+/// Nobody can keep apart what is held: then nothing is certified.
+TEST(SelfContactTest, WhatIsHeldAcrossItselfIsNotCertified) {
+    SceneDescription scene = test::sheet(13, 13, 1, 1, 8);
+    scene.solver.method = SolverMethod::line;
+    scene.gravity = {0, 0, 0};
+    Cloth& cloth = scene.cloths[0];
+    cloth.self_collision = SelfCollision{0.03, {}};
+    cloth.pins = {test::pin_box(0, 0, 12, 0), test::pin_box(0, 6, 12, 6), test::pin_box(0, 12, 12, 12)};
+    // The lower edge is carried up and through the upper half.
+    cloth.pins[2].path.keys = {{0, {}, {}}, {0.25, {0.1, 0.75, 0.2}, {}}, {0.5, {0.2, 0.75, -0.3}, {}}};
+    const Found found = run(scene, 30);
+    EXPECT_GT(found.crossed_frames, 0u);
+    EXPECT_GT(found.unproved, 0u);
+}
+
+/// Against points tried all over the two primitives.
+TEST(SelfContactKernelTest, NearestPointsAreNearest) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> anywhere(-1, 1);
+    const auto point = [&] { return glsl::vec3{anywhere(random), anywhere(random), anywhere(random)}; };
+    for (int trial = 0; trial < 400; ++trial) {
+        const bool edges = trial % 2 == 0;
+        const glsl::SelfCorners x{point(), point(), point(), point()};
+        const glsl::SelfGap gap = glsl::self_gap(edges, x);
+        const auto length = [](glsl::vec3 v) { return std::hypot(double(v.x), double(v.y), double(v.z)); };
+        double least = 1e9;
+        for (int i = 0; i <= 40; ++i)
+            for (int k = 0; k <= 40; ++k) {
+                const float s = static_cast<float>(i) / 40, t = static_cast<float>(k) / 40;
+                if (!edges && s + t > 1) continue;
+                const glsl::vec3 one = edges ? x.a * (1 - s) + x.b * s : x.a;
+                const glsl::vec3 other = edges ? x.c * (1 - t) + x.d * t : x.b * (1 - s - t) + x.c * s + x.d * t;
+                least = std::min(least, length(other - one));
+            }
+        EXPECT_LE(gap.distance, least + 1e-5) << trial;
+        EXPECT_GE(gap.distance, least - 0.06) << trial;
+        if (gap.apart > 0) {
+            EXPECT_NEAR(gap.apart, gap.distance, 1e-4) << trial;
+        }
+    }
+}
+
+/// Whatever the corners are told to do, what the shares leave of it does not bring the two together.
+TEST(SelfContactKernelTest, TruncatedMotionsDoNotMeet) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> anywhere(-1, 1);
+    const auto point = [&](float size) {
+        return glsl::vec3{size * anywhere(random), size * anywhere(random), size * anywhere(random)};
+    };
+    int cut_short = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const bool edges = trial % 2 == 0;
+        glsl::SelfCorners x{point(1), point(1), point(1), point(1)}, moved{point(2), point(2), point(2), point(2)};
+        const glsl::SelfGap gap = glsl::self_gap(edges, x);
+        const auto truncate = [&](glsl::vec3& d, float room, float side) {
+            const float share = glsl::self_share(gap, room, side, d, glsl::self_room_share, 1e-6f);
+            if (share < 1) d = glsl::self_truncated(d, share), ++cut_short;
+        };
+        truncate(moved.a, gap.room.x, 1);
+        truncate(moved.b, gap.room.y, edges ? 1.0f : -1.0f);
+        truncate(moved.c, gap.room.z, -1);
+        truncate(moved.d, gap.room.w, -1);
+        for (const float part : {0.25f, 0.5f, 0.75f, 1.0f}) {
+            const glsl::SelfGap then = glsl::self_gap(
+                edges, {x.a + moved.a * part, x.b + moved.b * part, x.c + moved.c * part, x.d + moved.d * part});
+            EXPECT_GT(then.distance, 0.45f * gap.apart) << trial;
+        }
+    }
+    EXPECT_GT(cut_short, 1000);
+}
+
+TEST(TriangleCrossingsTest, KnowsCrossingFromTouchingAndApart) {
+    const std::vector<TriangleCrossings::Point> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const auto with = [&](const TriangleCrossings::Point& p, const TriangleCrossings::Point& q,
+                          const TriangleCrossings::Point& r, const std::vector<std::uint32_t>& indices) {
+        std::vector<TriangleCrossings::Point> points = flat;
+        points.insert(points.end(), {p, q, r});
+        return TriangleCrossings(points, indices).count();
+    };
+    EXPECT_EQ(with({0.2, 0.2, -1}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 1u);
+    EXPECT_EQ(with({0.2, 0.2, 0.01}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 0u);
+    // Sharing a corner: through the inside, beside it.
+    EXPECT_EQ(with({0.2, 0.2, -1}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 0, 3, 4}), 1u);
+    EXPECT_EQ(with({-0.2, -0.2, -1}, {-0.3, -0.2, 1}, {5, 5, 1}, {0, 1, 2, 0, 3, 4}), 0u);
+    // Sharing an edge.
+    EXPECT_EQ(with({0.2, 0.2, 0.01}, {5, 5, 1}, {5, 5, 2}, {0, 1, 2, 0, 1, 3}), 0u);
+}
+
+}  // namespace
+}  // namespace drape
