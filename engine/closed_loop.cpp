@@ -103,7 +103,8 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         judged = take_judged(slot, run.substeps);
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_records);
-        const double implausible = watch_.excess(frame + k, judged.statistics);
+        const double implausible =
+            std::max(watch_.excess(frame + k, judged.statistics), self_list_use(judged.self_records));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
         if (judgement.stretch > 1 && !control_->at_top()) return judged;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "cloth/self_contact.h"
 #include "passes/cut_pass.h"
 #include "passes/readback_pass.h"
 
@@ -229,18 +230,24 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
 }
 
+double FrameLoop::self_list_use(const std::vector<glsl::SelfRecord>& records) const {
+    double most = 0;
+    for (std::size_t i = 0; i < records.size(); ++i)
+        most = std::max(most, drape::self_list_use(*model_.cloths[self_contact_[i].cloth].self_contact, records[i]));
+    return most;
+}
+
 void FrameLoop::note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records) {
     for (std::size_t i = 0; i < self_contact_.size(); ++i) {
         const glsl::SelfRecord& record = records[i];
         SelfContactReport& report = self_contact_[i];
         const ClothModel& cloth = model_.cloths[report.cloth];
-        if (record.most_pairs > static_cast<std::uint32_t>(cloth.self_contact->pair_room))
+        if (const double use = drape::self_list_use(*cloth.self_contact, record); use > 1)
             throw vulkan::VulkanError(
-                fmt::format("cloth '{}' meets itself in more places than there is memory for: in frame {} {} pairs of "
-                            "a particle and "
-                            "a triangle or of two edges are near each other, and the list holds {}; a smaller "
-                            "self_collision.thickness or more substeps make it shorter",
-                            cloth.name, frame, record.most_pairs, cloth.self_contact->pair_room));
+                fmt::format("cloth '{}' meets itself in more places than there is memory for: frame {} has {:.3g} "
+                            "times as many pairs of triangles and edges near each other; more substeps or a smaller "
+                            "self_collision.thickness make them fewer",
+                            cloth.name, frame, use));
         report.most_pairs = std::max(report.most_pairs, record.most_pairs);
         report.truncated += record.truncated;
         if (record.unproved > 0 && !report.first_unproved) report.first_unproved = frame;

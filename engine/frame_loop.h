@@ -156,6 +156,8 @@ class FrameLoop {
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
+    /// How full the fullest list came.
+    double self_list_use(const std::vector<glsl::SelfRecord>& records) const;
     /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
     void note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records);
     void deliver(std::uint32_t slot, const Finished& finished);

@@ -1,6 +1,7 @@
 // The tree of boxes over a cloth as it is at the start of a substep. LEAVES: its lowest level, a box per particle about
 // the cell whose first corner that is; and everything that the pairs of the substep will add up begins anew. Else the
-// levels from `level` to `last`, where several in one workgroup.
+// levels from `level` to `last`, where several in one workgroup; the last of all says whether cells that may meet have
+// to be searched.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants LEAVES
@@ -15,10 +16,11 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Boxes { SelfBox boxes[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Corrections { ivec4 corrections[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Shares { uint shares[]; };
-layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
 
 SelfBox particle_box(ivec2 texel) {
-    return self_point_box(imageLoad(position, texel).xyz, imageLoad(displacement, texel).xyz);
+    return self_point_box(imageLoad(position, texel).xyz,
+                          self_relative_motion(imageLoad(displacement, texel).xyz, record[0].carried.xyz));
 }
 
 void main() {
@@ -33,16 +35,12 @@ void main() {
     if (right && below) box = self_joined(box, particle_box(texel + ivec2(1, 1)));
     boxes[index] = box;
     corrections[index] = ivec4(0, 0, 0, 0);
-    shares[index] = floatBitsToUint(1.0f);
-    if (index > 0) return;
-    record[0].pair_count = 0u;
-    if (push.first == 0) return;
-    record[0].most_pairs = 0u;
-    record[0].unproved = 0u;
-    record[0].truncated = 0u;
+    for (int round = 0; round < self_rounds; ++round)
+        shares[round * push.grid.x * push.grid.y + index] = floatBitsToUint(1.0f);
 }
 #else
 layout(set = 0, binding = 0, std430) buffer Boxes { SelfBox boxes[]; };
+layout(set = 0, binding = 1, std430) buffer Record { SelfRecord record[]; };
 
 /// Box of the nodes below one.
 SelfBox node_box(ivec2 node, ivec2 below, int first) {
@@ -70,5 +68,12 @@ void main() {
         memoryBarrierBuffer();
         barrier();
     }
+    if (push.last < push.top || gl_GlobalInvocationID.x > 0u) return;
+    bool searches = self_searches(push, record[0].drift, boxes[first].lower.w);
+    record[0].search = searches ? 1u : 0u;
+    if (!searches) return;
+    record[0].block_count = 0u;
+    record[0].candidate_count = 0u;
+    record[0].drift = 0.0f;
 }
 #endif

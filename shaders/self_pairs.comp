@@ -1,6 +1,5 @@
-// Lists the pairs of primitives that this substep may bring together: every particle goes through the tree of boxes for
-// cells near its own, from its own on, so that no two cells are met twice. The list has no order, and what is made
-// of it must not mind. MASKED: triangles that exist are read from an image (holes, cuts).
+// Lists the pairs of primitives that this substep may bring together, of the cells that were found near each other: of
+// each what its first particle owns. MASKED: triangles that exist are read from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -11,17 +10,17 @@ layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, std430) readonly buffer Boxes { SelfBox boxes[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Cells { ivec2 cells[]; };
+layout(set = 0, binding = 3, std430) buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
 #ifdef MASKED
-layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D cells;
+layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D existing;
 #endif
 
 bool triangle_exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
 #ifdef MASKED
-    return (imageLoad(cells, cell).x & uint(which)) != 0u;
+    return (imageLoad(existing, cell).x & uint(which)) != 0u;
 #else
     return true;
 #endif
@@ -35,86 +34,114 @@ bool edge_exists(ivec2 particle, int k) {
     return false;
 }
 
-vec3 where(uint corner) { return imageLoad(position, self_texel(corner)).xyz; }
-vec3 moved(uint corner) { return imageLoad(displacement, self_texel(corner)).xyz; }
+/// Corners of a cell, its first particle the first, and their motions.
+struct Cell {
+    ivec2 at;
+    vec3 x0, x1, x2, x3;
+    vec3 moved0, moved1, moved2, moved3;
+    uint edges;      // bit k: edge k exists
+    uint triangles;  // bits 1 and 2
+};
 
-void add_pair(bool edges, uint a, uint b, uint c, uint d, float reach) {
-    if (a == b || a == c || a == d || b == c || b == d) return;
-    SelfCorners x = SelfCorners(where(a), where(b), where(c), where(d));
-    if (self_far(edges, x, reach)) return;
-    SelfGap gap = self_gap(edges, x);
-    float approach = self_approach(edges, SelfCorners(moved(a), moved(b), moved(c), moved(d)));
-    if (!(gap.distance < self_listing_distance(gap, push.thickness, push.thickness, approach))) return;
-    float thickness =
-        self_pair_thickness(push, edges, self_texel(a), self_texel(b), self_texel(c), self_texel(d));
-    if (!(gap.distance < self_listing_distance(gap, thickness, push.thickness, approach))) return;
+vec3 moved_at(ivec2 texel) {
+    return self_relative_motion(imageLoad(displacement, texel).xyz, record[0].carried.xyz);
+}
+
+vec3 at(ivec2 texel) { return imageLoad(position, texel).xyz; }
+
+Cell cell_of(int index) {
+    ivec2 own = ivec2(index % push.grid.x, index / push.grid.x);
+    ivec2 right = own + ivec2(1, 0), below = own + ivec2(0, 1), across = own + ivec2(1, 1);
+    uint edges = (edge_exists(own, 0) ? 1u : 0u) | (edge_exists(own, 1) ? 2u : 0u) | (edge_exists(own, 2) ? 4u : 0u);
+    uint triangles = (triangle_exists(own, 1) ? 1u : 0u) | (triangle_exists(own, 2) ? 2u : 0u);
+    return Cell(own, at(own), at(right), at(below), at(across), moved_at(own), moved_at(right), moved_at(below),
+                moved_at(across), edges, triangles);
+}
+
+bool listed(bool edges, SelfCorners x, SelfCorners motions, float thickness) {
+    return self_listed_pair(edges, self_gap(edges, x), motions, thickness, push.thickness);
+}
+
+/// Bits of the triangles of a cell that a particle may meet.
+uint near_triangles(Cell one, Cell other) {
+    bool meets_upper =
+        listed(false, SelfCorners(one.x0, other.x0, other.x1, other.x2),
+               SelfCorners(one.moved0, other.moved0, other.moved1, other.moved2), push.thickness);
+    bool meets_lower =
+        listed(false, SelfCorners(one.x0, other.x1, other.x3, other.x2),
+               SelfCorners(one.moved0, other.moved1, other.moved3, other.moved2), push.thickness);
+    return ((meets_upper ? 1u : 0u) | (meets_lower ? 2u : 0u)) & other.triangles;
+}
+
+struct Edge {
+    vec3 a, b;
+    vec3 moved_a, moved_b;
+};
+Edge along(Cell cell) { return Edge(cell.x0, cell.x1, cell.moved0, cell.moved1); }
+Edge across(Cell cell) { return Edge(cell.x0, cell.x2, cell.moved0, cell.moved2); }
+Edge diagonal(Cell cell) { return Edge(cell.x1, cell.x2, cell.moved1, cell.moved2); }
+
+uint near_edge(Edge one, Edge other) {
+    SelfCorners motions = SelfCorners(one.moved_a, one.moved_b, other.moved_a, other.moved_b);
+    return listed(true, SelfCorners(one.a, one.b, other.a, other.b), motions, push.thickness) ? 1u : 0u;
+}
+
+/// Bits of the existing edges of a cell that one that exists may meet.
+uint near_edges_of(Edge one, Cell other) {
+    uint bits = near_edge(one, along(other)) | (near_edge(one, across(other)) << 1) |
+                (near_edge(one, diagonal(other)) << 2);
+    return bits & other.edges;
+}
+
+/// Bits of the pairs of edges of two cells that may meet, three for each of the first.
+uint near_edges(Cell one, Cell other) {
+    uint first = (one.edges & 1u) != 0u ? near_edges_of(along(one), other) : 0u;
+    uint second = (one.edges & 2u) != 0u ? near_edges_of(across(one), other) : 0u;
+    uint third = (one.edges & 4u) != 0u ? near_edges_of(diagonal(one), other) : 0u;
+    return first | (second << 3) | (third << 6);
+}
+
+vec3 where(uint corner) { return at(self_texel(corner)); }
+vec3 moved(uint corner) { return moved_at(self_texel(corner)); }
+
+/// Lists a pair unless it shares a corner, or the thickness that it keeps is less than what it was found with.
+void add_pair(bool edges, uvec4 pair) {
+    if (self_shares_corner(edges, pair)) return;
+    float thickness = self_pair_thickness(push, edges, self_texel(pair.x), self_texel(pair.y), self_texel(pair.z),
+                                          self_texel(pair.w));
+    SelfCorners x = SelfCorners(where(pair.x), where(pair.y), where(pair.z), where(pair.w));
+    SelfCorners motions = SelfCorners(moved(pair.x), moved(pair.y), moved(pair.z), moved(pair.w));
+    if (!listed(edges, x, motions, thickness)) return;
     uint place = atomicAdd(record[0].pair_count, 1u);
-    if (place < uint(push.pair_room)) pairs[place] = uvec4(edges ? a | self_edge_pair : a, b, c, d);
+    if (place < uint(push.pair_room)) pairs[place] = uvec4(edges ? pair.x | self_edge_pair : pair.x, pair.yzw);
 }
 
-void add_triangles(ivec2 particle, ivec2 cell, float reach) {
-    for (int which = 1; which <= 2; ++which)
-        if (triangle_exists(cell, which))
-            add_pair(false, self_corner(particle), self_corner(cell + triangle_corner(which, 0)),
-                     self_corner(cell + triangle_corner(which, 1)), self_corner(cell + triangle_corner(which, 2)),
-                     reach);
-}
-
-void add_between(ivec2 a, ivec2 b, float reach) {
-    add_triangles(a, b, reach);
-    if (a == b) return;
-    add_triangles(b, a, reach);
-    for (int i = 0; i < 3; ++i) {
-        if (!edge_exists(a, i)) continue;
-        ivec4 one = self_edge(i);
-        for (int k = 0; k < 3; ++k) {
-            if (!edge_exists(b, k)) continue;
-            ivec4 other = self_edge(k);
-            add_pair(true, self_corner(a + ivec2(one.x, one.y)), self_corner(a + ivec2(one.z, one.w)),
-                     self_corner(b + ivec2(other.x, other.y)), self_corner(b + ivec2(other.z, other.w)), reach);
-        }
+/// Corners of pair k of two cells (0..3: particle and triangle, 4..12: edges).
+uvec4 pair_of(ivec2 a, ivec2 b, int k) {
+    if (k < 4) {
+        ivec2 particle = k < 2 ? a : b, cell = k < 2 ? b : a;
+        int which = (k & 1) + 1;
+        return uvec4(self_corner(particle), self_corner(cell + triangle_corner(which, 0)),
+                     self_corner(cell + triangle_corner(which, 1)), self_corner(cell + triangle_corner(which, 2)));
     }
+    ivec4 one = self_edge((k - 4) / 3), other = self_edge((k - 4) % 3);
+    return uvec4(self_corner(a + ivec2(one.x, one.y)), self_corner(a + ivec2(one.z, one.w)),
+                 self_corner(b + ivec2(other.x, other.y)), self_corner(b + ivec2(other.z, other.w)));
 }
 
 void main() {
-    int index = int(gl_GlobalInvocationID.x);
-    if (index >= push.grid.x * push.grid.y) return;
-    ivec2 own = ivec2(index % push.grid.x, index / push.grid.x);
-    SelfBox box = boxes[index];
-    ivec2 node = ivec2(0, 0);
-    int level = push.top, first = 0, visits = 0;  // first: box of the level
-    for (int below = 0; below < push.top; ++below) first += self_tree_count(push.grid, below);
-    bool entered = true;
-    while (level <= push.top) {
-        ivec2 size = self_tree_size(push.grid, level);
-        int place = first + node.y * size.x + node.x;
-        bool open = entered && ((node.y + 1) << level) > own.y && (level > 0 || place >= index) &&
-                    self_boxes_meet(box, boxes[place], push);
-        ++visits;
-        if (open && level > 0) {
-            --level;
-            first -= self_tree_count(push.grid, level);
-            node = ivec2(2 * node.x, 2 * node.y);
-            continue;
-        }
-        if (open) {
-            add_between(own, node, self_reach(box, boxes[place], push));
-            visits += 32;  // loops there
-        }
-        if (visits > self_visit_limit) {
-            atomicAdd(record[0].pair_count, uint(push.pair_room));
-            return;
-        }
-        entered = true;
-        if ((node.x & 1) == 0 && node.x + 1 < size.x) {
-            ++node.x;
-        } else if ((node.y & 1) == 0 && node.y + 1 < size.y) {
-            node = ivec2(node.x & ~1, node.y + 1);
-        } else {
-            first += size.x * size.y;
-            ++level;
-            node = ivec2(node.x >> 1, node.y >> 1);
-            entered = false;
+    int count = self_listed(record[0].cell_count, push.cell_room);
+    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
+    for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
+        ivec2 pair = cells[i];
+        Cell one = cell_of(pair.x), other = cell_of(pair.y);
+        // One of a cell with itself is all: the others are the same, or share a corner.
+        uint near = near_triangles(one, other);
+        if (pair.x != pair.y) near |= (near_triangles(other, one) << 2) | (near_edges(one, other) << 4);
+        while (near != 0u) {
+            int k = findLSB(near);
+            near &= near - 1u;
+            add_pair(k >= 4, pair_of(one.at, other.at, k));
         }
     }
 }

@@ -50,6 +50,8 @@ FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
 FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.cloth.grid.size())}; }
 FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.cloth.self_contact->pair_room)}; }
+FieldExtent self_cell_list(Context c) { return {static_cast<std::uint64_t>(c.cloth.self_contact->cell_room)}; }
+FieldExtent self_share_list(Context c) { return {c.cloth.grid.particle_count() * glsl::self_rounds}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
@@ -70,11 +72,14 @@ std::vector<FieldRow> self_contact_rows() {
     using enum FieldView;
     return {
         {Field::self_boxes, "self boxes", buffer, layout_of<glsl::SelfBox>(), device, meets_itself, self_box_list},
+        {Field::self_candidates, "self candidates", buffer, layout_of<glsl::ivec2>(), device, meets_itself,
+         self_cell_list},
+        {Field::self_cells, "self cells", buffer, layout_of<glsl::ivec2>(), device, meets_itself, self_cell_list},
         {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, meets_itself, self_pair_list},
         {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, meets_itself,
          particle_list},
-        {Field::self_limits, "self limits", buffer, layout_of<float>(), device, meets_itself, particle_list},
-        {Field::self_shares, "self shares", buffer, layout_of<glsl::uint>(), device, meets_itself, particle_list},
+        {Field::self_before, "self before", buffer, layout_of<glsl::vec4>(), device, meets_itself, particle_list},
+        {Field::self_shares, "self shares", buffer, layout_of<glsl::uint>(), device, meets_itself, self_share_list},
         {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, meets_itself, one},
     };
 }

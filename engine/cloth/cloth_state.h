@@ -49,10 +49,12 @@ enum class Field : std::uint8_t {
     cut_vertices,      ///< vertices on cut springs
     tethers,           ///< of every particle
     self_boxes,        ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)
+    self_candidates,   ///< pairs of cells that may come near each other until the next search
+    self_cells,        ///< those that are in this substep
     self_pairs,        ///< corners of the pairs of primitives near each other
     self_corrections,  ///< sums of integers, by particle
-    self_limits,       ///< m, most that a particle may move in the substep
-    self_shares,       ///< bits of the share of its displacement that it may make
+    self_before,       ///< displacement before contact, m
+    self_shares,       ///< bits of the share of its motion that it may make, by round
     self_record,       ///< what self-contact was in the frame
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< of every substep

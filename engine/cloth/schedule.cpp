@@ -62,13 +62,19 @@ class Substep {
         glsl::SelfContactPush push = *cloth_.self_contact;
         push.first = substep_ == 0 ? 1 : 0;
         const auto add_one = [&](StepKind kind) { add(kind).constants = push; };
+        add_one(StepKind::self_common);
         for (push.level = 0; push.level <= push.top; push.level = push.last + 1) {
             push.last = last_level(push, push.level);
             add_one(StepKind::self_boxes);
         }
-        for (const StepKind kind : {StepKind::self_pairs, StepKind::self_contact, StepKind::self_push}) add_one(kind);
+        for (const StepKind kind :
+             {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_pairs})
+            add_one(kind);
+        for (push.round = 0; push.round < glsl::self_iterations; ++push.round)
+            for (const StepKind kind : {StepKind::self_contact, StepKind::self_push}) add_one(kind);
         if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations + 1);
-        for (const StepKind kind : {StepKind::self_room, StepKind::self_move}) add_one(kind);
+        for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_room);
+        add_one(StepKind::self_move);
     }
 
     const SimulationModel& model_;

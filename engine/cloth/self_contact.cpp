@@ -1,11 +1,15 @@
 #include "cloth/self_contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloth/cloth_model.h"
 namespace drape {
 
 namespace {
+
+/// In grid spacings: cells of flat cloth that are no neighbours are two spacings apart.
+constexpr double search_margin = 0.5;
 
 int top_level(glsl::ivec2 grid) {
     int level = 0;
@@ -23,19 +27,27 @@ glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, cons
         std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing));
     const double substep = 1.0 / (scene.time.fps * scene.solver.substeps);
     const glsl::ivec2 grid = geometry.grid.size();
-    return {grid,
-            {static_cast<float>(geometry.spacing[0]), static_cast<float>(geometry.spacing[1])},
-            static_cast<float>(thickness),
-            static_cast<float>(asked.friction.value_or(cloth.friction)),
-            static_cast<float>(recovery_speed * substep),
-            // A few roundings of the coordinates.
-            static_cast<float>(2e-6 * extent),
-            grid.x * grid.y * static_cast<int>(self_pairs_per_particle),
-            0,
-            0,
-            top_level(grid),
-            0,
-            0};
+    const auto count = grid.x * grid.y;
+    glsl::SelfContactPush push{};
+    push.grid = grid;
+    push.spacing = {static_cast<float>(geometry.spacing[0]), static_cast<float>(geometry.spacing[1])};
+    push.thickness = static_cast<float>(thickness);
+    push.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
+    push.recovery = static_cast<float>(recovery_speed * substep);
+    push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
+    // A corner and the diagonal beside it.
+    push.least_flat = static_cast<float>(geometry.spacing[0] * geometry.spacing[1] /
+                                         std::hypot(geometry.spacing[0], geometry.spacing[1]));
+    push.margin = static_cast<float>(search_margin * spacing);
+    push.pair_room = count * static_cast<int>(self_pairs_per_particle);
+    push.cell_room = count * static_cast<int>(self_cells_per_particle);
+    push.top = top_level(grid);
+    return push;
+}
+
+double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record) {
+    return std::max(static_cast<double>(record.most_pairs) / push.pair_room,
+                    static_cast<double>(record.most_cells) / push.cell_room);
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

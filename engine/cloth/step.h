@@ -30,7 +30,11 @@ enum class StepKind {
     tether,
     collide,
     check,
+    self_common,
     self_boxes,
+    self_blocks,
+    self_cells,
+    self_near,
     self_pairs,
     self_contact,
     self_push,
@@ -41,9 +45,9 @@ enum class StepKind {
 
 /// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
 /// set per iteration.
-using StepConstants =
-    std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush>;
+using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush,
+                                   glsl::ExplicitPush, glsl::BendPush, glsl::TwistPush, glsl::SpringPush,
+                                   glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

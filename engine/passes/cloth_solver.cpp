@@ -199,8 +199,16 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_collision(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::check:
             return add_check(graph, pipelines_, state, *run_, step);
+        case StepKind::self_common:
+            return add_self_common(graph, pipelines_, state, step);
         case StepKind::self_boxes:
             return add_self_boxes(graph, pipelines_, state, step);
+        case StepKind::self_blocks:
+            return add_self_blocks(graph, pipelines_, state, step);
+        case StepKind::self_cells:
+            return add_self_cells(graph, pipelines_, state, step);
+        case StepKind::self_near:
+            return add_self_near(graph, pipelines_, state, step);
         case StepKind::self_pairs:
             return add_self_pairs(graph, pipelines_, state, step);
         case StepKind::self_contact:

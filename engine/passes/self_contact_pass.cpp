@@ -44,6 +44,13 @@ void touch(PassSetup& setup, ClothState& state) {
 
 }  // namespace
 
+void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    add_pass(graph, state, step, "self common", pipelines.get("self_common.comp"), {1, 1}, [&](PassSetup& setup) {
+        setup.read(state[Field::displacement], Access::compute_read, "displacement");
+        update_in_place(setup, state[Field::self_record], "record");
+    });
+}
+
 void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::SelfContactPush>();
     const bool leaves = push.level == 0;
@@ -59,11 +66,42 @@ void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& s
                 state[Field::self_corrections] =
                     setup.write(state[Field::self_corrections], Access::compute_write, "corrections");
                 state[Field::self_shares] = setup.write(state[Field::self_shares], Access::compute_write, "shares");
-                update_in_place(setup, state[Field::self_record], "record");
+                setup.read(state[Field::self_record], Access::compute_read, "record");
             } else {
                 update_in_place(setup, state[Field::self_boxes], "boxes");
+                update_in_place(setup, state[Field::self_record], "record");
             }
         });
+}
+
+void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::SelfContactPush>();
+    add_pass(graph, state, step, "self blocks", pipelines.get("self_blocks.comp"),
+             {static_cast<int>(self_tree_boxes_of(push.grid, 1)), 1}, [&](PassSetup& setup) {
+                 setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
+                 update_in_place(setup, state[Field::self_cells], "blocks");
+                 update_in_place(setup, state[Field::self_record], "record");
+             });
+}
+
+void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    add_pass(graph, state, step, "self cells", pipelines.get("self_cells.comp"), in_a_row(state),
+             [&](PassSetup& setup) {
+                 setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
+                 setup.read(state[Field::self_cells], Access::compute_read, "blocks");
+                 update_in_place(setup, state[Field::self_candidates], "candidates");
+                 update_in_place(setup, state[Field::self_record], "record");
+             });
+}
+
+void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    add_pass(graph, state, step, "self near", pipelines.get("self_near.comp"), in_a_row(state), [&](PassSetup& setup) {
+        read_state(setup, state);
+        setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
+        setup.read(state[Field::self_candidates], Access::compute_read, "candidates");
+        update_in_place(setup, state[Field::self_cells], "cells");
+        update_in_place(setup, state[Field::self_record], "record");
+    });
 }
 
 void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
@@ -71,10 +109,10 @@ void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& s
         pipelines.get(vulkan::variant_name("self_pairs.comp", {{"masked", state.masked()}}));
     add_pass(graph, state, step, "self pairs", pipeline, in_a_row(state), [&](PassSetup& setup) {
         read_state(setup, state);
-        setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
-        state[Field::self_pairs] = setup.write(state[Field::self_pairs], Access::compute_write, "pairs");
+        setup.read(state[Field::self_cells], Access::compute_read, "cells");
+        update_in_place(setup, state[Field::self_pairs], "pairs");
         update_in_place(setup, state[Field::self_record], "record");
-        if (state.masked()) setup.read(state[Field::cells], Access::compute_read, "cells");
+        if (state.masked()) setup.read(state[Field::cells], Access::compute_read, "existing");
     });
 }
 
@@ -92,8 +130,8 @@ void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     const vulkan::ComputePipeline& pipeline = pipelines.get(touching("self_push.comp", state));
     add_pass(graph, state, step, "self push", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
         touch(setup, state);
-        setup.read(state[Field::self_corrections], Access::compute_read, "corrections");
-        state[Field::self_limits] = setup.write(state[Field::self_limits], Access::compute_write, "limits");
+        update_in_place(setup, state[Field::self_corrections], "corrections");
+        update_in_place(setup, state[Field::self_before], "before");
     });
 }
 
@@ -102,7 +140,7 @@ void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
         read_state(setup, state);
         setup.read(state[Field::self_pairs], Access::compute_read, "pairs");
         update_in_place(setup, state[Field::self_record], "record");
-        setup.read(state[Field::self_limits], Access::compute_read, "limits");
+        setup.read(state[Field::self_before], Access::compute_read, "before");
         update_in_place(setup, state[Field::self_shares], "shares");
     });
 }
@@ -112,7 +150,7 @@ void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     add_pass(graph, state, step, "self move", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
         touch(setup, state);
         setup.read(state[Field::self_shares], Access::compute_read, "shares");
-        setup.read(state[Field::self_limits], Access::compute_read, "limits");
+        setup.read(state[Field::self_before], Access::compute_read, "before");
         update_in_place(setup, state[Field::self_record], "record");
     });
 }

@@ -142,8 +142,14 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return collide(model, state, inputs, step.substep);
         case StepKind::check:
             return check(model, state, step);
+        case StepKind::self_common:
+            return self_common(model, state, step);
         case StepKind::self_boxes:
             return self_boxes(model, state, step);
+        case StepKind::self_blocks:
+        case StepKind::self_cells:
+        case StepKind::self_near:
+            return;  // it tries all pairs of cells
         case StepKind::self_pairs:
             return self_pairs(model, state, step);
         case StepKind::self_contact:

@@ -51,8 +51,8 @@ struct TwinCloth {
         std::vector<glsl::SelfBox> boxes;  ///< by particle
         std::vector<glsl::uvec4> pairs;
         std::vector<glsl::ivec4> corrections;
-        std::vector<float> limits;  ///< m
-        std::vector<glsl::uint> shares;  ///< bits
+        std::vector<glsl::vec3> before;  ///< displacements before contact, m
+        std::vector<float> shares;       ///< of their motions that the particles make, after the last round
         glsl::SelfRecord record{};
     } self;
     bool iterates = true;               ///< what the last check found: conditional steps run
@@ -97,7 +97,10 @@ class Twin {
     void twist(TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_common(const ClothModel& model, TwinCloth& state, const Step& step);
     void self_boxes(const ClothModel& model, TwinCloth& state, const Step& step);
+    static bool self_lies_flat(const ClothModel& model, TwinCloth& state, const glsl::SelfContactPush& push,
+                               glsl::ivec2 cell);
     void self_pairs(const ClothModel& model, TwinCloth& state, const Step& step);
     void self_contact(TwinCloth& state, const Step& step);
     void self_push(const ClothModel& model, TwinCloth& state, const Step& step);

@@ -1,6 +1,7 @@
 // The twin of self-contact. Pairs are found by trying all boxes against all others: what the device's tree may not
 // miss.
 #include <algorithm>
+#include <utility>
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
@@ -24,9 +25,13 @@ class SelfPairs {
     vec3 position(uint particle) const { return xyz(state_[Field::position][particle]); }
     vec3 displacement(uint particle) const { return xyz(state_[Field::displacement][particle]); }
     float inverse_mass(uint particle) const { return state_[Field::position][particle].w; }
+    vec3 motion(uint particle) const {
+        return self_relative_motion(displacement(particle), xyz(state_.self.record.carried));
+    }
     vec3 bounded(uint particle) const {
-        const vec3 moved = displacement(particle);
-        return inverse_mass(particle) > 0.0f ? self_bounded(moved, state_.self.limits[particle]) : moved;
+        vec3 moved = displacement(particle);
+        if (inverse_mass(particle) > 0.0f) moved = self_bounded(moved, state_.self.before[particle], push_.thickness);
+        return self_relative_motion(moved, xyz(state_.self.record.carried));
     }
     template <class Of>
     SelfCorners corners(const uvec4& pair, const Of& of) const {
@@ -45,8 +50,7 @@ class SelfPairs {
     }
 
     /// The pairs of what two particles own.
-    void add_between(ivec2 a, ivec2 b, float reach) {
-        reach_ = reach;
+    void add_between(ivec2 a, ivec2 b) {
         const bool same = a == b;
         add_triangles(a, b);
         if (same) return;
@@ -83,19 +87,16 @@ class SelfPairs {
             }
     }
     void add_pair(const uvec4& pair) {
-        const uint a = pair.x & ~self_edge_pair;
-        if (a == pair.y || a == pair.z || a == pair.w || pair.y == pair.z || pair.y == pair.w) return;
-        if (self_far(edges(pair), positions(pair), reach_)) return;
+        if (self_shares_corner(edges(pair), {pair.x & ~self_edge_pair, pair.y, pair.z, pair.w})) return;
         const SelfGap gap = self_gap(edges(pair), positions(pair));
-        const float approach = self_approach(edges(pair), displacements(pair));
-        if (!(gap.distance < self_listing_distance(gap, push_.thickness, push_.thickness, approach))) return;
-        if (!(gap.distance < self_listing_distance(gap, thickness(pair), push_.thickness, approach))) return;
+        const SelfCorners motions = corners(pair, [this](uint particle) { return motion(particle); });
+        if (!self_listed_pair(edges(pair), gap, motions, push_.thickness, push_.thickness)) return;
+        if (!self_listed_pair(edges(pair), gap, motions, thickness(pair), push_.thickness)) return;
         if (state_.self.record.pair_count++ < static_cast<uint>(push_.pair_room)) state_.self.pairs.push_back(pair);
     }
 
     TwinCloth& state_;
     const SelfContactPush& push_;
-    float reach_ = 0;
 };
 
 void touch(const ClothModel& model, TwinCloth& state, std::size_t particle, vec3 displacement) {
@@ -110,23 +111,35 @@ float corner_side(bool edges, int k) { return k == 0 || (edges && k == 1) ? 1.0f
 
 }  // namespace
 
+void Twin::self_common(const ClothModel& model, TwinCloth& state, const Step& step) {
+    const auto& push = step.push<SelfContactPush>();
+    SelfRecord& record = state.self.record;
+    if (push.first != 0) record = {};
+    vec3 sum{};
+    for (int k = 0; k < self_samples * self_samples; ++k) {
+        const ivec2 sample = self_sample(push.grid, k);
+        sum = sum + xyz(state[Field::displacement][at(model.grid, sample)]);
+    }
+    const vec3 mean = self_mean(sum);
+    record.carried = {mean.x, mean.y, mean.z, 0};
+    record.pair_count = 0;
+    record.cell_count = 0;
+}
+
 void Twin::self_boxes(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<SelfContactPush>();
     if (push.level != 0) return;
     TwinCloth::SelfContact& self = state.self;
     const std::size_t count = state[Field::position].size();
     self.corrections.assign(count, {});
-    self.shares.assign(count, floatBitsToUint(1.0f));
-    self.limits.resize(count);
     self.pairs.clear();
-    if (push.first != 0) self.record = {};
-    self.record.pair_count = 0;
     self.boxes.resize(count);
+    const SelfPairs pairs(state, push);
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
             const auto box_of = [&](int column, int row) {
-                const std::size_t i = at(model.grid, {column, row});
-                return self_point_box(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]));
+                const auto i = static_cast<uint>(at(model.grid, {column, row}));
+                return self_point_box(pairs.position(i), pairs.motion(i));
             };
             SelfBox box = box_of(x, y);
             const bool right = x + 1 < push.grid.x, below = y + 1 < push.grid.y;
@@ -137,17 +150,45 @@ void Twin::self_boxes(const ClothModel& model, TwinCloth& state, const Step& ste
         }
 }
 
-void Twin::self_pairs(const ClothModel&, TwinCloth& state, const Step& step) {
+/// Whether what a cell and its neighbours to the right and below own is apart because the cloth is flat there.
+bool Twin::self_lies_flat(const ClothModel& model, TwinCloth& state, const SelfContactPush& push, ivec2 cell) {
+    if (cell.x + 2 >= push.grid.x || cell.y + 2 >= push.grid.y) return false;
+    const auto x = [&](int column, int row) {
+        return xyz(state[Field::position][at(model.grid, {cell.x + column, cell.y + row})]);
+    };
+    const SelfPairs pairs(state, push);
+    const auto moved = [&](int column, int row) {
+        return pairs.motion(static_cast<uint>(at(model.grid, {cell.x + column, cell.y + row})));
+    };
+    const auto patch = [](const auto& of) {
+        return SelfPatch{of(1, 1), of(0, 1), of(2, 1), of(1, 0), of(1, 2), of(0, 0), of(2, 0), of(0, 2), of(2, 2)};
+    };
+    return self_patch_lies_flat(push, patch(x), patch(moved));
+}
+
+void Twin::self_pairs(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<SelfContactPush>();
     SelfPairs pairs(state, push);
     const std::vector<SelfBox>& boxes = state.self.boxes;
     const auto place = [&](std::size_t particle) {
         return ivec2{static_cast<int>(particle) % push.grid.x, static_cast<int>(particle) / push.grid.x};
     };
-    for (std::size_t a = 0; a < boxes.size(); ++a)
-        for (std::size_t b = a; b < boxes.size(); ++b)
-            if (self_boxes_meet(boxes[a], boxes[b], push))
-                pairs.add_between(place(a), place(b), self_reach(boxes[a], boxes[b], push));
+    for (std::size_t a = 0; a < boxes.size(); ++a) {
+        for (std::size_t b = a + 1; b < boxes.size(); ++b)
+            if (!self_neighbours(place(a), place(b)) && self_boxes_meet(boxes[a], boxes[b], push, 0)) {
+                pairs.add_between(place(a), place(b));
+                ++state.self.record.cell_count;
+            }
+        if (self_lies_flat(model, state, push, place(a))) continue;
+        for (int k = 0; k < self_neighbour_pairs; ++k) {
+            const ivec4 pair = self_neighbour_pair(k);
+            const ivec2 own = place(a), one{own.x + pair.x, own.y + pair.y}, other{own.x + pair.z, own.y + pair.w};
+            const auto inside = [&](ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; };
+            if (!inside(one) || !inside(other)) continue;
+            pairs.add_between(one, other);
+            ++state.self.record.cell_count;
+        }
+    }
 }
 
 void Twin::self_contact(TwinCloth& state, const Step& step) {
@@ -177,47 +218,62 @@ void Twin::self_contact(TwinCloth& state, const Step& step) {
 void Twin::self_push(const ClothModel& model, TwinCloth& state, const Step& step) {
     const auto& push = step.push<SelfContactPush>();
     TwinCloth::SelfContact& self = state.self;
-    for (std::size_t i = 0; i < self.limits.size(); ++i) {
+    self.before.resize(self.corrections.size());
+    for (std::size_t i = 0; i < self.before.size(); ++i) {
         const vec3 displacement = xyz(state[Field::displacement][i]);
-        self.limits[i] = self_limit(displacement, push.thickness);
-        if (self.corrections[i].w == 0 || !(state[Field::position][i].w > 0.0f)) continue;
-        touch(model, state, i, self_corrected(displacement, self.corrections[i], push.thickness));
+        if (push.round == 0) self.before[i] = displacement;
+        const ivec4 sum = std::exchange(self.corrections[i], {});
+        if (sum.w == 0 || !(state[Field::position][i].w > 0.0f)) continue;
+        touch(model, state, i,
+              self_bounded(self_corrected(displacement, sum, push.thickness), self.before[i], push.thickness));
     }
 }
 
 void Twin::self_room(TwinCloth& state, const Step& step) {
     const auto& push = step.push<SelfContactPush>();
     const SelfPairs pairs(state, push);
+    std::vector<float>& shares = state.self.shares;
+    if (push.round == 0) shares.assign(state.self.before.size(), 0);
+    std::vector<float> next(shares.size(), 1);
     for (const uvec4& pair : state.self.pairs) {
         const bool edges = SelfPairs::edges(pair);
         const SelfGap gap = self_gap(edges, pairs.positions(pair));
         const uint corner[4] = {pairs.index(pair.x), pairs.index(pair.y), pairs.index(pair.z), pairs.index(pair.w)};
-        for (int k = 0; k < 4; ++k) {
+        const auto along = [&](uint particle) { return ordered_dot(gap.normal, pairs.bounded(particle)); };
+        const vec4 all{along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
+        const vec4 end =
+            self_ends(gap, all, {shares[corner[0]], shares[corner[1]], shares[corner[2]], shares[corner[3]]});
+        for (std::size_t k = 0; k < 4; ++k) {
             const uint particle = corner[k];
             const bool held = !(pairs.inverse_mass(particle) > 0.0f);
             const float share =
-                self_share(gap, component(gap.room, static_cast<std::size_t>(k)), corner_side(edges, k),
-                           pairs.bounded(particle), held ? self_held_share : self_room_share, push.least);
-            if (!(share < 1.0f)) continue;
-            if (held)
-                ++state.self.record.unproved;
-            else
-                state.self.shares[particle] = std::min(state.self.shares[particle], floatBitsToUint(share));
+                self_share(gap, self_middle(edges, end), component(end, k), corner_side(edges, static_cast<int>(k)),
+                           component(all, k), shares[particle], held, push.least);
+            next[particle] = std::min(next[particle], share);
         }
     }
+    shares = next;
 }
 
 void Twin::self_move(const ClothModel& model, TwinCloth& state, const Step& step) {
     TwinCloth::SelfContact& self = state.self;
     self.record.most_pairs = std::max(self.record.most_pairs, self.record.pair_count);
+    // The device also counts what a search found, which here none does.
+    self.record.most_cells = std::max(self.record.most_cells, self.record.cell_count);
     const SelfPairs pairs(state, step.push<SelfContactPush>());
     for (std::size_t i = 0; i < self.shares.size(); ++i) {
         const auto particle = static_cast<uint>(i);
-        const float share = uintBitsToFloat(self.shares[i]);
-        if (!(pairs.inverse_mass(particle) > 0.0f)) continue;
-        if (!(share < 1.0f) && !self_exceeds(pairs.displacement(particle), self.limits[i])) continue;
+        const float share = self.shares[i];
+        const bool held = !(pairs.inverse_mass(particle) > 0.0f);
+        if (held) {
+            self.record.unproved += share < 1.0f ? 1 : 0;
+            continue;
+        }
+        if (!(share < 1.0f) &&
+            !self_exceeds(pairs.displacement(particle), self.before[i], step.push<SelfContactPush>().thickness))
+            continue;
         ++self.record.truncated;
-        touch(model, state, i, self_truncated(pairs.bounded(particle), share));
+        touch(model, state, i, self_truncated(xyz(self.record.carried), pairs.bounded(particle), share));
     }
 }
 

@@ -1,163 +1,25 @@
 // Contact of a cloth with itself (docs/physics.md 5). A pair is a particle and a triangle, or two edges,
 // that share no corner: nothing else meets first when a surface comes to cross itself. Of every pair that a substep may
-// bring together a plane between the two is known, and no corner goes more than half of its way to that plane: so
+// bring together a plane between the two is known, and no corner goes more than its share of the way to that plane: so
 // nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et
 // al. 2025, "Offset Geometric Contact"). Before that pairs nearer than the thickness are pushed apart, with friction.
+// Motions are measured against one that all particles have in common, which changes no distance.
 #ifndef DRAPE_SELF_CONTACT_H
 #define DRAPE_SELF_CONTACT_H
 
+#include "include/self_gap.h"
 #include "include/triangles.h"
-#include "include/vector.h"
 #include "shared/self_contact_types.h"
 
-/// Share of its room that a free particle may use; a held one, which goes where it is told.
-const float self_room_share = 0.5f, self_held_share = 0.95f;
+/// Shares of a pair's distance that stay on each side of its plane, of a free particle and of a held one, which goes
+/// where it is told.
+const float self_room_kept = 0.25f, self_held_kept = 0.025f;
 /// A correction is at most this share of the thickness: what the list of pairs reckons with.
 const float self_correction_share = 0.24f, self_listed_share = 0.5f;
 /// More than this many nodes visited, about the loops that the default device allows, would be broken off unseen.
 const int self_visit_limit = 60000;
-
-/// Four corners of a pair: particle and triangle, or the ends of one edge and of the other.
-struct SelfCorners {
-    vec3 a, b, c, d;
-};
-
-/// Where two disjoint primitives are nearest, and a plane between them.
-struct SelfGap {
-    vec4 weights;    // of the corners: their weighted sum leads from the first primitive's nearest point to the other's
-    vec3 normal;     // that way, unit length; zero where the two touch
-    float distance;  // m
-    float apart;     // m between two planes with this normal that have the two on either side; not > 0: none found
-    vec4 room;       // m from each corner to the plane in the middle
-    float doubt;     // m: what rounding of coordinates this large leaves in doubt
-};
-
-SHARED float self_limited(float x) { return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x; }
-
-/// a / b, 0 where b is not positive.
-SHARED float self_ratio(float a, float b) {
-    precise float ratio = b > 0.0f ? a / b : 0.0f;
-    return ratio;
-}
-
-/// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
-    precise vec3 ab = b - a;
-    precise vec3 ac = c - a;
-    precise vec3 ap = p - a;
-    precise vec3 bp = p - b;
-    precise vec3 cp = p - c;
-    float d1 = ordered_dot(ab, ap), d2 = ordered_dot(ac, ap);
-    if (d1 <= 0.0f && d2 <= 0.0f) return vec3(1.0f, 0.0f, 0.0f);
-    float d3 = ordered_dot(ab, bp), d4 = ordered_dot(ac, bp);
-    if (d3 >= 0.0f && d4 <= d3) return vec3(0.0f, 1.0f, 0.0f);
-    precise float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
-        precise float length = d1 - d3;
-        precise float v = self_ratio(d1, length);
-        precise float rest = 1.0f - v;
-        return vec3(rest, v, 0.0f);
-    }
-    float d5 = ordered_dot(ab, cp), d6 = ordered_dot(ac, cp);
-    if (d6 >= 0.0f && d5 <= d6) return vec3(0.0f, 0.0f, 1.0f);
-    precise float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
-        precise float length = d2 - d6;
-        precise float w = self_ratio(d2, length);
-        precise float rest = 1.0f - w;
-        return vec3(rest, 0.0f, w);
-    }
-    precise float va = d3 * d6 - d5 * d4;
-    precise float along = d4 - d3;
-    precise float back = d5 - d6;
-    if (va <= 0.0f && along >= 0.0f && back >= 0.0f) {
-        precise float length = along + back;
-        precise float w = self_ratio(along, length);
-        precise float rest = 1.0f - w;
-        return vec3(0.0f, rest, w);
-    }
-    precise float area = (va + vb) + vc;
-    precise float v = self_ratio(vb, area);
-    precise float w = self_ratio(vc, area);
-    precise float u = (1.0f - v) - w;
-    return vec3(u, v, w);
-}
-
-/// Where two edges a-b and c-d are nearest, as shares of their lengths (the same, 5.1.9).
-SHARED vec2 nearest_on_edges(vec3 a, vec3 b, vec3 c, vec3 d) {
-    precise vec3 first = b - a;
-    precise vec3 second = d - c;
-    precise vec3 between = a - c;
-    float aa = ordered_dot(first, first), ee = ordered_dot(second, second), ff = ordered_dot(second, between),
-          cc = ordered_dot(first, between), bb = ordered_dot(first, second);
-    precise float denominator = aa * ee - bb * bb;
-    precise float numerator = bb * ff - cc * ee;
-    float s = self_limited(self_ratio(numerator, denominator));
-    precise float reached = bb * s + ff;
-    float t = self_limited(self_ratio(reached, ee));
-    precise float back = bb * t - cc;
-    s = self_limited(self_ratio(back, aa));
-    return vec2(s, t);
-}
-
-SHARED float self_least(float a, float b) { return b < a ? b : a; }
-SHARED float self_largest(float a, float b) { return b > a ? b : a; }
-
-/// Relative to the first corner, where coordinates are small.
-SHARED SelfCorners self_relative(SelfCorners x) {
-    precise vec3 b = x.b - x.a;
-    precise vec3 c = x.c - x.a;
-    precise vec3 d = x.d - x.a;
-    return SelfCorners(vec3(0.0f, 0.0f, 0.0f), b, c, d);
-}
-
-SHARED vec4 self_weights(bool edges, SelfCorners x) {
-    if (edges) {
-        vec2 at = nearest_on_edges(x.a, x.b, x.c, x.d);
-        precise float first = at.x - 1.0f;
-        precise float second = 1.0f - at.y;
-        return vec4(first, -at.x, second, at.y);
-    }
-    vec3 at = nearest_in_triangle(x.a, x.b, x.c, x.d);
-    return vec4(-1.0f, at.x, at.y, at.z);
-}
-
-SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
-    precise vec3 sum = ((x.a * weights.x + x.b * weights.y) + x.c * weights.z) + x.d * weights.w;
-    return sum;
-}
-
-SHARED float self_largest_coordinate(vec3 x) {
-    return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z));
-}
-
-/// A few roundings of a coordinate.
-SHARED float self_doubt(float coordinate) {
-    precise float doubt = coordinate * 1.0e-6f;
-    return doubt;
-}
-
-SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
-    SelfCorners x = self_relative(corners);
-    vec4 weights = self_weights(edges, x);
-    vec3 across = self_sum(weights, x);
-    precise float distance = sqrt(ordered_dot(across, across));
-    float doubt = self_doubt(
-        self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
-                     self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
-    SelfGap none = SelfGap(weights, vec3(0.0f, 0.0f, 0.0f), distance, 0.0f, vec4(0.0f, 0.0f, 0.0f, 0.0f), doubt);
-    if (!(distance > 1.0e-12f)) return none;
-    precise vec3 normal = across / distance;
-    float b = ordered_dot(normal, x.b), c = ordered_dot(normal, x.c), d = ordered_dot(normal, x.d);
-    float below = edges ? self_largest(0.0f, b) : 0.0f;
-    float above = edges ? self_least(c, d) : self_least(b, self_least(c, d));
-    precise float apart = above - below;
-    precise float middle = (above + below) * 0.5f;
-    precise float room_b = edges ? middle - b : b - middle;
-    precise float room_c = c - middle;
-    precise float room_d = d - middle;
-    return SelfGap(weights, normal, distance, apart, vec4(middle, room_b, room_c, room_d), doubt);
-}
+/// Particles along a side of the lattice whose mean motion is the common one.
+const int self_samples = 6;
 
 /// The thickness that a pair keeps. Primitives that are nearer than two thicknesses in the flat cloth keep half of that
 /// distance: pushed together in its plane the cloth is not stiffer for it. `corners`: columns and rows of the
@@ -169,36 +31,34 @@ SHARED float self_pair_thickness(SelfContactPush push, bool edges, ivec2 a, ivec
         rows = c.y - a.y;
     }
     if (columns > 4 || columns < -4 || rows > 4 || rows < -4) return push.thickness;
-    precise vec3 flat_a = vec3(float(a.x) * push.spacing.x, float(a.y) * push.spacing.y, 0.0f);
-    precise vec3 flat_b = vec3(float(b.x) * push.spacing.x, float(b.y) * push.spacing.y, 0.0f);
-    precise vec3 flat_c = vec3(float(c.x) * push.spacing.x, float(c.y) * push.spacing.y, 0.0f);
-    precise vec3 flat_d = vec3(float(d.x) * push.spacing.x, float(d.y) * push.spacing.y, 0.0f);
-    SelfCorners x = self_relative(SelfCorners(flat_a, flat_b, flat_c, flat_d));
+    precise vec3 liesa = vec3(float(a.x) * push.spacing.x, float(a.y) * push.spacing.y, 0.0f);
+    precise vec3 liesb = vec3(float(b.x) * push.spacing.x, float(b.y) * push.spacing.y, 0.0f);
+    precise vec3 liesc = vec3(float(c.x) * push.spacing.x, float(c.y) * push.spacing.y, 0.0f);
+    precise vec3 liesd = vec3(float(d.x) * push.spacing.x, float(d.y) * push.spacing.y, 0.0f);
+    SelfCorners x = self_relative(SelfCorners(liesa, liesb, liesc, liesd));
     vec3 across = self_sum(self_weights(edges, x), x);
     precise float half_distance = sqrt(ordered_dot(across, across)) * 0.5f;
     return self_least(push.thickness, half_distance);
 }
 
-/// Length, rounded up.
-SHARED float self_motion(vec3 displacement) {
-    precise float motion = sqrt(ordered_dot(displacement, displacement)) * 1.000001f;
-    return motion;
-}
-
-/// Most that a pair's distance changes in a substep before contact corrects it.
-SHARED float self_approach(bool edges, SelfCorners moved) {
-    float a = self_motion(moved.a), b = self_motion(moved.b),
-          last = self_largest(self_motion(moved.c), self_motion(moved.d));
-    precise float approach = edges ? self_largest(a, b) + last : a + self_largest(b, last);
+/// Most that a pair's corners come nearer to each other along its normal in a substep before contact corrects it, all
+/// of their motions or parts of them made.
+SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
+    float a = ordered_dot(gap.normal, motions.a), b = ordered_dot(gap.normal, motions.b),
+          c = ordered_dot(gap.normal, motions.c), d = ordered_dot(gap.normal, motions.d);
+    float first = edges ? self_largest(a, b) : a;
+    float second = edges ? self_least(c, d) : self_least(b, self_least(c, d));
+    precise float approach = (self_largest(first, 0.0f) - self_least(second, 0.0f)) * 1.00001f;
     return approach;
 }
 
-/// Distance within which a pair is listed: it may come nearer than its thickness; or, with what contact may add to
-/// every corner's motion, meet.
-SHARED float self_listing_distance(SelfGap gap, float pair_thickness, float thickness, float approach) {
+/// Whether a pair is listed: it may come nearer than its thickness; or, with what contact may add to every corner's
+/// motion, meet.
+SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float pair_thickness, float thickness) {
     precise float slack = thickness * self_listed_share;
-    precise float listing = (self_largest(pair_thickness, slack) + approach) + gap.doubt;
-    return listing;
+    precise float listing =
+        (self_largest(pair_thickness, slack) + self_approach(edges, gap, motions)) + gap.doubt * 2.0f;
+    return gap.apart < listing;
 }
 
 /// Most that lies between two boxes along an axis, a lower bound of their distance.
@@ -212,38 +72,136 @@ SHARED float self_box_distance(SelfBox a, SelfBox b) {
     return self_largest(self_largest(self_largest(x, back_x), self_largest(y, back_y)), self_largest(z, back_z));
 }
 
-/// Whether two primitives are farther apart than `reach` along an axis.
-SHARED bool self_far(bool edges, SelfCorners x, float reach) {
-    vec3 lower = x.a, upper = x.a, other_lower = x.c, other_upper = x.c;
-    if (edges) {
-        lower = vec3(self_least(x.a.x, x.b.x), self_least(x.a.y, x.b.y), self_least(x.a.z, x.b.z));
-        upper = vec3(self_largest(x.a.x, x.b.x), self_largest(x.a.y, x.b.y), self_largest(x.a.z, x.b.z));
-    } else {
-        other_lower = vec3(self_least(x.b.x, x.c.x), self_least(x.b.y, x.c.y), self_least(x.b.z, x.c.z));
-        other_upper = vec3(self_largest(x.b.x, x.c.x), self_largest(x.b.y, x.c.y), self_largest(x.b.z, x.c.z));
-    }
-    vec3 next_lower =
-        vec3(self_least(other_lower.x, x.d.x), self_least(other_lower.y, x.d.y), self_least(other_lower.z, x.d.z));
-    vec3 next_upper = vec3(self_largest(other_upper.x, x.d.x), self_largest(other_upper.y, x.d.y),
-                           self_largest(other_upper.z, x.d.z));
-    precise vec3 ahead = next_lower - upper;
-    precise vec3 behind = lower - next_upper;
-    return ahead.x > reach || ahead.y > reach || ahead.z > reach || behind.x > reach || behind.y > reach ||
-           behind.z > reach;
-}
-
-/// Within which what is in two boxes may be listed.
-SHARED float self_reach(SelfBox a, SelfBox b, SelfContactPush push) {
+/// Within which what is in two boxes may be listed in this substep: the boxes hold all of its motions.
+SHARED float self_reach(SelfBox a, SelfContactPush push) {
     float doubt = self_doubt(
         self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
                      self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
-    precise float reach = (((a.lower.w + b.lower.w) + push.thickness) + push.least) + doubt;
+    precise float reach = (push.thickness + push.least) + doubt * 4.0f;
     return reach;
 }
 
-/// Whether what is in two boxes may be listed.
-SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push) {
-    return self_box_distance(a, b) <= self_reach(a, b, push);
+/// Whether what is in two boxes may be listed, with `margin` for the substeps to come.
+SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float margin) {
+    precise float reach = self_reach(a, push) + margin;
+    return self_box_distance(a, b) <= reach;
+}
+
+/// Whether candidates have to be searched again: in the frame's first substep, and when the margin may be used up.
+SHARED bool self_searches(SelfContactPush push, float drift, float motion) {
+    precise float used = drift + motion * 2.0f;
+    return push.first != 0 || !(used <= push.margin);
+}
+
+/// Drift after a substep in which no particle moved by more than that.
+SHARED float self_drift(float drift, float moved) {
+    precise float sum = (drift + moved * 2.0f) * 1.000001f;
+    return sum;
+}
+
+/// Sample k of the lattice over the grid.
+SHARED ivec2 self_sample(ivec2 grid, int k) {
+    int column = k % self_samples, row = k / self_samples;
+    return ivec2((2 * column + 1) * (grid.x - 1) / (2 * self_samples), (2 * row + 1) * (grid.y - 1) / (2 * self_samples));
+}
+
+SHARED vec3 self_mean(vec3 sum) {
+    precise vec3 mean = sum / float(self_samples * self_samples);
+    return mean;
+}
+
+/// Whether two cells are the same or neighbours: those are judged by how flat the cloth is about them.
+SHARED bool self_neighbours(ivec2 a, ivec2 b) {
+    int columns = b.x - a.x, rows = b.y - a.y;
+    return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
+}
+
+/// The pairs k of neighbours that a cell stands for, relative to it: first cell xy, second zw. Every pair of a
+/// grid's neighbours is one cell's.
+const int self_neighbour_pairs = 5;
+SHARED ivec4 self_neighbour_pair(int k) {
+    if (k == 0) return ivec4(0, 0, 0, 0);
+    if (k == 1) return ivec4(0, 0, 1, 0);
+    if (k == 2) return ivec4(0, 0, 0, 1);
+    if (k == 3) return ivec4(0, 0, 1, 1);
+    return ivec4(1, 0, 0, 1);
+}
+
+/// Particles of a patch of 2 x 2 cells: its middle, those beside it, those at its corners.
+struct SelfPatch {
+    vec3 middle, left, right, up, down, up_left, up_right, down_left, down_right;
+};
+
+SHARED float self_squared(vec3 x) { return ordered_dot(x, x); }
+
+/// Square of the part of a motion that lies in the plane of a normal.
+SHARED float self_within(vec3 motion, vec3 normal) {
+    precise float across = ordered_dot(motion, normal);
+    precise float within = ordered_dot(motion, motion) - across * across;
+    return within;
+}
+
+/// Largest of those of a patch.
+SHARED float self_moves_within(SelfPatch motions, vec3 normal) {
+    float beside =
+        self_largest(self_largest(self_within(motions.left, normal), self_within(motions.right, normal)),
+                     self_largest(self_within(motions.up, normal), self_within(motions.down, normal)));
+    float corners =
+        self_largest(self_largest(self_within(motions.up_left, normal), self_within(motions.up_right, normal)),
+                     self_largest(self_within(motions.down_left, normal), self_within(motions.down_right, normal)));
+    return self_largest(self_within(motions.middle, normal), self_largest(beside, corners));
+}
+
+/// Square of how far the particles of a patch are off a linear map.
+SHARED float self_off(SelfPatch x, vec3 along, vec3 across) {
+    precise vec3 bent = (x.right + x.left) * 0.5f - x.middle;
+    precise vec3 bent_across = (x.down + x.up) * 0.5f - x.middle;
+    precise vec3 up_left = ((x.up_left - x.middle) + along) + across;
+    precise vec3 up_right = ((x.up_right - x.middle) - along) + across;
+    precise vec3 down_left = ((x.down_left - x.middle) + along) - across;
+    precise vec3 down_right = ((x.down_right - x.middle) - along) - across;
+    float off = self_largest(self_squared(bent), self_squared(bent_across));
+    off = self_largest(off, self_largest(self_squared(up_left), self_squared(up_right)));
+    return self_largest(off, self_largest(self_squared(down_left), self_squared(down_right)));
+}
+
+/// Smaller singular value of a map with these columns, rounded down.
+SHARED float self_singular_value(vec3 first, vec3 second) {
+    precise float mean = (self_squared(first) + self_squared(second)) * 0.5f;
+    precise float half_difference = (self_squared(first) - self_squared(second)) * 0.5f;
+    float mixed = ordered_dot(first, second);
+    precise float spread = sqrt(half_difference * half_difference + mixed * mixed);
+    precise float squared = mean - spread;
+    precise float singular = sqrt(self_largest(squared, 0.0f)) * 0.999f;
+    return singular;
+}
+
+/// Whether nothing of a patch comes near anything else of it with which it shares no corner, whatever part of their
+/// motions the particles make. The cloth there is a linear map but for what its particles are off it, by `off` at most,
+/// and for how they move in its plane: two points `flat` apart at rest are at least s flat - 2 off - 2 within apart,
+/// s the map's smaller singular value. What they move across that plane brings none nearer.
+SHARED bool self_patch_lies_flat(SelfContactPush push, SelfPatch x, SelfPatch motions) {
+    precise vec3 along = (x.right - x.left) * 0.5f;
+    precise vec3 across = (x.down - x.up) * 0.5f;
+    precise vec3 first = along / push.spacing.x;
+    precise vec3 second = across / push.spacing.y;
+    float singular = self_singular_value(first, second);
+    // Pairs farther apart keep more, but no more than half of their distance.
+    if (!(singular > 0.5f)) return false;
+    vec3 normal = ordered_cross(first, second);
+    precise float area = sqrt(self_squared(normal));
+    precise vec3 unit = normal / area;
+    float doubt = self_doubt(self_largest(
+        self_largest(self_largest_coordinate(x.middle), self_largest_coordinate(x.up_left)),
+        self_largest(self_largest_coordinate(x.down_right),
+                     self_largest(self_largest_coordinate(x.up_right), self_largest_coordinate(x.down_left)))));
+    precise float within = sqrt(self_largest(self_moves_within(motions, unit), 0.0f));
+    precise float slack = push.thickness * self_listed_share;
+    precise float half_flat = push.least_flat * 0.5f;
+    float listed = self_largest(self_least(push.thickness, half_flat), slack);
+    precise float distance = singular * push.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
+    precise float needed = ((listed + within * 2.002f) + doubt * 4.0f) + push.least;
+    return distance > needed;
 }
 
 SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
@@ -253,8 +211,11 @@ SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
                         self_largest(a.upper.z, b.upper.z), 0.0f));
 }
 
-SHARED SelfBox self_point_box(vec3 at, vec3 displacement) {
-    return SelfBox(vec4(at.x, at.y, at.z, self_motion(displacement)), vec4(at.x, at.y, at.z, 0.0f));
+/// Of a particle: from where it is to where it is going, against the common motion.
+SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
+    precise vec3 end = at + motion;
+    return SelfBox(vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), self_motion(motion)),
+                   vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
 /// What pushes a pair's corners: corner i, of inverse mass w_i and weight g_i, moves by w_i g_i times this. Zero where
@@ -297,48 +258,76 @@ SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {
     precise float weight = float(sum.w) / self_weight_units;
     precise float unit = thickness / self_correction_units / self_largest(weight, 1.0f);
     precise vec3 correction = vec3(float(sum.x), float(sum.y), float(sum.z)) * unit;
-    precise float length = sqrt(ordered_dot(correction, correction));
-    precise float most = thickness * self_correction_share;
-    precise float share = length > most ? most / length : 1.0f;
-    precise vec3 corrected = displacement + correction * share;
+    precise vec3 corrected = displacement + correction;
     return corrected;
 }
 
-/// Most that a particle may move in a substep: what it would before contact, and what contact may add.
-SHARED float self_limit(vec3 displacement, float thickness) {
-    precise float limit = self_motion(displacement) + thickness * self_correction_share;
+/// A displacement as it is measured: against what all particles have in common.
+SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
+    precise vec3 motion = displacement - carried;
+    return motion;
+}
+
+/// Most that contact, and colliders after it, may change a particle's motion in a substep: what the list of pairs
+/// reckons with.
+SHARED float self_limit(float thickness) {
+    precise float limit = thickness * self_correction_share;
     return limit;
 }
 
-SHARED bool self_exceeds(vec3 displacement, float limit) {
-    precise float length = sqrt(ordered_dot(displacement, displacement));
-    return length > limit;
+SHARED bool self_exceeds(vec3 displacement, vec3 before, float thickness) {
+    precise vec3 change = displacement - before;
+    precise float length = sqrt(ordered_dot(change, change));
+    return length > self_limit(thickness) * 1.00001f;
 }
 
-/// What colliders made of a corrected displacement, no longer than the limit that the list of pairs reckons with.
-SHARED vec3 self_bounded(vec3 displacement, float limit) {
-    precise float length = sqrt(ordered_dot(displacement, displacement));
-    precise float share = length > limit ? limit / length : 1.0f;
-    precise vec3 bounded = displacement * share;
+/// What contact and colliders made of the displacement before them, changed by no more than the limit.
+SHARED vec3 self_bounded(vec3 displacement, vec3 before, float thickness) {
+    if (!self_exceeds(displacement, before, thickness)) return displacement;
+    precise vec3 change = displacement - before;
+    precise float length = sqrt(ordered_dot(change, change));
+    precise float share = self_limit(thickness) / length;
+    precise vec3 bounded = before + change * share;
     return bounded;
 }
 
-/// Share of its displacement that a pair lets a corner make, 1: all of it. `room`: from the corner to the plane
-/// between the two, `side`: 1 where it lies before that plane along the normal, -1 beyond; `share` of the room that it
-/// may use.
-SHARED float self_share(SelfGap gap, float room, float side, vec3 displacement, float share, float least) {
-    precise float toward = ordered_dot(gap.normal, displacement) * side;
-    float doubt = self_largest(least, gap.doubt);
-    precise float nearly = doubt * 0.25f;
-    if (!(gap.apart > nearly)) return ordered_dot(displacement, displacement) > 0.0f ? 0.0f : 1.0f;
-    precise float allowed = gap.apart > doubt ? room * share : 0.0f;
-    if (!(toward > allowed)) return 1.0f;
-    precise float part = allowed / toward;
-    return part;
+/// Where a pair's corners have come along its normal, m, when each makes `shares` of `along`, its motion that way.
+SHARED vec4 self_ends(SelfGap gap, vec4 along, vec4 shares) {
+    precise vec4 ends = vec4(gap.height.x + along.x * shares.x, gap.height.y + along.y * shares.y,
+                             gap.height.z + along.z * shares.z, gap.height.w + along.w * shares.w);
+    return ends;
 }
 
-SHARED vec3 self_truncated(vec3 displacement, float share) {
-    precise vec3 truncated = displacement * share;
+/// The plane halfway between the two there, m along the normal.
+SHARED float self_middle(bool edges, vec4 ends) {
+    float below = edges ? self_largest(ends.x, ends.y) : ends.x;
+    float above = edges ? self_least(ends.z, ends.w) : self_least(ends.y, self_least(ends.z, ends.w));
+    precise float middle = (below + above) * 0.5f;
+    return middle;
+}
+
+/// Share of its motion that a pair lets a corner make, at least `share`, which it makes already; `end`: where that took
+/// it; `side`: 1 where it lies before the plane, -1 beyond. The pair stays apart by what the two sides keep, whatever
+/// the shares of all corners between those given and those returned: both ends of every motion are on their side of a
+/// plane that moves evenly.
+SHARED float self_share(SelfGap gap, float middle, float end, float side, float along, float share, bool held,
+                        float least) {
+    float doubt = self_largest(least, gap.doubt);
+    precise float nearly = doubt * 0.25f;
+    if (!(gap.apart > nearly)) return along != 0.0f ? share : 1.0f;
+    precise float kept = gap.apart * (held ? self_held_kept : self_room_kept);
+    precise float room = (middle - end) * side - kept;
+    float allowed = gap.apart > doubt ? self_largest(room, 0.0f) : 0.0f;
+    precise float left = 1.0f - share;
+    precise float wanted = left * (along * side);
+    if (!(wanted > allowed)) return 1.0f;
+    precise float part = share + left * (allowed / wanted);
+    return self_limited(part);
+}
+
+/// A motion made in part.
+SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {
+    precise vec3 truncated = carried + motion * share;
     return truncated;
 }
 
@@ -355,6 +344,12 @@ SHARED int self_listed(uint pair_count, int pair_room) {
 /// A corner in a pair: row and column; self_edge_pair may be set beside them.
 SHARED uint self_corner(ivec2 texel) { return (uint(texel.y) << 16) | uint(texel.x); }
 SHARED ivec2 self_texel(uint corner) { return ivec2(int(corner & 0xffffu), int((corner & 0x7fff0000u) >> 16)); }
+
+/// Whether the two primitives of a pair have a corner in common.
+SHARED bool self_shares_corner(bool edges, uvec4 pair) {
+    bool one = pair.x == pair.z || pair.x == pair.w || pair.y == pair.z || pair.y == pair.w;
+    return edges ? one : pair.x == pair.y || pair.x == pair.z || pair.x == pair.w;
+}
 
 /// Boxes along columns and rows of a level of the tree, and all of them.
 SHARED ivec2 self_tree_size(ivec2 grid, int level) {

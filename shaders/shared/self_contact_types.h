@@ -22,27 +22,45 @@ struct SelfBox {
     vec4 upper;  // xyz m; w unused
 };
 
+/// Times that pairs push each other in a substep.
+const int self_iterations = 3;
+/// Rounds in which motions grow from none to as much as crosses nothing.
+const int self_rounds = 3;
+
 struct SelfContactPush {
     ivec2 grid;       // columns, rows
     vec2 spacing;     // m along columns, rows, at rest
     float thickness;  // m kept between layers
     float friction;
-    float recovery;  // m that a substep gives back of a thickness that is missing
-    float least;     // m: distances that rounding leaves in doubt
-    int pair_room;   // pairs that the list can hold
-    int level;       // boxes: the first that this pass makes
-    int last;        // boxes: the last
-    int top;         // level of the root
-    int first;       // 1: the frame's first substep
+    float recovery;    // m that a substep gives back of a thickness that is missing
+    float least;       // m: distances that rounding leaves in doubt
+    float least_flat;  // m: least distance of two primitives of the flat cloth that share no corner
+    float margin;      // m: by how much more than it needs to the search for cells looks
+    int pair_room;     // pairs that the list can hold
+    int cell_room;     // likewise of pairs of cells, and of candidates
+    int level;         // boxes: the first that this pass makes
+    int last;          // boxes: the last
+    int top;           // level of the root
+    int first;         // 1: the frame's first substep
+    int round;         // contact, push, room: which
     int unused;
 };
 
-/// What a cloth's self-contact was in the substeps of a frame so far.
+/// What a cloth's self-contact was in the substeps of a frame so far. m.
 struct SelfRecord {
-    uint pair_count;  // of this substep, those that found no room included
-    uint most_pairs;
-    uint unproved;   // motions of held particles that were not proved to cross nothing
-    uint truncated;  // motions of free particles that were cut short
+    vec4 carried;          // motion that all particles are measured against in this substep; w unused
+    uint pair_count;       // of this substep, those that found no room included
+    uint most_pairs;       // of the frame
+    uint unproved;         // motions of held particles that were not proved to cross nothing
+    uint truncated;        // motions of free particles that were cut short
+    uint cell_count;       // pairs of cells of this substep, those that found no room included
+    uint candidate_count;  // pairs of cells that may meet in it or later, likewise
+    uint most_cells;       // the larger of the two, of the frame
+    uint search;           // 1: candidates are searched in this substep
+    uint moved;            // bits: most that a particle moved in the substep before
+    float drift;           // twice what was moved since the last search, summed by substep
+    uint short_rounds;     // bit k: round k left a motion short
+    uint block_count;      // pairs of blocks of cells that the last search found, likewise
 };
 
 #ifdef __cplusplus

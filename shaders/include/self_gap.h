@@ -1,0 +1,151 @@
+// Distance of two primitives of a cloth, a particle and a triangle or two edges, and a plane between them.
+#ifndef DRAPE_SELF_GAP_H
+#define DRAPE_SELF_GAP_H
+
+#include "include/vector.h"
+
+/// Four corners of a pair: particle and triangle, or the ends of one edge and of the other.
+struct SelfCorners {
+    vec3 a, b, c, d;
+};
+
+/// Where two disjoint primitives are nearest, and a plane between them.
+struct SelfGap {
+    vec4 weights;    // of the corners: their weighted sum leads from the first primitive's nearest point to the other's
+    vec3 normal;     // that way, unit length; zero where the two touch
+    float distance;  // m
+    float apart;     // m between two planes with this normal that have the two on either side; not > 0: none found
+    vec4 height;     // m of the corners along the normal, from the first one on
+    float doubt;     // m: what rounding of coordinates this large leaves in doubt
+};
+
+SHARED float self_limited(float x) { return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x; }
+
+/// a / b, 0 where b is not positive.
+SHARED float self_ratio(float a, float b) {
+    precise float ratio = b > 0.0f ? a / b : 0.0f;
+    return ratio;
+}
+
+/// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
+SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 ap = p - a;
+    precise vec3 bp = p - b;
+    precise vec3 cp = p - c;
+    float d1 = ordered_dot(ab, ap), d2 = ordered_dot(ac, ap);
+    if (d1 <= 0.0f && d2 <= 0.0f) return vec3(1.0f, 0.0f, 0.0f);
+    float d3 = ordered_dot(ab, bp), d4 = ordered_dot(ac, bp);
+    if (d3 >= 0.0f && d4 <= d3) return vec3(0.0f, 1.0f, 0.0f);
+    precise float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
+        precise float length = d1 - d3;
+        precise float v = self_ratio(d1, length);
+        precise float rest = 1.0f - v;
+        return vec3(rest, v, 0.0f);
+    }
+    float d5 = ordered_dot(ab, cp), d6 = ordered_dot(ac, cp);
+    if (d6 >= 0.0f && d5 <= d6) return vec3(0.0f, 0.0f, 1.0f);
+    precise float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
+        precise float length = d2 - d6;
+        precise float w = self_ratio(d2, length);
+        precise float rest = 1.0f - w;
+        return vec3(rest, 0.0f, w);
+    }
+    precise float va = d3 * d6 - d5 * d4;
+    precise float along = d4 - d3;
+    precise float back = d5 - d6;
+    if (va <= 0.0f && along >= 0.0f && back >= 0.0f) {
+        precise float length = along + back;
+        precise float w = self_ratio(along, length);
+        precise float rest = 1.0f - w;
+        return vec3(0.0f, rest, w);
+    }
+    precise float area = (va + vb) + vc;
+    precise float v = self_ratio(vb, area);
+    precise float w = self_ratio(vc, area);
+    precise float u = (1.0f - v) - w;
+    return vec3(u, v, w);
+}
+
+/// Where two edges a-b and c-d are nearest, as shares of their lengths (the same, 5.1.9).
+SHARED vec2 nearest_on_edges(vec3 a, vec3 b, vec3 c, vec3 d) {
+    precise vec3 first = b - a;
+    precise vec3 second = d - c;
+    precise vec3 between = a - c;
+    float aa = ordered_dot(first, first), ee = ordered_dot(second, second), ff = ordered_dot(second, between),
+          cc = ordered_dot(first, between), bb = ordered_dot(first, second);
+    precise float denominator = aa * ee - bb * bb;
+    precise float numerator = bb * ff - cc * ee;
+    float s = self_limited(self_ratio(numerator, denominator));
+    precise float reached = bb * s + ff;
+    float t = self_limited(self_ratio(reached, ee));
+    precise float back = bb * t - cc;
+    s = self_limited(self_ratio(back, aa));
+    return vec2(s, t);
+}
+
+SHARED float self_least(float a, float b) { return b < a ? b : a; }
+SHARED float self_largest(float a, float b) { return b > a ? b : a; }
+
+/// Relative to the first corner, where coordinates are small.
+SHARED SelfCorners self_relative(SelfCorners x) {
+    precise vec3 b = x.b - x.a;
+    precise vec3 c = x.c - x.a;
+    precise vec3 d = x.d - x.a;
+    return SelfCorners(vec3(0.0f, 0.0f, 0.0f), b, c, d);
+}
+
+SHARED vec4 self_weights(bool edges, SelfCorners x) {
+    if (edges) {
+        vec2 at = nearest_on_edges(x.a, x.b, x.c, x.d);
+        precise float first = at.x - 1.0f;
+        precise float second = 1.0f - at.y;
+        return vec4(first, -at.x, second, at.y);
+    }
+    vec3 at = nearest_in_triangle(x.a, x.b, x.c, x.d);
+    return vec4(-1.0f, at.x, at.y, at.z);
+}
+
+SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
+    precise vec3 sum = ((x.a * weights.x + x.b * weights.y) + x.c * weights.z) + x.d * weights.w;
+    return sum;
+}
+
+SHARED float self_largest_coordinate(vec3 x) {
+    return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z));
+}
+
+/// A few roundings of a coordinate.
+SHARED float self_doubt(float coordinate) {
+    precise float doubt = coordinate * 1.0e-6f;
+    return doubt;
+}
+
+SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
+    SelfCorners x = self_relative(corners);
+    vec4 weights = self_weights(edges, x);
+    vec3 across = self_sum(weights, x);
+    precise float distance = sqrt(ordered_dot(across, across));
+    float doubt = self_doubt(
+        self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
+                     self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
+    SelfGap none = SelfGap(weights, vec3(0.0f, 0.0f, 0.0f), distance, 0.0f, vec4(0.0f, 0.0f, 0.0f, 0.0f), doubt);
+    if (!(distance > 1.0e-12f)) return none;
+    precise vec3 normal = across / distance;
+    float b = ordered_dot(normal, x.b), c = ordered_dot(normal, x.c), d = ordered_dot(normal, x.d);
+    float below = edges ? self_largest(0.0f, b) : 0.0f;
+    float above = edges ? self_least(c, d) : self_least(b, self_least(c, d));
+    precise float apart = above - below;
+    return SelfGap(weights, normal, distance, apart, vec4(0.0f, b, c, d), doubt);
+}
+
+/// Length, rounded up.
+SHARED float self_motion(vec3 displacement) {
+    precise float motion = sqrt(ordered_dot(displacement, displacement)) * 1.000001f;
+    return motion;
+}
+
+#endif

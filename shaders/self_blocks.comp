@@ -1,0 +1,58 @@
+// Where the margin of the last search is used up: lists the pairs of blocks of 2 x 2 cells that this substep or one to
+// come may bring together. Every block goes through the tree of boxes for others near its own, from its own on, so that
+// no two are met twice. The list has no order, and what is made of it must not mind.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfContactPush push; };
+layout(set = 0, binding = 0, std430) readonly buffer Boxes { SelfBox boxes[]; };
+layout(set = 0, binding = 1, std430) buffer Blocks { ivec2 blocks[]; };
+layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };
+
+void main() {
+    ivec2 across = self_tree_size(push.grid, 1);
+    int index = int(gl_GlobalInvocationID.x), begin = push.grid.x * push.grid.y;
+    bool searches = index < across.x * across.y && record[0].search != 0u;
+    ivec2 own = ivec2(index % across.x, index / across.x), node = ivec2(0, 0);
+    int level = searches ? push.top : push.top + 1;
+    int first = 0, visits = 0;  // first: box of the level
+    for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
+    SelfBox box = boxes[begin + min(index, across.x * across.y - 1)];
+    bool entered = true;
+    while (level <= push.top) {
+        ivec2 size = self_tree_size(push.grid, level);
+        int place = first + node.y * size.x + node.x;
+        bool open = entered && ((node.y + 1) << (level - 1)) > own.y && (level > 1 || place > begin + index) &&
+                    self_boxes_meet(box, boxes[place], push, push.margin);
+        ++visits;
+        if (visits > self_visit_limit) {
+            atomicAdd(record[0].block_count, uint(push.cell_room));
+            level = push.top;
+            open = false;
+            entered = false;
+        }
+        for (int found = open && level == 1 ? 1 : 0; found > 0; --found) {
+            uint at = atomicAdd(record[0].block_count, 1u);
+            if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
+        }
+        if (open && level > 1) {
+            --level;
+            first -= self_tree_count(push.grid, level);
+            node = ivec2(2 * node.x, 2 * node.y);
+            continue;
+        }
+        bool right = (node.x & 1) == 0 && node.x + 1 < size.x;
+        bool below = (node.y & 1) == 0 && node.y + 1 < size.y;
+        entered = level < push.top && (right || below);
+        if (entered) {
+            node = right ? ivec2(node.x + 1, node.y) : ivec2(node.x & ~1, node.y + 1);
+        } else {
+            first += size.x * size.y;
+            ++level;
+            node = ivec2(node.x >> 1, node.y >> 1);
+        }
+    }
+}

@@ -1,0 +1,29 @@
+// What a substep's self-contact begins with: the motion that all particles are measured against, the mean of those of a
+// few, and records for the passes to come. One invocation works.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfContactPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 1, std430) buffer Record { SelfRecord record[]; };
+
+void main() {
+    int count = gl_GlobalInvocationID.x == 0u ? self_samples * self_samples : 0;
+    precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    for (int k = 0; k < count; ++k) sum = sum + imageLoad(displacement, self_sample(push.grid, k)).xyz;
+    if (count == 0) return;
+    record[0].carried = vec4(self_mean(sum), 0.0f);
+    record[0].pair_count = 0u;
+    record[0].cell_count = 0u;
+    record[0].short_rounds = 0u;
+    record[0].drift = self_drift(record[0].drift, uintBitsToFloat(record[0].moved));
+    record[0].moved = 0u;
+    if (push.first == 0) return;
+    record[0].most_pairs = 0u;
+    record[0].most_cells = 0u;
+    record[0].unproved = 0u;
+    record[0].truncated = 0u;
+}
