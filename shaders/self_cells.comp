@@ -20,23 +20,41 @@ ivec2 cell_of(int block, int k) {
 bool inside(ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; }
 int index_of(ivec2 cell) { return min(cell.y, push.grid.y - 1) * push.grid.x + min(cell.x, push.grid.x - 1); }
 
+/// Cells of a block and what they are in.
+struct Block {
+    ivec2 at;
+    SelfBox box0, box1, box2, box3;
+};
+
+Block block_of(int block) {
+    return Block(cell_of(block, 0), boxes[index_of(cell_of(block, 0))], boxes[index_of(cell_of(block, 1))],
+                 boxes[index_of(cell_of(block, 2))], boxes[index_of(cell_of(block, 3))]);
+}
+
+/// Bits of the cells of a block that one may come near.
+uint near(SelfBox box, Block other) {
+    return (self_boxes_meet(box, other.box0, push, push.margin) ? 1u : 0u) |
+           (self_boxes_meet(box, other.box1, push, push.margin) ? 2u : 0u) |
+           (self_boxes_meet(box, other.box2, push, push.margin) ? 4u : 0u) |
+           (self_boxes_meet(box, other.box3, push, push.margin) ? 8u : 0u);
+}
+
 void main() {
     int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    int count = record[0].search != 0u ? 4 * self_listed(record[0].block_count, push.cell_room) : 0;
+    int count = record[0].search != 0u ? self_listed(record[0].block_count, push.cell_room) : 0;
     for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
-        ivec2 pair = blocks[i >> 2];
-        ivec2 a = cell_of(pair.x, i & 3);
-        int first = index_of(a);
-        SelfBox box = boxes[first];
-        for (int k = 0; k < 4; ++k) {
-            ivec2 b = cell_of(pair.y, k);
-            int second = index_of(b);
-            int lower = min(first, second), upper = max(first, second);
-            bool may = inside(a) && inside(b) && !self_neighbours(a, b) &&
-                       self_boxes_meet(box, boxes[second], push, push.margin);
-            for (int found = may ? 1 : 0; found > 0; --found) {
+        ivec2 pair = blocks[i];
+        Block one = block_of(pair.x), other = block_of(pair.y);
+        uint found = near(one.box0, other) | (near(one.box1, other) << 4) | (near(one.box2, other) << 8) |
+                     (near(one.box3, other) << 12);
+        for (; found != 0u; found &= found - 1u) {
+            int k = findLSB(found);
+            ivec2 a = one.at + ivec2((k >> 2) & 1, k >> 3), b = other.at + ivec2(k & 1, (k >> 1) & 1);
+            int first = index_of(a), second = index_of(b);
+            int listed = inside(a) && inside(b) && !self_neighbours(a, b) ? 1 : 0;
+            for (; listed > 0; --listed) {
                 uint at = atomicAdd(record[0].candidate_count, 1u);
-                if (at < uint(push.cell_room)) candidates[at] = ivec2(lower, upper);
+                if (at < uint(push.cell_room)) candidates[at] = ivec2(min(first, second), max(first, second));
             }
         }
     }

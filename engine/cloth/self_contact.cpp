@@ -8,8 +8,9 @@ namespace drape {
 
 namespace {
 
-/// In grid spacings: cells of flat cloth that are no neighbours are two spacings apart.
-constexpr double search_margin = 0.5;
+/// m, by how much more than it needs to the search for cells looks. Cells of flat cloth that are no neighbours are a
+/// spacing apart, and shall not be found.
+double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
 int top_level(glsl::ivec2 grid) {
     int level = 0;
@@ -38,7 +39,7 @@ glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, cons
     // A corner and the diagonal beside it.
     push.least_flat = static_cast<float>(geometry.spacing[0] * geometry.spacing[1] /
                                          std::hypot(geometry.spacing[0], geometry.spacing[1]));
-    push.margin = static_cast<float>(search_margin * spacing);
+    push.margin = static_cast<float>(search_margin(spacing, thickness));
     push.pair_room = count * static_cast<int>(self_pairs_per_particle);
     push.cell_room = count * static_cast<int>(self_cells_per_particle);
     push.top = top_level(grid);

@@ -9,6 +9,7 @@
 #include "frame_copy.h"
 #include "frame_loop.h"
 #include "reference/twin_loop.h"
+#include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -105,6 +106,13 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
     SceneDescription scene = automatic(everything(), 12);
     scene.solver.tolerance = 0.004;
     scene.solver.tolerance_motion = 0.5;
+    EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
+}
+
+/// Folds on the ground; full lists are one more reason to try again, and the twin knows it.
+TEST(ClosedLoop, WithClothThatMeetsItself) {
+    SceneDescription scene = automatic(test::fold(15, 0.5, SolverMethod::line, 1), 20);
+    scene.cloths[0].velocity = {0, -4, 0};
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
