@@ -286,6 +286,8 @@ TEST(SceneSchema, StatesTheLimitsOfTheReader) {
             const bool is_array = properties[key].isMember("items");
             const std::string path = "." + key + (is_array ? "[1]" : "");
             for (const Probe& probe : probes_of(is_array ? properties[key]["items"] : properties[key])) {
+                // How thick layers may be depends on the grid.
+                if (probe.is_allowed && path == ".thickness" && object->name == "self_collision") continue;
                 const bool is_reported = error_pointers(object->name, path, probe.value)
                                              .contains(pointer_of(places.at(object->name) + path));
                 EXPECT_EQ(is_reported, !probe.is_allowed) << object->name << path << " = " << written(probe.value);
