@@ -74,9 +74,8 @@ SHARED float self_box_distance(SelfBox a, SelfBox b) {
 
 /// Within which what is in two boxes may be listed in this substep: the boxes hold all of its motions.
 SHARED float self_reach(SelfBox a, SelfContactPush push) {
-    float doubt = self_doubt(
-        self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
-                     self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
+    float doubt = self_doubt(self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
+                                          self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
     precise float reach = (push.thickness + push.least) + doubt * 4.0f;
     return reach;
 }
@@ -102,7 +101,8 @@ SHARED float self_drift(float drift, float moved) {
 /// Sample k of the lattice over the grid.
 SHARED ivec2 self_sample(ivec2 grid, int k) {
     int column = k % self_samples, row = k / self_samples;
-    return ivec2((2 * column + 1) * (grid.x - 1) / (2 * self_samples), (2 * row + 1) * (grid.y - 1) / (2 * self_samples));
+    return ivec2((2 * column + 1) * (grid.x - 1) / (2 * self_samples),
+                 (2 * row + 1) * (grid.y - 1) / (2 * self_samples));
 }
 
 SHARED vec3 self_mean(vec3 sum) {
@@ -143,9 +143,8 @@ SHARED float self_within(vec3 motion, vec3 normal) {
 
 /// Largest of those of a patch.
 SHARED float self_moves_within(SelfPatch motions, vec3 normal) {
-    float beside =
-        self_largest(self_largest(self_within(motions.left, normal), self_within(motions.right, normal)),
-                     self_largest(self_within(motions.up, normal), self_within(motions.down, normal)));
+    float beside = self_largest(self_largest(self_within(motions.left, normal), self_within(motions.right, normal)),
+                                self_largest(self_within(motions.up, normal), self_within(motions.down, normal)));
     float corners =
         self_largest(self_largest(self_within(motions.up_left, normal), self_within(motions.up_right, normal)),
                      self_largest(self_within(motions.down_left, normal), self_within(motions.down_right, normal)));

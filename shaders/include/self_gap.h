@@ -114,9 +114,7 @@ SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
     return sum;
 }
 
-SHARED float self_largest_coordinate(vec3 x) {
-    return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z));
-}
+SHARED float self_largest_coordinate(vec3 x) { return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z)); }
 
 /// A few roundings of a coordinate.
 SHARED float self_doubt(float coordinate) {
@@ -129,9 +127,9 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     vec4 weights = self_weights(edges, x);
     vec3 across = self_sum(weights, x);
     precise float distance = sqrt(ordered_dot(across, across));
-    float doubt = self_doubt(
-        self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
-                     self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
+    float doubt =
+        self_doubt(self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
+                                self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
     SelfGap none = SelfGap(weights, vec3(0.0f, 0.0f, 0.0f), distance, 0.0f, vec4(0.0f, 0.0f, 0.0f, 0.0f), doubt);
     if (!(distance > 1.0e-12f)) return none;
     precise vec3 normal = across / distance;
