@@ -1,5 +1,5 @@
 // What a substep's self-contact begins with: the motion that all particles are measured against, the mean of those of a
-// few, and records for the passes to come. One invocation works.
+// few or, where some are always held, none, and records for the passes to come. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -11,10 +11,10 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 1, std430) buffer Record { SelfRecord record[]; };
 
 void main() {
-    int count = gl_GlobalInvocationID.x == 0u ? self_samples * self_samples : 0;
+    int count = push.held == 0 && gl_GlobalInvocationID.x == 0u ? self_samples * self_samples : 0;
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < count; ++k) sum = sum + imageLoad(displacement, self_sample(push.grid, k)).xyz;
-    if (count == 0) return;
+    if (gl_GlobalInvocationID.x > 0u) return;
     record[0].carried = vec4(self_mean(sum), 0.0f);
     record[0].pair_count = 0u;
     record[0].cell_count = 0u;

@@ -43,6 +43,8 @@ glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, cons
     push.pair_room = count * static_cast<int>(self_pairs_per_particle);
     push.cell_room = count * static_cast<int>(self_cells_per_particle);
     push.top = top_level(grid);
+    // What they are pressed against must not seem to move.
+    push.held = std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; }) ? 1 : 0;
     return push;
 }
 

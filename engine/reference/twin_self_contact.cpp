@@ -116,7 +116,7 @@ void Twin::self_common(const ClothModel& model, TwinCloth& state, const Step& st
     SelfRecord& record = state.self.record;
     if (push.first != 0) record = {};
     vec3 sum{};
-    for (int k = 0; k < self_samples * self_samples; ++k) {
+    for (int k = 0; push.held == 0 && k < self_samples * self_samples; ++k) {
         const ivec2 sample = self_sample(push.grid, k);
         sum = sum + xyz(state[Field::displacement][at(model.grid, sample)]);
     }

@@ -43,7 +43,7 @@ struct SelfContactPush {
     int top;           // level of the root
     int first;         // 1: the frame's first substep
     int round;         // contact, push, room: which
-    int unused;
+    int held;          // 1: some particles are always held, so that nothing is carried along with all
 };
 
 /// What a cloth's self-contact was in the substeps of a frame so far. m.

@@ -123,8 +123,7 @@ TEST(WatchTest, WhatStartsStrainedHasSettledWhenTheSceneEnds) {
     unsettled.largest_speed = 1;
     unsettled.stretch_error_max = 0.07;
     EXPECT_THAT(said(strained, 93, unsettled), IsEmpty());
-    EXPECT_THAT(said(strained, 94, unsettled),
-                HasSubstr("is 0.07 of its length (bound 0.06): what the cloth started"));
+    EXPECT_THAT(said(strained, 94, unsettled), HasSubstr("is 0.07 of its length (bound 0.06): what the cloth started"));
     EXPECT_THAT(said(strained, 99, unsettled), HasSubstr("has not settled when the scene ends"));
     unsettled.stretch_error_max = 0.05;
     EXPECT_THAT(said(strained, 99, unsettled), IsEmpty());

@@ -113,7 +113,7 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
 TEST(ClosedLoop, WithClothThatMeetsItself) {
     SceneDescription scene = automatic(test::fold(15, 0.5, SolverMethod::line, 1), 20);
     scene.cloths[0].velocity = {0, -4, 0};
-    scene.solver.tolerance_motion = 0.05;
+    scene.solver.tolerance = 0.0005;
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 

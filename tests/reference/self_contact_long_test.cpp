@@ -39,7 +39,7 @@ TEST(SelfContactLongTest, Fold) { expect_never_crossed(test::fold(33, 0.5, Solve
 TEST(SelfContactLongTest, ThinFold) {
     expect_never_crossed(test::fold(25, 0.1, SolverMethod::explicit_steps, 80), 150);
 }
-TEST(SelfContactLongTest, Twist) { expect_never_crossed(test::twist(25, 0.4, SolverMethod::line, 40, 2.5, 2.5), 240); }
+TEST(SelfContactLongTest, Twist) { expect_never_crossed(test::twist(25, 0.4, SolverMethod::line, 40, 1.5, 2), 240); }
 
 /// The bars cannot be stopped, and a rope that is wound tight cannot let them through.
 TEST(SelfContactLongTest, WhatIsWoundTooFarIsNotCertified) {
