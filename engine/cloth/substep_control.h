@@ -41,8 +41,10 @@ class SubstepControl {
     SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least, std::uint32_t probe_length);
 
     /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: the scene
-    /// tells of something in the first of them (frame_judgement.h), so it begins finer, with a probe.
+    /// tells of something in the first of them (drive.h), so it begins finer, with a probe.
     const Segment& begin(std::uint32_t room, bool eventful);
+    /// `unpredictable`: kept, though the motion's error is above its limit, since more substeps do not reduce it: the
+    /// cloth crumples, and neighbouring motions part whatever is done.
     enum class Verdict { keep, unpredictable, again, give_up };
     /// Of the attempt that `segment` says; `again`: with what `segment` says now.
     Verdict judge(const Judgement& judgement);
