@@ -32,7 +32,8 @@ void main() {
     bool cut = share < 1.0f || (!held && self_exceeds(displacement.xyz, first, push.thickness));
     vec3 bounded = held ? displacement.xyz : self_bounded(displacement.xyz, first, push.thickness);
     vec3 moved = self_relative_motion(bounded, carried);
-    vec3 made = held ? moved : moved * share;
+    precise vec3 part = moved * share;
+    vec3 made = held ? moved : part;
     uint motion = floatBitsToUint(self_motion(made));
     // Most that come here find one that moved farther.
     for (int go = motion > record[0].moved ? 1 : 0; go > 0; --go) atomicMax(record[0].moved, motion);

@@ -277,7 +277,8 @@ SHARED float self_limit(float thickness) {
 SHARED bool self_exceeds(vec3 displacement, vec3 before, float thickness) {
     precise vec3 change = displacement - before;
     precise float length = sqrt(ordered_dot(change, change));
-    return length > self_limit(thickness) * 1.00001f;
+    precise float limit = self_limit(thickness) * 1.00001f;
+    return length > limit;
 }
 
 /// What contact and colliders made of the displacement before them, changed by no more than the limit.

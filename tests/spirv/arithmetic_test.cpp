@@ -5,6 +5,7 @@
 #include <spirv_cross/GLSL.std.450.h>
 #include <spirv_cross/spirv.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ bool is_driver_rounded(std::uint32_t opcode) {
            opcode == SpvOpVectorTimesMatrix || opcode == SpvOpMatrixTimesMatrix || opcode == SpvOpOuterProduct;
 }
 
+/// Of GLSL.std.450: IEEE roots and signs, and functions of integers.
+bool is_exact(std::uint32_t function) {
+    constexpr GLSLstd450 exact[] = {GLSLstd450Sqrt, GLSLstd450FAbs, GLSLstd450UMin,    GLSLstd450SMin,
+                                    GLSLstd450UMax, GLSLstd450SMax, GLSLstd450FindILsb};
+    return std::ranges::find(exact, function) != std::end(exact);
+}
+
 spv_result_t collect(void* user, const spv_parsed_instruction_t* instruction) {
     auto& found = *static_cast<Arithmetic*>(user);
     const std::uint32_t opcode = instruction->opcode;
@@ -39,8 +47,7 @@ spv_result_t collect(void* user, const spv_parsed_instruction_t* instruction) {
     if (is_driver_rounded(opcode)) found.forbidden.push_back("opcode " + std::to_string(opcode));
     if (opcode == SpvOpExtInst) {
         const std::uint32_t function = instruction->words[4];
-        if (function != GLSLstd450Sqrt && function != GLSLstd450FAbs)
-            found.forbidden.push_back("GLSL.std.450 function " + std::to_string(function));
+        if (!is_exact(function)) found.forbidden.push_back("GLSL.std.450 function " + std::to_string(function));
     }
     return SPV_SUCCESS;
 }
