@@ -154,7 +154,7 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double speed = given + drives_[index].speed[frame] + recoil;
     const double flown = start.held ? 0 : 2 * time * (given + recoil);
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
-    const Implausible result =
+    Implausible result =
         worse(compare("speed, m/s", statistics.largest_speed, generous * speed + calm_speed,
                       "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
               compare("distance from the origin, m", statistics.largest_distance,
@@ -200,7 +200,7 @@ Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const C
     const Start& start = starts_[index];
     const bool settles = frame <= settling_time * model_.scene.time.fps;
     const double asked = std::max(model_.asked_tolerance, settles ? start.strain : start.held_strain);
-    const Implausible result = worse(
+    Implausible result = worse(
         compare("stretch error, RMS", statistics.stretch_error_rms, std::max(implausible_rms, asked),
                 "begins the worst spring of a stretch error of {:.3g} RMS (bound {:.3g})", statistics.most_stretched),
         compare("stretch error of a spring", statistics.stretch_error_max, std::max(implausible_worst, asked),
