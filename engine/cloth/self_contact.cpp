@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth/cloth_model.h"
+
 namespace drape {
 
 namespace {
