@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cloth/cloth_statistics.h"
+#include "cloth/together.h"
 #include "frame_checks.h"
 #include "frame_copy.h"
 #include "frame_loop.h"
@@ -36,10 +37,14 @@ double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->dev
 
 void prefer_calling_thread(const SceneDescription& scene, bool draws) {
     constexpr std::uint64_t most_particles = 48 * 48;
-    const auto is_small = [](const Cloth& cloth) {
-        return std::uint64_t{cloth.grid[0]} * cloth.grid[1] <= most_particles;
+    const auto is_small = [&](std::size_t cloth, std::size_t count) {
+        const auto [columns, rows] = scene.cloths[cloth].grid;
+        return std::uint64_t{columns} * rows * count <= most_particles;
     };
-    if (!draws && std::ranges::all_of(scene.cloths, is_small)) setenv("LP_NUM_THREADS", "0", 0);
+    bool small = true;
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) small = small && is_small(cloth, 1);
+    for (const std::vector<std::size_t>& list : cloths_alike(scene)) small = small && is_small(list[0], list.size());
+    if (!draws && small) setenv("LP_NUM_THREADS", "0", 0);
 }
 
 namespace {
@@ -201,7 +206,8 @@ std::vector<PassWork> Simulation::work() const {
         if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0, 0});
         ++found->count;
         found->flops += pass.flops;
-        for (const graph::Use& use : pass.uses) found->bytes += graph.resources()[use.handle.resource].byte_count();
+        for (const graph::Use& use : pass.uses)
+            found->bytes += graph.resources()[use.handle.resource].byte_count(use.handle);
     }
     return all;
 }

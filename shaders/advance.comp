@@ -8,6 +8,7 @@
 #include "include/end_velocity.h"
 #include "include/verlet.h"
 layout(push_constant) uniform Push { GridPush push; };
+#define TOGETHER
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool collides = false;
@@ -19,14 +20,14 @@ VECTOR_OUT(10, EndExcessOut, end_excess_out);
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 moved = imageLoad(displacement_in, texel);
-    advance_position(texel, imageLoad(position_in, texel), moved.xyz);
+    vec4 moved = LOAD(displacement_in, texel);
+    advance_position(texel, LOAD(position_in, texel), moved.xyz);
 #ifdef EXCESS
-    vec3 excess = end_excess(moved.xyz, imageLoad(displacement_before, texel).xyz, collides ? contact_excess : free_excess);
+    vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz, collides ? contact_excess : free_excess);
     STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
 #endif
 #ifdef HOME
     STORE_VECTOR(displacement_out, texel, moved);
-    STORE_VECTOR(displacement_remainder_out, texel, imageLoad(displacement_remainder_in, texel));
+    STORE_VECTOR(displacement_remainder_out, texel, LOAD(displacement_remainder_in, texel));
 #endif
 }

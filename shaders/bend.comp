@@ -10,6 +10,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { BendPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
@@ -20,7 +21,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_imag
 
 float share_of(ivec2 owner) {
 #ifdef MASKED
-    return imageLoad(spring_share_image, owner)[push.channel];
+    return LOAD(spring_share_image, owner)[push.channel];
 #else
     return border_share(owner, push.axis, push.grid);
 #endif
@@ -32,12 +33,12 @@ void main() {
     ivec2 middle = bend_middle(element, push.axis, push.colour);
     ivec2 first = middle - push.axis;
     ivec2 third = middle + push.axis;
-    vec4 position_first = imageLoad(position, first);
-    vec4 position_middle = imageLoad(position, middle);
-    vec4 position_third = imageLoad(position, third);
-    vec4 moved_first = imageLoad(displacement_in, first);
-    vec4 moved_middle = imageLoad(displacement_in, middle);
-    vec4 moved_third = imageLoad(displacement_in, third);
+    vec4 position_first = LOAD(position, first);
+    vec4 position_middle = LOAD(position, middle);
+    vec4 position_third = LOAD(position, third);
+    vec4 moved_first = LOAD(displacement_in, first);
+    vec4 moved_middle = LOAD(displacement_in, middle);
+    vec4 moved_third = LOAD(displacement_in, third);
     float weight_first = dragged_weight(position_first.w, moved_first.w);
     float weight_middle = dragged_weight(position_middle.w, moved_middle.w);
     float weight_third = dragged_weight(position_third.w, moved_third.w);

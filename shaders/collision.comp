@@ -10,6 +10,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
 layout(push_constant) uniform Push { CollisionPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
@@ -22,9 +23,9 @@ layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 start = imageLoad(position, texel);
+    vec4 start = LOAD(position, texel);
     if (start.w == 0.0f) return;
-    vec4 moved = imageLoad(displacement_in, texel);
+    vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     bool touched = false;
     // Out of one collider may be into another: repeat until nothing is touched any more.
@@ -40,7 +41,7 @@ void main() {
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     // Most that come here find it done.
-    if (imageLoad(control, ivec2(control_hold, 0)).x < line_hold_contact)
-        imageAtomicMax(control, ivec2(control_hold, 0), line_hold_contact);
+    if (imageLoad(control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
+        imageAtomicMax(control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
 #endif
 }

@@ -12,6 +12,7 @@
 #include "include/verlet.h"
 #include "include/wind.h"
 layout(push_constant) uniform Push { ExplicitPush push; };
+#define TOGETHER
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
@@ -33,9 +34,9 @@ bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push
 /// The particle of a texel inside the grid.
 Particle particle_at(ivec2 texel) {
     Particle particle =
-        Particle(texel, imageLoad(position_in, texel).xyz, imageLoad(displacement_in, texel).xyz, vec4(0.0f));
+        Particle(texel, LOAD(position_in, texel).xyz, LOAD(displacement_in, texel).xyz, vec4(0.0f));
 #ifdef MASKED
-    particle.shares = imageLoad(spring_share_image, texel);
+    particle.shares = LOAD(spring_share_image, texel);
 #endif
     return particle;
 }
@@ -122,23 +123,23 @@ vec3 gather_twist(vec3 sum, Particle center) {
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 position = imageLoad(position_in, texel);
-    vec4 moved = imageLoad(displacement_in, texel);
+    vec4 position = LOAD(position_in, texel);
+    vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     if (advance) {
         advance_position(texel, position, displacement);
     } else {
         STORE_VECTOR(position_out, texel, position);
-        STORE_VECTOR(position_remainder_out, texel, imageLoad(position_remainder_in, texel));
+        STORE_VECTOR(position_remainder_out, texel, LOAD(position_remainder_in, texel));
     }
     if (position.w == 0.0f) {
         STORE_VECTOR(displacement_out, texel, vec4(displacement, 0.0f));
-        STORE_VECTOR(displacement_remainder_out, texel, imageLoad(displacement_remainder_in, texel));
+        STORE_VECTOR(displacement_remainder_out, texel, LOAD(displacement_remainder_in, texel));
         return;
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
 #ifdef MASKED
-    center.shares = imageLoad(spring_share_image, texel);
+    center.shares = LOAD(spring_share_image, texel);
 #endif
     vec3 pull = empty_sum();
     pull = gather(pull, center, neighbour(0));

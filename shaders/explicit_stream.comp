@@ -16,6 +16,7 @@
 #include "include/spring.h"
 #include "include/verlet.h"
 layout(push_constant) uniform Push { ExplicitPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 
 layout(local_size_x = stream_lanes) in;
@@ -57,13 +58,13 @@ void load_row(int y, out Particle row[columns]) {
     for (int c = 0; c < columns; ++c) {
         int x = first_column() + c;
         ivec2 texel = ivec2(lesser(x, push.grid.x - 1), lesser(y, push.grid.y - 1));
-        vec4 position = imageLoad(position_in, texel), moved = imageLoad(displacement_in, texel);
+        vec4 position = LOAD(position_in, texel), moved = LOAD(displacement_in, texel);
         row[c].position = position.xyz;
         row[c].weight = x < push.grid.x && y < push.grid.y ? position.w : 0.0f;
         row[c].displacement = moved.xyz;
         row[c].mark = moved.w;
-        row[c].position_remainder = imageLoad(position_remainder_in, texel).xyz;
-        row[c].displacement_remainder = imageLoad(displacement_remainder_in, texel).xyz;
+        row[c].position_remainder = LOAD(position_remainder_in, texel).xyz;
+        row[c].displacement_remainder = LOAD(displacement_remainder_in, texel).xyz;
         row[c].pull = vec3(0.0f);
     }
 }
@@ -85,7 +86,7 @@ void store_row(int y, Particle row[columns]) {
 /// Of the springs that a particle owns, by direction: 1 or 0 outside the grid, half along its borders.
 vec4 shares_of(int x, int y) {
 #ifdef MASKED
-    vec4 shares = imageLoad(spring_share_image, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
+    vec4 shares = LOAD(spring_share_image, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
 #else
     vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
                        border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);

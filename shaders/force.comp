@@ -7,6 +7,7 @@
 #include "shared/simulation_types.h"
 #include "include/verlet.h"
 layout(push_constant) uniform Push { ForcePush push; };
+#define TOGETHER
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
@@ -17,8 +18,8 @@ VECTOR_OUT(9, DisplacementBefore, displacement_before);
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 position = imageLoad(position_in, texel);
-    vec4 moved = imageLoad(displacement_in, texel);
+    vec4 position = LOAD(position_in, texel);
+    vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     if (advance) advance_position(texel, position, displacement);
 #ifdef BEFORE

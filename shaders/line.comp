@@ -15,6 +15,7 @@
 
 layout(local_size_x = line_group_width) in;
 layout(push_constant) uniform Push { LinePush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
@@ -51,7 +52,7 @@ struct LineParticle {
 };
 
 Line read_line() {
-    bool second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
+    bool second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     int index = int(gl_GlobalInvocationID.x);
     return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel,
                 border_share(line_start(index, push.step), push.step, push.grid), push.rest_length,
@@ -61,7 +62,8 @@ Line read_line() {
 
 /// Where the scratch of a particle is: what a subgroup stores at a time lies side by side.
 int place(Line line, int p) {
-    return (int(gl_WorkGroupID.x) * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
+    int group = int(gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+    return (group * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
 }
 
 /// The scratch images are addressed as if they had only one row.
@@ -76,7 +78,7 @@ ivec2 scratch_texel(int place) { return ivec2(place & (line_scratch_width - 1), 
 
 float share_of(Line line, ivec2 first) {
 #ifdef MASKED
-    float share = imageLoad(spring_share_image, first)[line.channel];
+    float share = LOAD(spring_share_image, first)[line.channel];
 #else
     float share = line.share;
 #endif
@@ -84,7 +86,7 @@ float share_of(Line line, ivec2 first) {
 }
 
 LineParticle load_particle(ivec2 at) {
-    vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
+    vec4 start = LOAD(position, at), moved = LOAD(displacement_in, at);
     return LineParticle(at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved);
 }
 
@@ -99,7 +101,7 @@ LineParticle particle_before(Line line, LineParticle particle) {
 /// Where the first system puts a particle.
 vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
 
-float tension_of(Line line, ivec2 first) { return tension_in_use(imageLoad(tension_in, first).x, line.followed); }
+float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.followed); }
 
 float tension_per_length_of(Line line, LineParticle first, LineParticle second) {
     precise vec3 start_edge = second.position.xyz - first.position.xyz;
@@ -260,5 +262,5 @@ void main() {
     if (first_iteration) eliminate_particles(line);
     float largest = eliminate_springs(line);
     substitute_springs(line);
-    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(control, ivec2(control_wrong_lines, 0), 1u);
+    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
 }

@@ -1,4 +1,4 @@
-// Decides of one cloth whether the coming substep is BDF2 or backward Euler.
+// Decides of each cloth of a dispatch whether the coming substep is BDF2 or backward Euler.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -9,9 +9,9 @@ layout(push_constant) uniform Push { LineControlPush push; };
 layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D control_in;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D control_out;
 
-uint control_at(int texel) { return imageLoad(control_in, ivec2(texel, 0)).x; }
+uint control_at(int texel) { return imageLoad(control_in, ivec2(texel, gl_WorkGroupID.z)).x; }
 
-void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel, 0), uvec4(value, 0u, 0u, 0u)); }
+void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel, gl_WorkGroupID.z), uvec4(value, 0u, 0u, 0u)); }
 
 void main() {
     LineControl next = next_control(

@@ -9,6 +9,7 @@
 #include "include/bdf2.h"
 #include "include/verlet.h"
 layout(push_constant) uniform Push { PredictPush push; };
+#define TOGETHER
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
@@ -21,12 +22,12 @@ layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 position = imageLoad(position_in, texel);
-    vec4 moved = imageLoad(displacement_in, texel);
+    vec4 position = LOAD(position_in, texel);
+    vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     if (advance) advance_position(texel, position, displacement);
-    vec3 before = imageLoad(displacement_before_in, texel).xyz;
-    vec3 excess_before = imageLoad(velocity_excess_in, texel).xyz;
+    vec3 before = LOAD(displacement_before_in, texel).xyz;
+    vec3 excess_before = LOAD(velocity_excess_in, texel).xyz;
     vec3 excess = velocity_excess(displacement, before);
     STORE_VECTOR(displacement_before_out, texel, vec4(displacement, 0.0f));
     STORE_VECTOR(velocity_excess_out, texel, vec4(excess, 0.0f));
@@ -34,7 +35,7 @@ void main() {
     vec4 force = force_on(texel);
     vec3 increment;
     float loss;
-    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) {
+    if (imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) {
         vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force.xyz, position.w, push.force_step.y);
         increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
                                    push.loss.y);

@@ -10,6 +10,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SpringPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
@@ -27,20 +28,20 @@ void main() {
     if (pair.x >= push.pair_count.x || pair.y >= push.pair_count.y) return;
     ivec2 first = spring_owner(pair, push.offset, push.parity_axis, push.parity);
     ivec2 second = first + push.offset;
-    vec4 position_first = imageLoad(position, first);
-    vec4 position_second = imageLoad(position, second);
-    vec4 displacement_first = imageLoad(displacement_in, first);
-    vec4 displacement_second = imageLoad(displacement_in, second);
+    vec4 position_first = LOAD(position, first);
+    vec4 position_second = LOAD(position, second);
+    vec4 displacement_first = LOAD(displacement_in, first);
+    vec4 displacement_second = LOAD(displacement_in, second);
     float weight_first = dragged_weight(position_first.w, displacement_first.w);
     float weight_second = dragged_weight(position_second.w, displacement_second.w);
 #ifdef MASKED
-    float share = imageLoad(spring_share_image, first)[push.channel];
+    float share = LOAD(spring_share_image, first)[push.channel];
 #else
     float share = border_share(first, push.offset, push.grid);
 #endif
     float tension = 0.0f;
 #ifdef TENSION
-    if (push.first_iteration == 0) tension = imageLoad(tension_in, first).x;
+    if (push.first_iteration == 0) tension = LOAD(tension_in, first).x;
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
     precise float weight_sum = weight_first + weight_second;

@@ -12,6 +12,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { TwistPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
@@ -32,17 +33,17 @@ void main() {
     ivec2 lower_right = upper_left + ivec2(1, 1);
     float share = 1.0f;
 #ifdef MASKED
-    share = twist_share(imageLoad(spring_share_image, upper_left), imageLoad(spring_share_image, upper_right),
-                        imageLoad(spring_share_image, lower_left));
+    share = twist_share(LOAD(spring_share_image, upper_left), LOAD(spring_share_image, upper_right),
+                        LOAD(spring_share_image, lower_left));
 #endif
-    vec4 position_00 = imageLoad(position, upper_left);
-    vec4 position_10 = imageLoad(position, upper_right);
-    vec4 position_01 = imageLoad(position, lower_left);
-    vec4 position_11 = imageLoad(position, lower_right);
-    vec4 moved_00 = imageLoad(displacement_in, upper_left);
-    vec4 moved_10 = imageLoad(displacement_in, upper_right);
-    vec4 moved_01 = imageLoad(displacement_in, lower_left);
-    vec4 moved_11 = imageLoad(displacement_in, lower_right);
+    vec4 position_00 = LOAD(position, upper_left);
+    vec4 position_10 = LOAD(position, upper_right);
+    vec4 position_01 = LOAD(position, lower_left);
+    vec4 position_11 = LOAD(position, lower_right);
+    vec4 moved_00 = LOAD(displacement_in, upper_left);
+    vec4 moved_10 = LOAD(displacement_in, upper_right);
+    vec4 moved_01 = LOAD(displacement_in, lower_left);
+    vec4 moved_11 = LOAD(displacement_in, lower_right);
     float weight_00 = dragged_weight(position_00.w, moved_00.w);
     float weight_10 = dragged_weight(position_10.w, moved_10.w);
     float weight_01 = dragged_weight(position_01.w, moved_01.w);
@@ -52,7 +53,7 @@ void main() {
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     float compliance = push.compliance;
 #ifdef SECOND_ORDER
-    if (imageLoad(control, ivec2(control_order, 0)).x == 2u) compliance = push.compliance_bdf2;
+    if (imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
 #endif
     vec3 correction = project_bend(difference, weight, share, compliance);
     STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));

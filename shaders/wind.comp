@@ -10,6 +10,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(push_constant) uniform Push { WindPush push; };
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
@@ -17,6 +18,8 @@ VECTOR_OUT(2, WindForceOut, wind_force);
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 #ifdef MASKED
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
+
+ivec2 placed_cell(ivec2 cell) { return ivec2(cell.x, cell.y + int(gl_WorkGroupID.z) * (push.grid.y - 1)); }
 #endif
 
 void main() {
@@ -29,14 +32,14 @@ void main() {
         ivec2 cell = texel + around.xy;
         if (!cell_inside(cell, push.grid)) continue;
 #ifdef MASKED
-        if ((imageLoad(cells, cell).x & uint(around.z)) == 0u) continue;
+        if ((imageLoad(cells, placed_cell(cell)).x & uint(around.z)) == 0u) continue;
 #endif
         vec3 corners[3];
         vec3 moved[3];
         for (int corner = 0; corner < 3; ++corner) {
             ivec2 at = cell + triangle_corner(around.z, corner);
-            moved[corner] = imageLoad(displacement, at).xyz;
-            precise vec3 now = imageLoad(position, at).xyz;
+            moved[corner] = LOAD(displacement, at).xyz;
+            precise vec3 now = LOAD(position, at).xyz;
             if (advance) now = now + moved[corner];
             corners[corner] = now;
         }

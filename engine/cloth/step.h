@@ -71,6 +71,8 @@ struct Step {
     std::uint32_t count = 1;
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
+    /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
+    bool together = false;
 
     /// Throws std::bad_variant_access when the step has others.
     template <class Push>

@@ -95,6 +95,7 @@ Json::Value pass_value(const Graph& graph, const PlannedPass& planned) {
         Json::Value entry;
         entry["resource"] = graph.resources()[use.handle.resource].name;
         entry["version"] = use.handle.version;
+        if (use.handle.slice != UINT32_MAX) entry["slice"] = use.handle.slice;
         entry["access"] = std::string(access_name(use.access));
         if (!use.variable.empty()) entry["variable"] = use.variable;
         value["uses"].append(entry);
@@ -121,6 +122,7 @@ Json::Value resource_value(const Resource& resource, const Lifespan& lifespan) {
         value["height"] = resource.image.height;
         value["samples"] = static_cast<int>(resource.image.samples);
         if (resource.image.buffer_view) value["buffer_view"] = true;
+        for (const std::string& slice : resource.image.slices) value["slices"].append(slice);
     }
     return value;
 }

@@ -29,13 +29,15 @@ class ResourcePool {
 
     const vulkan::Device& device() const { return device_; }
     bool has(const std::string& name) const;
-    const vulkan::Image& image(const std::string& name) const;  ///< GraphError when there is none
+    /// Or a slice of one. GraphError when there is none.
+    const vulkan::Image& image(const std::string& name) const;
     /// `slot` matters for host_input and host_output buffers only.
     const vulkan::Buffer& buffer(const std::string& name, std::uint32_t slot = 0) const;
 
   private:
     const vulkan::Device& device_;
     std::map<std::string, vulkan::Image> images_;
+    std::map<std::string, const vulkan::Image*> slices_;
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
 };
 
@@ -66,22 +68,22 @@ class PassContext {
     VkImageLayout layout(Handle handle) const;
 
     /// Binds the pipeline, pushes every declared use that has a variable, and the push constants, then dispatches
-    /// enough workgroups for width x height invocations. Throws GraphError, naming pass, pipeline and variable, when
-    /// the pipeline's descriptors and the declared variables differ (one missing on either side, image against buffer,
-    /// read against write, format, layout of a buffer's elements), or the push constants' layouts. A read-write
-    /// descriptor needs a write of its name, and a read without one.
+    /// enough workgroups for width x height invocations, `depth` layers of them. Throws GraphError, naming pass,
+    /// pipeline and variable, when the pipeline's descriptors and the declared variables differ (one missing on either
+    /// side, image against buffer, read against write, format, layout of a buffer's elements), or the push constants'
+    /// layouts. A read-write descriptor needs a write of its name, and a read without one.
     template <class T>
     void dispatch(const vulkan::ComputePipeline& pipeline, const T& push_constants, std::uint32_t width,
-                  std::uint32_t height) {
+                  std::uint32_t height, std::uint32_t depth = 1) {
         bind_uses(pipeline);
         push(pipeline, push_constants);
-        dispatch_groups(pipeline, width, height);
+        dispatch_groups(pipeline, width, height, depth);
     }
     /// Likewise for a pipeline without push constants.
     void dispatch(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
         bind_uses(pipeline);
         push(pipeline, nullptr, {});
-        dispatch_groups(pipeline, width, height);
+        dispatch_groups(pipeline, width, height, 1);
     }
     /// Likewise, with as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
     template <class T>
@@ -106,7 +108,8 @@ class PassContext {
     PassContext(VkCommandBuffer commands, std::uint32_t slot, const Graph& graph, const Pass& pass,
                 const ResourcePool& pool)
         : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
-    void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height);
+    void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height,
+                         std::uint32_t depth);
     void dispatch_indirect(Handle arguments, std::uint64_t offset);
     const Use& use_of(Handle handle) const;
     void bind_uses(const vulkan::ComputePipeline& pipeline);

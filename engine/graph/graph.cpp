@@ -40,6 +40,9 @@ const Resource& newest(const std::vector<Resource>& resources, const Pass& pass,
                fmt::format("{} of unknown version {}, the newest is {}: of another graph?", verb, handle.version,
                            resource.version));
     }
+    if (handle.slice != UINT32_MAX && handle.slice >= resource.image.slices.size())
+        refuse(pass, resource.name,
+               fmt::format("{} of slice {}, it has {}", verb, handle.slice, resource.image.slices.size()));
     // Before the versions are compared: the handle this pass's own write returned is the newest.
     for (const Use& use : pass.uses) {
         if (use.handle.resource != handle.resource || !is_write(use.access)) continue;
@@ -116,6 +119,14 @@ void check_name(const std::vector<Resource>& resources, const std::string& name)
     }
 }
 
+void check_slices(const std::vector<Resource>& resources, const ImageDeclaration& image) {
+    if (image.slices.empty()) return;
+    for (const std::string& slice : image.slices) check_name(resources, slice);
+    if (!image.buffer_view || image.height % image.slices.size() != 0)
+        throw GraphError(fmt::format("image '{}': {} rows{} cannot be cut into {} slices", image.name, image.height,
+                                     image.buffer_view ? "" : " without a buffer view", image.slices.size()));
+}
+
 }  // namespace
 
 bool is_write(Access access) {
@@ -146,6 +157,19 @@ std::uint64_t Resource::byte_count() const {
     return bytes;
 }
 
+ImageDeclaration Resource::seen(Handle handle) const {
+    ImageDeclaration declaration = image;
+    if (handle.slice == UINT32_MAX) return declaration;
+    declaration.name = image.slices[handle.slice];
+    declaration.height /= static_cast<std::uint32_t>(image.slices.size());
+    declaration.slices.clear();
+    return declaration;
+}
+
+std::uint64_t Resource::byte_count(Handle handle) const {
+    return handle.slice == UINT32_MAX ? byte_count() : byte_count() / image.slices.size();
+}
+
 Handle PassSetup::read(Handle handle, Access access, std::string variable) {
     const Resource& resource = newest(graph_.resources_, pass_, handle, "read");
     if (is_write(access)) {
@@ -168,7 +192,7 @@ Handle PassSetup::write(Handle handle, Access access, std::string variable) {
         refuse(pass_, resource.name,
                fmt::format("write to a {} resource, which no pass may write", lifetime_name(resource.lifetime)));
     }
-    const Use use{{handle.resource, handle.version + 1}, access, std::move(variable)};
+    const Use use{{handle.resource, handle.version + 1, handle.slice}, access, std::move(variable)};
     check_kind(pass_, resource, access);
     check_variable(pass_, resource, use);
     check_against_others(pass_, resource, use, graph_.resources_);
@@ -191,6 +215,7 @@ Handle Graph::image(const ImageDeclaration& declaration) {
         throw GraphError(
             fmt::format("image '{}': depth and multisampled images have no buffer view", declaration.name));
     }
+    check_slices(resources_, declaration);
     Resource resource;
     resource.name = declaration.name;
     resource.is_image = true;

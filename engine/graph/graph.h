@@ -60,6 +60,9 @@ struct ImageDeclaration {
     /// in GENERAL, transient or not, so that every barrier is one on all memory, which covers both views; a barrier on
     /// the image would leave the buffer out. Not every device can: ask buffer_view_obstacle (executor.h) first.
     bool buffer_view = false;
+    /// Names of bands of equally many rows, from the top, that passes may use alone (Handle::slice); only with a buffer
+    /// view. To hazards and versions the image is one: a pass that uses a band uses it.
+    std::vector<std::string> slices = {};
 };
 
 struct BufferDeclaration {
@@ -70,10 +73,11 @@ struct BufferDeclaration {
     const glsl::StructLayout* element = nullptr;
 };
 
-/// A resource at a version. Writing returns a new handle and retires the old one.
+/// A resource, or a slice of it, at a version. Writing returns a new handle and retires the old ones.
 struct Handle {
     std::uint32_t resource = UINT32_MAX;
     std::uint32_t version = 0;
+    std::uint32_t slice = UINT32_MAX;  ///< of ImageDeclaration::slices; none: the whole
     bool valid() const { return resource != UINT32_MAX; }
     bool operator==(const Handle&) const = default;
 };
@@ -87,6 +91,10 @@ struct Resource {
     std::uint32_t version = 0;  ///< newest
     /// Of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.
     std::uint64_t byte_count() const;
+    /// What a handle to an image sees: the image, or a slice as an image.
+    ImageDeclaration seen(Handle handle) const;
+    /// Of what a handle sees.
+    std::uint64_t byte_count(Handle handle) const;
 };
 
 /// One declared use.

@@ -40,7 +40,7 @@ const Use& PassContext::use_of(Handle handle) const {
 }
 
 const vulkan::Image& PassContext::image(Handle handle) const {
-    return pool_.image(graph_.resources()[use_of(handle).handle.resource].name);
+    return pool_.image(graph_.resources()[use_of(handle).handle.resource].seen(handle).name);
 }
 
 const vulkan::Buffer& PassContext::buffer(Handle handle) const {
@@ -161,15 +161,16 @@ void PassContext::push(const vulkan::Pipeline& pipeline, const glsl::StructLayou
                        pipeline.push_constants()->size, bytes.data());
 }
 
-void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
+void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height,
+                                  std::uint32_t depth) {
     const auto [x, y, z] = pipeline.local_size();
     const std::uint32_t columns = width / x + (width % x != 0), rows = height / y + (height % y != 0);
     const auto& limit = pool_.device().limits().maxComputeWorkGroupCount;
-    if (columns > limit[0] || rows > limit[1]) {
-        throw vulkan::VulkanError(fmt::format("pass '{}': {} x {} workgroups, the device's limit is {} x {}",
-                                              pass_.name, columns, rows, limit[0], limit[1]));
+    if (columns > limit[0] || rows > limit[1] || depth > limit[2]) {
+        throw vulkan::VulkanError(fmt::format("pass '{}': {} x {} x {} workgroups, the device's limit is {} x {} x {}",
+                                              pass_.name, columns, rows, depth, limit[0], limit[1], limit[2]));
     }
-    vkCmdDispatch(commands_, columns, rows, 1);
+    vkCmdDispatch(commands_, columns, rows, depth);
 }
 
 void PassContext::dispatch_indirect(Handle arguments, std::uint64_t offset) {

@@ -56,7 +56,7 @@ void require_equal(const Resource& one, const Resource& other) {
     const bool equal = one.is_image == other.is_image && one.lifetime == other.lifetime &&
                        one.image.format == other.image.format && one.image.width == other.image.width &&
                        one.image.height == other.image.height && one.image.samples == other.image.samples &&
-                       one.image.buffer_view == other.image.buffer_view &&
+                       one.image.buffer_view == other.image.buffer_view && one.image.slices == other.image.slices &&
                        one.buffer.byte_count == other.buffer.byte_count && one.buffer.element == other.buffer.element;
     if (!equal) throw GraphError(fmt::format("resource '{}': two graphs declare it differently", one.name));
 }
@@ -110,7 +110,7 @@ vulkan::ImageDescription describe_image(const Wanted& wanted) {
     if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
         usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     }
-    return {image.name, image.format, image.width, image.height, usage, image.samples, image.buffer_view};
+    return {image.name, image.format, image.width, image.height, usage, image.samples, image.buffer_view, image.slices};
 }
 
 vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
@@ -124,7 +124,7 @@ vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t co
     return description;
 }
 
-void record_clear(VkCommandBuffer commands, const vulkan::Image& image) {
+void record_to_general(VkCommandBuffer commands, const vulkan::Image& image) {
     auto barrier = vulkan::structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -137,13 +137,17 @@ void record_clear(VkCommandBuffer commands, const vulkan::Image& image) {
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void record_clear(VkCommandBuffer commands, const vulkan::Image& image) {
+    record_to_general(commands, image);
+    const VkImageSubresourceRange range{image.aspect(), 0, 1, 0, 1};
     if (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) {
         const VkClearDepthStencilValue zero{};
-        vkCmdClearDepthStencilImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1,
-                                    &barrier.subresourceRange);
+        vkCmdClearDepthStencilImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &range);
     } else {
         const VkClearColorValue zero{};
-        vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &barrier.subresourceRange);
+        vkCmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &range);
     }
 }
 
@@ -155,7 +159,9 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
     device.budget().require(total_bytes(all), fmt::format("the {} images and buffers of the plans", all.size()));
     for (const auto& [name, wanted] : all) {
         if (wanted.resource->is_image) {
-            images_.emplace(name, vulkan::Image(device, describe_image(wanted)));
+            const vulkan::Image& image =
+                images_.emplace(name, vulkan::Image(device, describe_image(wanted))).first->second;
+            for (const vulkan::Image& slice : image.slices()) slices_.emplace(slice.description().name, &slice);
             continue;
         }
         std::vector<vulkan::Buffer>& copies = buffers_[name];
@@ -164,6 +170,8 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
         }
     }
     device.run_once([&](VkCommandBuffer commands) {
+        // First, since their memory is cleared with the whole.
+        for (const auto& [name, slice] : slices_) record_to_general(commands, *slice);
         for (const auto& [name, image] : images_) {
             if (set_up_once(*all.at(name).resource) || image.buffer()) record_clear(commands, image);
         }
@@ -183,14 +191,18 @@ std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclar
     constexpr VkImageUsageFlags usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return vulkan::Image::obstacle(
-        device, {image.name, image.format, image.width, image.height, usage, image.samples, true}, row_pitch);
+        device, {image.name, image.format, image.width, image.height, usage, image.samples, true, image.slices},
+        row_pitch);
 }
 
-bool ResourcePool::has(const std::string& name) const { return images_.contains(name) || buffers_.contains(name); }
+bool ResourcePool::has(const std::string& name) const {
+    return images_.contains(name) || slices_.contains(name) || buffers_.contains(name);
+}
 
 const vulkan::Image& ResourcePool::image(const std::string& name) const {
     const auto place = images_.find(name);
     if (place != images_.end()) return place->second;
+    if (const auto slice = slices_.find(name); slice != slices_.end()) return *slice->second;
     throw GraphError(fmt::format("image '{}': {}", name,
                                  buffers_.contains(name) ? "it is a buffer" : "no plan uses it, or none is declared"));
 }

@@ -8,16 +8,14 @@ namespace drape {
 
 namespace {
 
-VkFormat format_of(const graph::Graph& graph, graph::Handle image) {
-    return graph.resources()[image.resource].image.format;
+graph::ImageDeclaration declaration_of(const graph::Graph& graph, graph::Handle image) {
+    return graph.resources()[image.resource].seen(image);
 }
 
 /// Another image like the one of a field.
 graph::Handle copy_of(graph::Graph& graph, const ClothState& state, Field field, const char* what) {
-    const graph::Handle image = state[field];
-    graph::ImageDeclaration copy = graph.resources()[image.resource].image;
-    copy.name += what;
-    return graph.image({copy.name, format_of(graph, image), copy.width, copy.height, VK_SAMPLE_COUNT_1_BIT,
+    const graph::ImageDeclaration image = declaration_of(graph, state[field]);
+    return graph.image({image.name + what, image.format, image.width, image.height, VK_SAMPLE_COUNT_1_BIT,
                         graph::Lifetime::persistent});
 }
 
@@ -49,7 +47,7 @@ void add_copies(graph::Graph& graph, const ClothState& state, const char* name, 
 }
 
 Copy copy_between(const graph::Graph& graph, graph::Handle from, graph::Handle to) {
-    const graph::ImageDeclaration& image = graph.resources()[from.resource].image;
+    const graph::ImageDeclaration image = declaration_of(graph, from);
     return {from, to, image.width, image.height};
 }
 

@@ -19,9 +19,9 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
             if (second_order) setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
-        [&pipeline, push](graph::PassContext& context) {
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.element_count.x),
-                             static_cast<std::uint32_t>(push.element_count.y));
+                             static_cast<std::uint32_t>(push.element_count.y), count);
         });
 }
 

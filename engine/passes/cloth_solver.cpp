@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "cloth/step_flops.h"
+#include "cloth/together.h"
 #include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
 #include "passes/check_pass.h"
@@ -74,6 +75,22 @@ graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const Fiel
                         buffered && row.view == FieldView::image_and_buffer});
 }
 
+/// The same field of several cloths of one size in one image.
+graph::Handle declare_below(graph::Graph& graph, const FieldRow& row, const FieldContext& about,
+                            const std::string& name, const std::vector<std::string>& slices) {
+    const FieldExtent extent = row.extent(about);
+    return graph.image({fmt::format("{}/{}", name, row.name), format_of(row), static_cast<std::uint32_t>(extent.width),
+                        static_cast<std::uint32_t>(extent.height * slices.size()), VK_SAMPLE_COUNT_1_BIT,
+                        lifetime_of(row.life), true, slices});
+}
+
+/// Which no cloth has.
+std::string together_name(const SimulationModel& model, const std::vector<std::size_t>& cloths) {
+    std::string name = fmt::format("{} and {} more", model.cloths[cloths.front()].name, cloths.size() - 1);
+    while (std::ranges::find(model.cloths, name, &ClothModel::name) != model.cloths.end()) name += '.';
+    return name;
+}
+
 /// Why a model cannot run by a schedule other than images; empty when it can.
 std::string schedule_obstacle(const vulkan::Device& device, const SimulationModel& model, Schedule schedule) {
     for (const ClothModel& cloth : model.cloths) {
@@ -114,6 +131,25 @@ ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& mo
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
     }
+    if (schedule_ != Schedule::images) find_together(device);
+    together_of_.assign(model.cloths.size(), together_.size());
+    for (std::size_t k = 0; k < together_.size(); ++k)
+        for (const std::size_t cloth : together_[k].cloths) together_of_[cloth] = k;
+}
+
+void ClothSolver::find_together(const vulkan::Device& device) {
+    for (const std::vector<std::size_t>& alike : cloths_alike(model_.scene)) {
+        const Grid& grid = model_.cloths[alike.front()].grid;
+        // Halves, until they fit.
+        std::size_t count = alike.size();
+        while (count > 1 && !buffered_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
+            count = (count + 1) / 2;
+        for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
+            const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
+            const std::size_t some = std::min(count, alike.size() - first);
+            if (some > 1) together_.push_back({{begin, begin + static_cast<std::ptrdiff_t>(some)}, {}});
+        }
+    }
 }
 
 void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run) {
@@ -128,43 +164,118 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer<glsl::ColliderRecord>("colliders", count, Lifetime::host_input);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
+    for (Together& together : together_) declare_together(graph, together, needs);
+}
+
+ClothState ClothSolver::state_of(std::size_t index) const {
+    ClothState state;
+    state.model = &run_->cloths[index];
+    state.name = state.model->name;
+    state.topology = &topologies_[index];
+    state.index = index;
+    state.buffered = schedule_ != Schedule::images;
+    state.index_count = static_cast<std::uint32_t>(topologies_[index].indices().size());
+    state.iteration_sizes = iteration_sizes_[index];
+    return state;
 }
 
 void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs) {
     const FieldContext about = context(index, needs, *run_);
-    ClothState state;
-    state.model = &about.cloth;
-    state.topology = &about.topology;
-    state.index = index;
-    state.buffered = schedule_ != Schedule::images;
-    state.index_count = static_cast<std::uint32_t>(about.topology.indices().size());
-    state.iteration_sizes = iteration_sizes_[index];
+    ClothState state = state_of(index);
+    const bool alone = together_of_[index] == together_.size();
     for (const FieldRow& row : cloth_fields())
-        if (row.needed(about)) state[row.field] = declare_field(graph, row, about, state.buffered);
+        if (row.needed(about) && (alone || !row.is_image()))
+            state[row.field] = declare_field(graph, row, about, state.buffered);
     cloths_.push_back(state);
 }
 
+void ClothSolver::declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs) {
+    const auto count = static_cast<std::uint32_t>(together.cloths.size());
+    together.state = state_of(together.cloths.front());
+    together.state.count = count;
+    together.state.name = together_name(model_, together.cloths);
+    for (const FieldRow& row : cloth_fields()) {
+        if (!row.is_image()) continue;
+        graph::Handle whole;
+        std::vector<std::string> slices;
+        for (const std::size_t cloth : together.cloths) slices.push_back(resource_name(model_.cloths[cloth], row));
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const FieldContext about = context(together.cloths[k], needs, *run_);
+            if (!row.needed(about)) continue;
+            if (!whole.valid()) whole = declare_below(graph, row, about, together.state.name, slices);
+            cloths_[together.cloths[k]][row.field] = {whole.resource, whole.version, k};
+        }
+        together.state[row.field] = whole;
+    }
+}
+
+void ClothSolver::take(std::size_t cloth) {
+    if (together_of_[cloth] == together_.size()) return;
+    const Together& together = together_[together_of_[cloth]];
+    const auto place = static_cast<std::uint32_t>(std::ranges::find(together.cloths, cloth) - together.cloths.begin());
+    ClothState& state = cloths_[cloth];
+    state.away = together.state.away;
+    for (const FieldRow& row : cloth_fields()) {
+        const graph::Handle whole = together.state[row.field];
+        if (row.is_image() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
+    }
+}
+
+void ClothSolver::give(std::size_t cloth) {
+    if (together_of_[cloth] == together_.size()) return;
+    ClothState& whole = together_[together_of_[cloth]].state;
+    const ClothState& state = cloths_[cloth];
+    for (const FieldRow& row : cloth_fields())
+        if (row.is_image() && state[row.field].valid())
+            whole[row.field] = {state[row.field].resource, state[row.field].version};
+}
+
+template <class Add>
+void ClothSolver::for_each_cloth(const Add& add) {
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        take(cloth);
+        add(cloths_[cloth]);
+        give(cloth);
+    }
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
+}
 void ClothSolver::add_cuts(graph::Graph& graph) {
     const std::size_t count = model_.scene.cutters.size();
     const graph::Handle cutters = declare_cutters(graph, count);
-    for (ClothState& state : cloths_) add_cut(graph, pipelines_, state, cutters, count);
+    for_each_cloth([&](ClothState& state) { add_cut(graph, pipelines_, state, cutters, count); });
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
     const auto add = [&](ClothState& state, const Step& step) {
         add_step(graph, state, step);
-        if (const double flops = step_flops(step, *state.model); flops > 0) graph.add_flops(flops * step.count);
+        if (const double flops = step_flops(step, *state.model); flops > 0)
+            graph.add_flops(flops * step.count * state.count);
     };
+    for (const Step& step : steps()) {
+        const std::size_t place = step.cloth == all_cloths ? together_.size() : together_of_[step.cloth];
+        if (step.together) {
+            add(together_[place].state, step);
+        } else if (step.cloth != all_cloths) {
+            take(step.cloth);
+            add(cloths_[step.cloth], step);
+            give(step.cloth);
+        } else {
+            for (Together& together : together_) add(together.state, step);
+            for (ClothState& state : cloths_)
+                if (together_of_[state.index] == together_.size()) add(state, step);
+        }
+    }
+    for_each_cloth([&](ClothState& state) {
+        if (state.model->self_contact) add_self_readback(graph, state);
+    });
+}
+
+std::vector<Step> ClothSolver::steps() const {
     std::vector<Step> steps = frame_steps(*run_);
     if (schedule_ == Schedule::streams) steps = steps_in_flight(steps, glsl::stream_steps);
-    for (const Step& step : steps) {
-        if (step.cloth != all_cloths)
-            add(cloths_[step.cloth], step);
-        else
-            for (ClothState& state : cloths_) add(state, step);
-    }
-    for (const ClothState& state : cloths_)
-        if (state.model->self_contact) add_self_readback(graph, state);
+    std::vector<std::vector<std::size_t>> lists;
+    for (const Together& together : together_) lists.push_back(together.cloths);
+    return lists.empty() ? steps : steps_together(steps, lists);
 }
 
 void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
@@ -225,12 +336,12 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
 }
 
 void ClothSolver::add_normals(graph::Graph& graph) {
-    for (ClothState& state : cloths_) drape::add_normals(graph, pipelines_, state);
+    for_each_cloth([&](ClothState& state) { drape::add_normals(graph, pipelines_, state); });
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
-    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth)
-        drape::add_attempt(graph, pipelines_, cloths_[cloth], inputs_, cloth, step);
+    for_each_cloth(
+        [&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, state.index, step); });
 }
 
 std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {
@@ -245,11 +356,11 @@ std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, st
 }
 
 void ClothSolver::add_statistics(graph::Graph& graph) {
-    for (ClothState& state : cloths_) {
+    for_each_cloth([&](ClothState& state) {
         if (state.model->plan.gathered_tension) add_tension(graph, pipelines_, state);
         drape::add_statistics(graph, pipelines_, state, inputs_, *run_);
         if (model_.adaptive()) add_iteration_readback(graph, state);
-    }
+    });
     if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 

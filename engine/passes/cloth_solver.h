@@ -93,7 +93,22 @@ class ClothSolver {
     FieldContext context(std::size_t cloth, const FrameNeeds& needs, const SimulationModel& run) const {
         return {run, run.cloths[cloth], topologies_[cloth], needs};
     }
+    /// Cloths that are simulated together: fields that are images lie below each other in one image each, and are known
+    /// here. A cloth's own handles to them are slices, and old until `take` renews them.
+    struct Together {
+        std::vector<std::size_t> cloths;
+        ClothState state;
+    };
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
+    void declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs);
+    ClothState state_of(std::size_t index) const;
+    void find_together(const vulkan::Device& device);
+    /// Gives a cloth the newest handles, and takes over those that it made.
+    void take(std::size_t cloth);
+    void give(std::size_t cloth);
+    template <class Add>
+    void for_each_cloth(const Add& add);
+    std::vector<Step> steps() const;
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
@@ -104,6 +119,8 @@ class ClothSolver {
     /// Per cloth; the same in the graph of every kind of frame.
     std::vector<std::shared_ptr<std::vector<glsl::uvec4>>> iteration_sizes_;
     std::vector<ClothState> cloths_;
+    std::vector<Together> together_;
+    std::vector<std::size_t> together_of_;  ///< by cloth: index into `together_`, its size: none
     SceneInputs inputs_;
 };
 

@@ -28,8 +28,8 @@ void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
-        [&pipeline, push](graph::PassContext& context) {
-            context.dispatch(pipeline, push, stream_invocations(push.grid.x), 1);
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, stream_invocations(push.grid.x), 1, count);
         });
     state.turn();
 }
@@ -54,9 +54,9 @@ void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
-        [&pipeline, push](graph::PassContext& context) {
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
     state.turn();
 }

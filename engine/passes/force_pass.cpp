@@ -21,9 +21,9 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                 state[Field::displacement_before] =
                     setup.write(state[Field::displacement_before], graph::Access::compute_write, "displacement_before");
         },
-        [&pipeline, push = step.push<glsl::ForcePush>()](graph::PassContext& context) {
+        [&pipeline, push = step.push<glsl::ForcePush>(), count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
 }
 
@@ -53,9 +53,9 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
                 state[Field::end_excess] =
                     setup.write(state[Field::end_excess], graph::Access::compute_write, "end_excess_out");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
     if (state.away) state.turn();
 }

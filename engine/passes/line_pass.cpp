@@ -11,8 +11,8 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
     graph.add_pass(
         state.step_name("line control", step),
         [&](graph::PassSetup& setup) { update(setup, state[Field::line_control], "control"); },
-        [&pipeline, push = step.push<glsl::LineControlPush>()](graph::PassContext& context) {
-            context.dispatch(pipeline, push, 1, 1);
+        [&pipeline, push = step.push<glsl::LineControlPush>(), count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, 1, 1, count);
         });
 }
 
@@ -33,9 +33,9 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             update(setup, state[Field::velocity_excess], "velocity_excess");
             setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
-        [&pipeline, push = step.push<glsl::PredictPush>()](graph::PassContext& context) {
+        [&pipeline, push = step.push<glsl::PredictPush>(), count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "fmt/format.h"
 #include "shared/stream_types.h"
@@ -20,17 +21,21 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
     return *pipeline;
 }
 
-std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid) {
+std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
     const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
-    const std::pair<VkFormat, FieldExtent> images[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
-                                                       {VK_FORMAT_R32_SFLOAT, {width, height}},
-                                                       {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid)}};
+    std::vector<std::pair<VkFormat, FieldExtent>> images = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
+                                                            {VK_FORMAT_R32_SFLOAT, {width, height}},
+                                                            {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid)}};
+    // Cells, line controls: integers, which no pass writes through a buffer view of a single cloth's.
+    if (count > 1) images.push_back({VK_FORMAT_R32_UINT, {width, height}});
+    std::vector<std::string> slices;
+    for (std::uint32_t k = 0; k < count && count > 1; ++k) slices.push_back(fmt::format("state {}", k));
     for (const auto& [format, extent] : images) {
         const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(format);
         const auto columns = static_cast<std::uint32_t>(extent.width), rows = static_cast<std::uint32_t>(extent.height);
-        std::string why =
-            graph::buffer_view_obstacle(device, {.name = "state", .format = format, .width = columns, .height = rows},
-                                        (columns + step - 1) / step * step);
+        std::string why = graph::buffer_view_obstacle(
+            device, {.name = "state", .format = format, .width = columns, .height = rows * count, .slices = slices},
+            (columns + step - 1) / step * step);
         if (!why.empty()) return why;
     }
     return {};
@@ -52,12 +57,12 @@ void ClothState::turn() {
 }
 
 graph::PassName ClothState::pass_name(const std::string& pass, const std::string& stage) const {
-    const std::string label = model->name + "/" + pass;
+    const std::string label = name + "/" + pass;
     return {label, stage, label};
 }
 
 graph::PassName ClothState::step_name(const std::string& pass, const Step& step) const {
-    const std::string label = model->name + "/" + pass;
+    const std::string label = name + "/" + pass;
     return {fmt::format("{} (substep {}, iteration {})", label, step.substep, step.iteration), "simulate", label};
 }
 

@@ -30,7 +30,8 @@ class PipelineCache {
 
 /// Why a cloth of this size cannot have its state written through buffer views (shaders/include/state_store.h); empty
 /// when it can.
-std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid);
+/// `count`: of so many cloths below each other.
+std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count = 1);
 /// Likewise why its micro-steps cannot stream.
 std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid);
 
@@ -39,6 +40,10 @@ struct ClothState {
     const ClothModel* model = nullptr;
     const CutTopology* topology = nullptr;
     std::size_t index = 0;
+    /// Of several cloths that are simulated together: the first is `model`; the handles are those of the images that
+    /// they lie in below each other.
+    std::uint32_t count = 1;
+    std::string name;
     /// Invalid where the cloth does not need the field (cloth/cloth_state.h).
     graph::Handle& operator[](Field field) { return handles[static_cast<std::size_t>(field)]; }
     const graph::Handle& operator[](Field field) const { return handles[static_cast<std::size_t>(field)]; }

@@ -22,7 +22,7 @@ std::size_t slot_of(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size) {
 
 StepDispatch::StepDispatch(const ClothState& state, const Step& step, const vulkan::ComputePipeline& pipeline,
                            std::uint32_t width, std::uint32_t height)
-    : pipeline_(&pipeline), width_(width), height_(height) {
+    : pipeline_(&pipeline), width_(width), height_(height), depth_(state.count) {
     if (!step.conditional) return;
     const auto [x, y, z] = pipeline.local_size();
     sizes_ = state[Field::iterations];

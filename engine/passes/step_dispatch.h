@@ -23,12 +23,12 @@ class StepDispatch {
         if (sizes_.valid())
             context.dispatch_indirect(*pipeline_, push_constants, sizes_, slot_ * sizeof(glsl::uvec4));
         else
-            context.dispatch(*pipeline_, push_constants, width_, height_);
+            context.dispatch(*pipeline_, push_constants, width_, height_, depth_);
     }
 
   private:
     const vulkan::ComputePipeline* pipeline_;
-    std::uint32_t width_, height_;
+    std::uint32_t width_, height_, depth_;
     graph::Handle sizes_;  ///< conditional steps
     std::size_t slot_ = 0;
 };

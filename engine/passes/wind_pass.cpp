@@ -20,9 +20,9 @@ void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             setup.read(inputs.wind, graph::Access::compute_read, "wind");
             if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
-        [&pipeline, push](graph::PassContext& context) {
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
 }
 

@@ -97,21 +97,19 @@ Image::Image(const Device& device, const ImageDescription& description, Empty)
     : device_(&device), description_(description) {}
 
 Image::Image(const Device& device, const ImageDescription& description) : Image(device, description, Empty{}) {
-    const VkMemoryRequirements requirements = make_handles();
+    VkMemoryRequirements requirements = make_handles();
+    make_slices(requirements);
     memory_ = device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
     byte_count_ = requirements.size;
-    check(vkBindImageMemory(device.handle(), handle_, memory_, 0), "vkBindImageMemory", description.name);
-    if (buffer_)
-        check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory", description.name);
-    // An image that is only copied can have no view.
-    constexpr VkImageUsageFlags transfer = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if (description.usage & ~transfer) make_view();
+    bind(memory_, 0);
+    for (std::size_t k = 0; k < slices_.size(); ++k) slices_[k].bind(memory_, k * slice_byte_count());
 }
 
 std::string Image::obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch) {
     try {
         Image image(device, description, Empty{});
-        image.make_handles();
+        VkMemoryRequirements requirements = image.make_handles();
+        image.make_slices(requirements);
         if (row_pitch != 0 && image.row_pitch() != row_pitch)
             return fmt::format("its rows are {} texels apart, not {}", image.row_pitch(), row_pitch);
     } catch (const VulkanError& error) {
@@ -161,7 +159,39 @@ void Image::make_buffer(VkMemoryRequirements& requirements) {
     if (requirements.memoryTypeBits == 0) refuse(description_, "no memory of the device serves an image and a buffer");
 }
 
-void Image::make_view() {
+VkDeviceSize Image::slice_byte_count() const {
+    return VkDeviceSize{row_pitch_} * texel_size(description_.format) *
+           (description_.height / description_.slices.size());
+}
+
+void Image::make_slices(VkMemoryRequirements& requirements) {
+    const auto count = static_cast<std::uint32_t>(description_.slices.size());
+    if (count == 0) return;
+    if (!description_.buffer_view || description_.height % count != 0)
+        refuse(description_, fmt::format("it cannot be cut into {} slices", count));
+    for (const std::string& name : description_.slices) {
+        ImageDescription band = description_;
+        band.name = name, band.height /= count, band.slices.clear();
+        const VkDeviceSize offset = slices_.size() * slice_byte_count();
+        Image slice(*device_, band, Empty{});
+        const VkMemoryRequirements needed = slice.make_handles();
+        if (slice.row_pitch() != row_pitch_ || offset % needed.alignment != 0)
+            refuse(description_, "the device does not lay its slices where its rows are");
+        requirements.size = std::max(requirements.size, offset + needed.size);
+        requirements.alignment = std::max(requirements.alignment, needed.alignment);
+        requirements.memoryTypeBits &= needed.memoryTypeBits;
+        slices_.push_back(std::move(slice));
+    }
+    if (requirements.memoryTypeBits == 0) refuse(description_, "no memory of the device serves it and its slices");
+}
+
+void Image::bind(VkDeviceMemory memory, VkDeviceSize offset) {
+    check(vkBindImageMemory(device_->handle(), handle_, memory, offset), "vkBindImageMemory", description_.name);
+    if (buffer_)
+        check(vkBindBufferMemory(device_->handle(), buffer_, memory, offset), "vkBindBufferMemory", description_.name);
+    // An image that is only copied can have no view.
+    constexpr VkImageUsageFlags transfer = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (!(description_.usage & ~transfer)) return;
     auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     info.image = handle_;
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
@@ -173,6 +203,7 @@ void Image::make_view() {
 
 Image::~Image() {
     if (!handle_) return;
+    slices_.clear();
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImage(device_->handle(), handle_, nullptr);
     vkDestroyBuffer(device_->handle(), buffer_, nullptr);
@@ -187,7 +218,8 @@ Image::Image(Image&& other) noexcept
       view_(std::exchange(other.view_, VK_NULL_HANDLE)),
       buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
       row_pitch_(other.row_pitch_),
-      byte_count_(std::exchange(other.byte_count_, 0)) {}
+      byte_count_(std::exchange(other.byte_count_, 0)),
+      slices_(std::move(other.slices_)) {}
 
 VkImageAspectFlags Image::aspect() const {
     return description_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;

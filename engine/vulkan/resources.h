@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "vulkan/device.h"
 
@@ -22,6 +23,9 @@ struct ImageDescription {
     /// The same memory is a storage buffer too: texels row by row, `row_pitch` apart. LINEAR tiling, so not every
     /// device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
     bool buffer_view = false;
+    /// Names of bands of equally many rows, from the top: each is an image with a buffer view of its own in this one's
+    /// memory (Image::slices). Only with a buffer view, since only LINEAR images may share memory.
+    std::vector<std::string> slices = {};
 };
 
 class Image {
@@ -44,6 +48,8 @@ class Image {
     /// Of an image with a buffer view: the buffer, and texels of it from one row to the next.
     VkBuffer buffer() const { return buffer_; }
     std::uint32_t row_pitch() const { return row_pitch_; }
+    /// By ImageDescription::slices. Made with it, and gone with it.
+    const std::vector<Image>& slices() const { return slices_; }
 
   private:
     struct Empty {};
@@ -52,7 +58,10 @@ class Image {
     /// Image and buffer without memory; what both need of it.
     VkMemoryRequirements make_handles();
     void make_buffer(VkMemoryRequirements& requirements);
-    void make_view();
+    VkDeviceSize slice_byte_count() const;
+    /// Adds to what is needed of the memory.
+    void make_slices(VkMemoryRequirements& requirements);
+    void bind(VkDeviceMemory memory, VkDeviceSize offset);
 
     const Device* device_;
     ImageDescription description_;
@@ -62,6 +71,7 @@ class Image {
     VkBuffer buffer_ = VK_NULL_HANDLE;
     std::uint32_t row_pitch_ = 0;
     std::uint64_t byte_count_ = 0;
+    std::vector<Image> slices_;
 };
 
 enum class BufferHome {

@@ -1,6 +1,13 @@
 // How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
 // memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
-// either way. VECTOR_KEPT: not all of its texels are written. Needs `push.grid`.
+// either way. VECTOR_KEPT: not all of its texels are written. TOGETHER: cloths lie below each other in the
+// images, one by workgroup z (engine/cloth/together.h); texels are told within a cloth. Needs `push.grid`.
+#ifdef TOGETHER
+ivec2 placed(ivec2 texel) { return ivec2(texel.x, texel.y + int(gl_WorkGroupID.z) * push.grid.y); }
+#else
+#define placed(texel) (texel)
+#endif
+#define LOAD(name, texel) imageLoad(name, placed(texel))
 #ifdef BUFFERED
 /// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
 int vector_pitch() { return (push.grid.x + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
@@ -11,12 +18,12 @@ int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(stat
     layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
 #define VECTOR_KEPT(slot, block, name) \
     layout(set = 0, binding = slot, std430) buffer block { vec4 name[]; }
-#define STORE_VECTOR(name, texel, value) name[(texel).y * vector_pitch() + (texel).x] = value
-#define STORE_SCALAR(name, texel, value) name[(texel).y * scalar_pitch() + (texel).x] = value
+#define STORE_VECTOR(name, texel, value) name[placed(texel).y * vector_pitch() + (texel).x] = value
+#define STORE_SCALAR(name, texel, value) name[placed(texel).y * scalar_pitch() + (texel).x] = value
 #else
 #define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform writeonly image2D name
 #define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, r32f) uniform writeonly image2D name
 #define VECTOR_KEPT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform image2D name
-#define STORE_VECTOR(name, texel, value) imageStore(name, texel, value)
-#define STORE_SCALAR(name, texel, value) imageStore(name, texel, vec4(value, 0.0f, 0.0f, 0.0f))
+#define STORE_VECTOR(name, texel, value) imageStore(name, placed(texel), value)
+#define STORE_SCALAR(name, texel, value) imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f))
 #endif

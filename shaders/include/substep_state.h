@@ -18,7 +18,7 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 
 /// X += d.
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
-    CompensatedSum advanced = compensated_add(position.xyz, displacement, imageLoad(position_remainder_in, texel).xyz);
+    CompensatedSum advanced = compensated_add(position.xyz, displacement, LOAD(position_remainder_in, texel).xyz);
     STORE_VECTOR(position_out, texel, vec4(advanced.value, position.w));
     STORE_VECTOR(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
 }
@@ -26,8 +26,7 @@ void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
 /// d += increment, less what the wind's drag takes away: the share `loss`. `displacement`: with what is beside it.
 void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float loss) {
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
-    CompensatedSum stepped =
-        compensated_add(displacement.xyz, counted, imageLoad(displacement_remainder_in, texel).xyz);
+    CompensatedSum stepped = compensated_add(displacement.xyz, counted, LOAD(displacement_remainder_in, texel).xyz);
     STORE_VECTOR(displacement_out, texel, vec4(stepped.value, loss));
     STORE_VECTOR(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }
@@ -35,7 +34,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
 /// On the particle of a texel: N; w: its drag, N/m.
 vec4 force_on(ivec2 texel) {
 #ifdef WIND
-    return imageLoad(wind_force, texel);
+    return LOAD(wind_force, texel);
 #else
     return vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #endif

@@ -117,6 +117,32 @@ TEST(VulkanImage, moves_and_frees_once) {
     EXPECT_EQ(gpu().device.budget().used(), used);
 }
 
+TEST(VulkanImage, slices_are_its_rows) {
+    vulkan::ImageDescription about{.name = "sheets", .width = 5, .height = 9, .usage = copied, .buffer_view = true};
+    about.slices = {"top", "middle", "bottom"};
+    if (const std::string obstacle = Image::obstacle(gpu().device, about); !obstacle.empty()) GTEST_SKIP() << obstacle;
+    const std::uint64_t used = gpu().device.budget().used();
+    {
+        const Image image(gpu().device, about);
+        ASSERT_EQ(image.slices().size(), 3u);
+        EXPECT_EQ(gpu().device.budget().used(), used + image.byte_count()) << "slices take no memory of their own";
+        std::vector<std::byte> sent, received(5 * 9 * 16);
+        upload(gpu().device, image, received);
+        for (const Image& slice : image.slices()) {
+            EXPECT_EQ(slice.description().height, 3u);
+            std::vector<std::byte> rows = noise(5 * 3 * 16);
+            rows[0] = static_cast<std::byte>(sent.size());
+            upload(gpu().device, slice, rows);
+            sent.insert(sent.end(), rows.begin(), rows.end());
+        }
+        download(gpu().device, image, received);
+        EXPECT_EQ(sent, received);
+    }
+    EXPECT_EQ(gpu().device.budget().used(), used);
+    about.slices.pop_back();
+    EXPECT_THAT(error_of([&] { Image(gpu().device, about); }), HasSubstr("cannot be cut into 2 slices"));
+}
+
 TEST(VulkanImage, beyond_the_devices_limits_is_refused_before_it_is_made) {
     const std::uint64_t used = gpu().device.budget().used();
     const std::uint32_t side = gpu().device.limits().maxImageDimension2D;

@@ -217,6 +217,35 @@ TEST_F(GraphBuilding, ABufferViewNeedsAPlainImageThatIsNoAttachment) {
     pass("good", [&](PassSetup& setup) { (void)setup.write(shared, Access::compute_write, "texels"); });
 }
 
+TEST_F(GraphBuilding, ASliceIsABandOfRowsAndAUseOfTheWhole) {
+    const Handle whole = graph.image(
+        {.name = "two", .width = 5, .height = 6, .buffer_view = true, .slices = {"one/position", "other/position"}});
+    Handle other{whole.resource, whole.version, 1};
+    const Resource& resource = graph.resources()[whole.resource];
+    EXPECT_EQ(resource.seen(other).name, "other/position");
+    EXPECT_EQ(resource.seen(other).height, 3u);
+    EXPECT_EQ(resource.byte_count(other), 5u * 3 * 16);
+    EXPECT_EQ(resource.byte_count(whole), 5u * 6 * 16);
+    pass("good", [&](PassSetup& setup) { other = setup.write(other, Access::compute_write, "texels"); });
+    EXPECT_EQ(other, (Handle{whole.resource, 1, 1}));
+    expect_refused([&](PassSetup& setup) { setup.read(whole, Access::compute_read); }, {"two", "stale"});
+    expect_refused(
+        [&](PassSetup& setup) {
+            setup.read({whole.resource, 1, 2}, Access::compute_read);
+        },
+        {"bad pass", "two", "slice 2, it has 2"});
+}
+
+TEST_F(GraphBuilding, SlicesThatDoNotFitAreRefused) {
+    const auto slices = [&](std::uint32_t height, bool view, std::vector<std::string> names) {
+        graph.image({.name = "sliced", .height = height, .buffer_view = view, .slices = std::move(names)});
+    };
+    EXPECT_THROW(slices(6, false, {"a", "b"}), GraphError);
+    EXPECT_THROW(slices(5, true, {"a", "b"}), GraphError);
+    EXPECT_THROW(slices(6, true, {"a", "flags"}), GraphError) << "there is a resource of this name";
+    EXPECT_NO_THROW(slices(6, true, {"a", "b"}));
+}
+
 TEST_F(GraphBuilding, SizesAreCheckedIn64Bits) {
     const Handle large = graph.image({.name = "large", .width = 1u << 20, .height = 1u << 20});
     EXPECT_EQ(graph.resources()[large.resource].byte_count(), std::uint64_t{1} << 44);

@@ -1,0 +1,105 @@
+// Which cloths are simulated together, and how their steps become one.
+#include "cloth/together.h"
+
+#include <gtest/gtest.h>
+
+#include "cloth/schedule.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+using Lists = std::vector<std::vector<std::size_t>>;
+
+SceneDescription sheets(std::size_t count) {
+    SceneDescription scene = test::sheet(9, 7, 1, 1, 3);
+    scene.solver.method = SolverMethod::line;
+    for (std::size_t k = 1; k < count; ++k) {
+        Cloth cloth = scene.cloths[0];
+        cloth.name = "sheet " + std::to_string(k);
+        cloth.placement.origin = {0, 0, 1.5 * static_cast<double>(k)};
+        cloth.velocity = {0, 0.1 * static_cast<double>(k), 0};
+        cloth.pins = {test::pin_box(0, 0, static_cast<std::uint32_t>(k), 0)};
+        cloth.appearance.pattern = Pattern::checker;
+        scene.cloths.push_back(cloth);
+    }
+    return scene;
+}
+
+TEST(TogetherTest, ClothsThatDifferInTheirStateAloneAreAlike) {
+    SceneDescription scene = sheets(6);
+    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 1, 2, 3, 4, 5}}));
+    scene.cloths[1].stiffness.stretch *= 2;
+    scene.cloths[3].grid = {7, 9};
+    scene.cloths[4].stiffness.stretch *= 2;
+    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 2, 5}, {1, 4}}));
+}
+
+TEST(TogetherTest, CutsOwnIterationsSelfContactAndSizeKeepThemApart) {
+    SceneDescription scene = sheets(2);
+    const auto alone = [&](auto&& change) {
+        SceneDescription changed = scene;
+        change(changed);
+        return cloths_alike(changed).empty();
+    };
+    EXPECT_FALSE(alone([](SceneDescription&) {}));
+    EXPECT_TRUE(alone([](SceneDescription& s) { s.cutters.emplace_back(); }));
+    EXPECT_TRUE(alone([](SceneDescription& s) { s.solver.tolerance = 0.1, s.solver.iterations = 2; }));
+    EXPECT_TRUE(alone([](SceneDescription& s) { s.cloths[1].self_collision.emplace(); }));
+    EXPECT_TRUE(alone([](SceneDescription& s) {
+        for (Cloth& cloth : s.cloths) cloth.grid = {200, 200};
+    }));
+}
+
+/// Steps of one cloth within a list, by itself or together.
+std::vector<StepKind> kinds_of(std::size_t cloth, const std::vector<Step>& steps, const Lists& lists) {
+    std::vector<StepKind> kinds;
+    for (const Step& step : steps) {
+        bool is_its = step.cloth == cloth || step.cloth == all_cloths;
+        for (const std::vector<std::size_t>& list : lists)
+            if (step.together && list.front() == step.cloth)
+                is_its = is_its || std::ranges::find(list, cloth) != list.end();
+        if (is_its) kinds.push_back(step.kind);
+    }
+    return kinds;
+}
+
+std::size_t count_of(const std::vector<Step>& steps, bool together) {
+    return static_cast<std::size_t>(std::ranges::count(steps, together, &Step::together));
+}
+
+TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
+    SceneDescription scene = sheets(4);
+    scene.cloths[2].damping = 1;  // not alike, in their midst
+    for (Cloth& cloth : scene.cloths) {
+        cloth.pins = {test::pin_box(0, 0, 0, 0)};
+        cloth.pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
+    }
+    scene.colliders.push_back({Sphere{{0, -1, 0}, 0.3}});
+    const SimulationModel model(scene);
+    const Lists lists = cloths_alike(scene);
+    ASSERT_EQ(lists, (Lists{{0, 1, 3}}));
+    const std::vector<Step> steps = frame_steps(model), merged = steps_together(steps, lists);
+    for (std::size_t cloth = 0; cloth < 4; ++cloth)
+        EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
+    // Control, predict, four directions and collision of each of three substeps; pins have lists of their own.
+    EXPECT_EQ(count_of(merged, true), 3u * 7);
+    EXPECT_EQ(count_of(merged, false), 3u * (8 + 3) + 1);
+}
+
+TEST(TogetherTest, StepsOfOtherKindsOrConstantsStayApart) {
+    SceneDescription scene = sheets(2);
+    scene.cloths[1].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
+    const Lists lists = cloths_alike(scene);
+    ASSERT_EQ(lists.size(), 1u);
+    const std::vector<Step> moved = frame_steps(SimulationModel(scene));
+    EXPECT_EQ(count_of(steps_together(moved, lists), true), 0u) << "one moves a pin, the other does not";
+    EXPECT_EQ(steps_together(moved, lists).size(), moved.size());
+    std::vector<Step> softer = frame_steps(SimulationModel(sheets(2)));
+    for (Step& step : softer)
+        if (step.cloth == 1 && step.kind == StepKind::line) std::get<glsl::LinePush>(step.constants).compliance *= 2;
+    EXPECT_EQ(count_of(steps_together(softer, lists), true), 3u * 2) << "control and prediction";
+}
+
+}  // namespace
+}  // namespace drape
