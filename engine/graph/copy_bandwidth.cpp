@@ -1,12 +1,11 @@
 #include "graph/copy_bandwidth.h"
 
-#include <volk.h>
-
 #include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "graph/executor.h"
+#include "vulkan/api.h"
 #include "vulkan/frame_slots.h"
 
 namespace drape::graph {

@@ -1,8 +1,8 @@
 #include "graph/executor.h"
 
 #include <fmt/core.h>
-#include <volk.h>
 
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::graph {

@@ -10,10 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#define VK_NO_PROTOTYPES
-#include <vulkan/vulkan_core.h>
-
 #include "shared/struct_layout.h"
+#include "vulkan/api.h"
 
 namespace drape::graph {
 

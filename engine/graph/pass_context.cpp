@@ -1,10 +1,10 @@
 #include <fmt/core.h>
-#include <volk.h>
 
 #include <algorithm>
 
 #include "graph/dump.h"
 #include "graph/executor.h"
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::graph {

@@ -1,9 +1,9 @@
 #include <fmt/core.h>
-#include <volk.h>
 
 #include <cstring>
 
 #include "graph/executor.h"
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::graph {

@@ -1,8 +1,7 @@
 #include "passes/attempt_pass.h"
 
-#include <volk.h>
-
 #include "cloth/frame_judgement.h"
+#include "vulkan/api.h"
 
 namespace drape {
 

@@ -1,8 +1,7 @@
 #include "passes/check_pass.h"
 
-#include <volk.h>
-
 #include "passes/step_dispatch.h"
+#include "vulkan/api.h"
 
 namespace drape {
 

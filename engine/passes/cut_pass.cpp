@@ -1,8 +1,8 @@
 #include "passes/cut_pass.h"
 
-#include <volk.h>
-
 #include <memory>
+
+#include "vulkan/api.h"
 
 namespace drape {
 

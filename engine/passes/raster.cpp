@@ -1,7 +1,5 @@
 #include "passes/raster.h"
 
-#include <volk.h>
-
 #include <algorithm>
 #include <cstring>
 #include <initializer_list>
@@ -10,6 +8,7 @@
 #include "passes/legend.h"
 #include "passes/raster_frame.h"
 #include "passes/raster_recording.h"
+#include "vulkan/api.h"
 
 namespace drape {
 

@@ -1,6 +1,6 @@
 #include "passes/raster_recording.h"
 
-#include <volk.h>
+#include "vulkan/api.h"
 
 namespace drape {
 namespace {

@@ -1,6 +1,6 @@
 #include "passes/readback_pass.h"
 
-#include <volk.h>
+#include "vulkan/api.h"
 
 namespace drape {
 

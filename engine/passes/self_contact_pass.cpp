@@ -1,8 +1,7 @@
 #include "passes/self_contact_pass.h"
 
-#include <volk.h>
-
 #include "cloth/self_contact.h"
+#include "vulkan/api.h"
 
 namespace drape {
 

@@ -102,7 +102,7 @@ Value<bool> boolean() {
 Value<std::string> text() {
     return {{"\"type\": \"string\"", "string"},
             [](const SceneNode& node, std::string& field) { return node.read(field); },
-            [](const std::string& field) { return quoted(field); }};
+            [](const std::string& field) { return drape::quoted(field); }};  // not std::quoted
 }
 
 bool Members::fit(std::initializer_list<std::string_view> keys) const {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <utility>
 
+#include "vulkan/api.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <volk.h>
 
+#include "vulkan/api.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/shader_stage.h"
 #include "vulkan/structure.h"

@@ -1,13 +1,13 @@
 #include "vulkan/device.h"
 
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <vector>
 
+#include "vulkan/api.h"
 #include "vulkan/device_requirements.h"
 #include "vulkan/device_selection.h"
 #include "vulkan/structure.h"
@@ -42,7 +42,7 @@ struct OnceCommands {
     OnceCommands(const OnceCommands&) = delete;
     OnceCommands& operator=(const OnceCommands&) = delete;
     ~OnceCommands() {
-        if (in_flight) vkDeviceWaitIdle(device.handle());
+        if (in_flight) let_finish(device.handle());
         if (commands) vkFreeCommandBuffers(device.handle(), pool, 1, &commands);
         vkDestroyFence(device.handle(), fence, nullptr);
     }
@@ -137,7 +137,7 @@ void Device::create() {
 
 Device::~Device() {
     if (!handle_) return;
-    vkDeviceWaitIdle(handle_);  // a lost device is destroyed all the same
+    let_finish(handle_);
     vkDestroyCommandPool(handle_, once_pool_, nullptr);
     vkDestroyDevice(handle_, nullptr);
 }

@@ -1,12 +1,12 @@
 #include "vulkan/device_requirements.h"
 
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <algorithm>
 #include <cstring>
 #include <vector>
 
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {

@@ -15,13 +15,15 @@ std::string failure_text(VkResult result, std::string_view call, std::string_vie
 }  // namespace
 
 VulkanError::VulkanError(VkResult result, std::string_view call, std::string_view object)
-    : DeviceError(failure_text(result, call, object)), result_(result) {}
+    : DeviceError(failure_text(result, call, object)), result_(result), is_failed_call_(true) {}
 
 VulkanError::VulkanError(const std::string& message) : DeviceError(message) {}
 
 void check(VkResult result, std::string_view call, std::string_view object) {
     if (result != VK_SUCCESS) throw VulkanError(result, call, object);
 }
+
+void let_finish(VkDevice device) noexcept { [[maybe_unused]] const VkResult result = vkDeviceWaitIdle(device); }
 
 std::string_view result_name(VkResult result) {
     switch (result) {

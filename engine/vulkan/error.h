@@ -4,10 +4,8 @@
 #include <string>
 #include <string_view>
 
-#define VK_NO_PROTOTYPES
-#include <vulkan/vulkan_core.h>
-
 #include "drape/error.h"
+#include "vulkan/api.h"
 
 namespace drape::vulkan {
 
@@ -18,13 +16,19 @@ class VulkanError : public DeviceError {
     /// A failure that is no VkResult: no such device, missing feature, over budget, shader mismatch.
     explicit VulkanError(const std::string& message);
     VkResult result() const { return result_; }
+    bool is_failed_call() const { return is_failed_call_; }
 
   private:
     VkResult result_ = VK_ERROR_UNKNOWN;
+    bool is_failed_call_ = false;
 };
 
 /// Throws VulkanError unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view call, std::string_view object = {});
+
+/// For destructors, which cannot throw: returns when nothing of the device runs any more. A lost device runs nothing,
+/// and without memory for waiting there is nothing better to do than to go on.
+void let_finish(VkDevice device) noexcept;
 
 /// "VK_ERROR_DEVICE_LOST" and so on.
 std::string_view result_name(VkResult result);

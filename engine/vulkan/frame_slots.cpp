@@ -1,8 +1,8 @@
 #include "vulkan/frame_slots.h"
 
 #include <fmt/format.h>
-#include <volk.h>
 
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {
@@ -24,7 +24,7 @@ FrameSlots::~FrameSlots() {
         } catch (const VulkanError&) {
             // The fence cannot be waited for; the queue's own idleness lets it go safely, and on a lost
             // device (the usual reason) returns at once.
-            vkDeviceWaitIdle(device_.handle());
+            let_finish(device_.handle());
         }
     }
     for (VkFence fence : fences_) vkDestroyFence(device_.handle(), fence, nullptr);

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <optional>
 
+#include "vulkan/api.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/shader_stage.h"
 #include "vulkan/structure.h"

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "vulkan/api.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
 
@@ -114,8 +114,7 @@ std::string Image::obstacle(const Device& device, const ImageDescription& descri
             return fmt::format("its rows are {} texels apart, not {}", image.row_pitch(), row_pitch);
     } catch (const VulkanError& error) {
         // A call that fails for another reason (no memory, a lost device) tells nothing about such images.
-        const bool is_refusal = error.result() == VK_ERROR_UNKNOWN || error.result() == VK_ERROR_FORMAT_NOT_SUPPORTED;
-        if (!is_refusal) throw;
+        if (error.is_failed_call() && error.result() != VK_ERROR_FORMAT_NOT_SUPPORTED) throw;
         return error.what();
     }
     return {};

@@ -1,12 +1,12 @@
 #include "vulkan/instance.h"
 
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 
+#include "vulkan/api.h"
 #include "vulkan/device_requirements.h"
 #include "vulkan/structure.h"
 

@@ -1,10 +1,10 @@
 #include "vulkan/shader_stage.h"
 
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <algorithm>
 
+#include "vulkan/api.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {

@@ -1,9 +1,9 @@
 // Set-up and test transfers: each its own submit and wait, through a staging buffer.
 #include <fmt/format.h>
-#include <volk.h>
 
 #include <cstring>
 
+#include "vulkan/api.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
 

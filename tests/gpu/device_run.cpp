@@ -1,7 +1,8 @@
 #include "device_run.h"
 
 #include <fmt/format.h>
-#include <volk.h>
+
+#include "vulkan/api.h"
 
 namespace drape::test {
 

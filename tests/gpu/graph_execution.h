@@ -2,13 +2,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <cstring>
 #include <memory>
 
 #include "gpu_test.h"
 #include "graph/executor.h"
+#include "vulkan/api.h"
 
 namespace drape::graph {
 

@@ -1,11 +1,11 @@
 // The check of the checker: a planted hazard must be reported, every time, and only real ones may be.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <vector>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"

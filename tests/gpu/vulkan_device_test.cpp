@@ -1,7 +1,6 @@
 // Finding devices, refusing selectors, and the memory budget.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <cstdlib>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/device_selection.h"
 #include "vulkan/resources.h"
 

@@ -2,16 +2,19 @@
 // nothing is left over (the validation layer would name it at the end of the process).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <string>
 #include <tuple>
 #include <type_traits>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/frame_slots.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
+
+// The attribute that lets nobody ignore a result code is no part of a function's type.
+#pragma GCC diagnostic ignored "-Wignored-attributes"
 
 namespace drape::test {
 

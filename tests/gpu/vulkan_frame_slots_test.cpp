@@ -1,11 +1,11 @@
 // Two frames in flight: submit, wait, and what is refused.
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <array>
 #include <cstring>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/frame_slots.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"

@@ -1,7 +1,6 @@
 // Pipelines: specialisation, push constants, rasterising, and what is refused when one is made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <array>
 #include <bit>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"

@@ -1,13 +1,13 @@
 // Images and buffers: round trips, refusals before anything is allocated, and what a failure leaves behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <volk.h>
 
 #include <random>
 #include <string>
 #include <vector>
 
 #include "gpu_test.h"
+#include "vulkan/api.h"
 #include "vulkan/resources.h"
 
 namespace drape::test {
