@@ -11,7 +11,7 @@
 namespace drape::graph {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -48,8 +48,8 @@ class DotWriter {
         for (const Fold& fold : folds) {
             if (fold.body.empty()) {
                 const Pass& pass = graph_.passes()[plan_.passes[fold.position].pass];
-                text_ += fmt::format("{}{} [label={}, tooltip={}];\n", indent, node(fold.position), quoted(pass.label),
-                                     quoted(pass.stage));
+                text_ += fmt::format("{}{} [label={}, tooltip={}];\n", indent, node(fold.position),
+                                     in_quotes(pass.label), in_quotes(pass.stage));
                 continue;
             }
             text_ += fmt::format("{}subgraph cluster{} {{\n{}  label=\"x {}\";\n", indent, cluster_count_++, indent,
@@ -96,7 +96,7 @@ class DotWriter {
         for (const std::uint32_t r : shown_) {
             const Resource& resource = graph_.resources()[r];
             text_ += fmt::format("  resource{} [shape=ellipse, label={}];\n", r,
-                                 quoted(fmt::format("{} ({})", resource.name, lifetime_name(resource.lifetime))));
+                                 in_quotes(fmt::format("{} ({})", resource.name, lifetime_name(resource.lifetime))));
         }
     }
 
@@ -106,7 +106,7 @@ class DotWriter {
             if (list.empty()) continue;
             std::string label;
             for (const std::string& name : list) label += label.empty() ? name : ", " + name;
-            text_ += fmt::format("  {} -> {} [label={}{}];\n", edge.first, edge.second, quoted(label),
+            text_ += fmt::format("  {} -> {} [label={}{}];\n", edge.first, edge.second, in_quotes(label),
                                  back ? ", style=dashed, constraint=false" : "");
         }
     }
@@ -116,12 +116,12 @@ class DotWriter {
         for (const SkippedGroup& group : group_skipped(graph_, plan_)) {
             const std::string times = group.count > 1 ? fmt::format(" x {}", group.count) : "";
             text_ += fmt::format("  skipped{} [style=dashed, color=gray, label={}, tooltip={}];\n", index++,
-                                 quoted(group.what + times + ": " + group.reason), quoted(group.reason));
+                                 in_quotes(group.what + times + ": " + group.reason), in_quotes(group.reason));
         }
         index = 0;
         for (const Compromised& compromise : graph_.compromises())
             text_ += fmt::format("  compromise{} [style=dashed, color=orange, label={}];\n", index++,
-                                 quoted(compromise.what + ": " + compromise.reason));
+                                 in_quotes(compromise.what + ": " + compromise.reason));
     }
 
     const Graph& graph_;
