@@ -9,6 +9,8 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { GridPush push; };
+#define TOGETHER
+#include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D normal;
 #ifdef MASKED
@@ -24,11 +26,11 @@ void main() {
         ivec2 cell = texel + around.xy;
         if (!cell_inside(cell, push.grid)) continue;
 #ifdef MASKED
-        if ((imageLoad(cells, cell).x & uint(around.z)) == 0u) continue;
+        if ((imageLoad(cells, placed_cell(cell)).x & uint(around.z)) == 0u) continue;
 #endif
-        sum = add_area_vector(sum, imageLoad(position, cell + triangle_corner(around.z, 0)).xyz,
-                              imageLoad(position, cell + triangle_corner(around.z, 1)).xyz,
-                              imageLoad(position, cell + triangle_corner(around.z, 2)).xyz);
+        sum = add_area_vector(sum, LOAD(position, cell + triangle_corner(around.z, 0)).xyz,
+                              LOAD(position, cell + triangle_corner(around.z, 1)).xyz,
+                              LOAD(position, cell + triangle_corner(around.z, 2)).xyz);
     }
-    imageStore(normal, texel, vec4(unit_or_zero(sum), 0.0f));
+    imageStore(normal, placed(texel), vec4(unit_or_zero(sum), 0.0f));
 }

@@ -13,6 +13,8 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { StatisticsPush push; };
+#define TOGETHER
+#include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
@@ -23,15 +25,19 @@ layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
+// Of each cloth, xyz: positions are summed relative to this point, m; w: thickness, m.
+layout(set = 0, binding = 12, rgba32f) uniform readonly image2D reference;
 #define RECORD StatisticsRecord
 #include "include/workgroup_reduction.h"
 
 bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
 
+vec4 reference_of_cloth() { return imageLoad(reference, ivec2(0, gl_WorkGroupID.z)); }
+
 /// Held particles have a mass too; their w does not tell it.
 float mass_share(ivec2 texel) {
 #ifdef MASKED
-    return imageLoad(mass_image, texel).x;
+    return LOAD(mass_image, texel).x;
 #else
     return border_mass_share(texel, push.grid);
 #endif
@@ -42,29 +48,29 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
     ivec2 second = first + offset;
     if (!inside(second)) return record;
 #ifdef MASKED
-    float share = imageLoad(spring_share_image, first)[direction];
+    float share = LOAD(spring_share_image, first)[direction];
 #else
     float share = border_share(first, offset, push.grid);
 #endif
-    return add_spring_strain(record, start, imageLoad(position, second).xyz, push.rest_length[direction],
+    return add_spring_strain(record, start, LOAD(position, second).xyz, push.rest_length[direction],
                              push.half_stiffness[direction], share, tension, direction >= 2);
 }
 
 StatisticsRecord statistics_of(ivec2 texel) {
-    vec4 at = imageLoad(position, texel);
-    precise vec3 velocity = imageLoad(displacement, texel).xyz + imageLoad(end_excess, texel).xyz;
-    StatisticsRecord record = particle_statistics(at.xyz, velocity, mass_share(texel), push.reference.xyz,
+    vec4 at = LOAD(position, texel);
+    precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
+    StatisticsRecord record = particle_statistics(at.xyz, velocity, mass_share(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
     if (record.counts.x != 0u) return record;
-    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), imageLoad(tension_row, texel).x);
-    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), imageLoad(tension_column, texel).x);
+    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), LOAD(tension_row, texel).x);
+    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), LOAD(tension_column, texel).x);
     record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1), 0.0f);
     record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1), 0.0f);
 #ifdef COLLIDING
     // The deepest contact that the collision pass would find. It does not move held particles, so those are no measure.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     if (at.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, push.reference.w, 0.0f, 1.0e30f, false).depth;
+        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false).depth;
 #endif
     return record;
 }
@@ -75,5 +81,8 @@ void main() {
     for (int row = 0; row < statistics_rows; ++row, ++texel.y)
         if (inside(texel)) record = joined(record, statistics_of(texel));
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    if (gl_LocalInvocationIndex == 0u) {
+        uint row = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
+        partials[row * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    }
 }

@@ -1,4 +1,4 @@
-// Joins the workgroups' records into the cloth's: lane l takes every 64th from the l-th on, then the tree.
+// Joins the workgroups' records into each cloth's: lane l takes every 64th from the l-th on, then the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -15,7 +15,7 @@ layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord 
 void main() {
     StatisticsRecord record = empty_statistics();
     for (int i = int(gl_LocalInvocationIndex); i < push.partial_count; i += workgroup_width)
-        record = joined(record, partials[i]);
+        record = joined(record, partials[int(gl_WorkGroupID.z) * push.partial_count + i]);
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) result[0] = record;
+    if (gl_LocalInvocationIndex == 0u) result[gl_WorkGroupID.z] = record;
 }

@@ -7,14 +7,16 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { TensionPush push; };
+#define TOGETHER
+#include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D tension_row;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D tension_column;
 
 float tension_to(ivec2 first, ivec2 second, float rest_length, float used_share) {
-    precise vec3 edge = imageLoad(position, second).xyz - imageLoad(position, first).xyz;
-    precise vec3 closing = imageLoad(displacement, second).xyz - imageLoad(displacement, first).xyz;
+    precise vec3 edge = LOAD(position, second).xyz - LOAD(position, first).xyz;
+    precise vec3 closing = LOAD(displacement, second).xyz - LOAD(displacement, first).xyz;
     return gathered_tension(edge, closing, rest_length, used_share, push.strain_damping);
 }
 
@@ -23,10 +25,10 @@ void main() {
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     if (texel.x + 1 < push.grid.x) {
         float along_row = tension_to(texel, texel + ivec2(1, 0), push.rest_length.x, push.used_share.x);
-        imageStore(tension_row, texel, vec4(along_row, 0.0f, 0.0f, 0.0f));
+        imageStore(tension_row, placed(texel), vec4(along_row, 0.0f, 0.0f, 0.0f));
     }
     if (texel.y + 1 < push.grid.y) {
         float along_column = tension_to(texel, texel + ivec2(0, 1), push.rest_length.y, push.used_share.y);
-        imageStore(tension_column, texel, vec4(along_column, 0.0f, 0.0f, 0.0f));
+        imageStore(tension_column, placed(texel), vec4(along_column, 0.0f, 0.0f, 0.0f));
     }
 }

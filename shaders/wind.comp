@@ -18,8 +18,6 @@ VECTOR_OUT(2, WindForceOut, wind_force);
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 #ifdef MASKED
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
-
-ivec2 placed_cell(ivec2 cell) { return ivec2(cell.x, cell.y + int(gl_WorkGroupID.z) * (push.grid.y - 1)); }
 #endif
 
 void main() {

@@ -60,6 +60,9 @@ FieldExtent residual_list(Context c) { return {residual_count(c.cloth.grid)}; }
 FieldExtent size_list(Context) { return {glsl::iteration_size_count}; }
 FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
+std::vector<std::byte> start_excess(Context c) { return bytes_of(c.cloth.start_excess()); }
+std::vector<std::byte> reference(Context c) { return bytes_of(std::vector{statistics_reference(c.cloth)}); }
+
 std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
 }
@@ -121,8 +124,8 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
         {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
-        {Field::end_excess, "end excess", stored, vector, state, judged, particles,
-         [](Context c) { return bytes_of(c.cloth.start_excess()); }},
+        {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},
+        {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},

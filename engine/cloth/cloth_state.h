@@ -32,6 +32,7 @@ enum class Field : std::uint8_t {
     displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end
     velocity_excess,           ///< of that substep, h times its end's velocity - displacement, m
     end_excess,                ///< at a frame's end: h times the velocity there - displacement, m (end_velocity.h)
+    statistics_reference,      ///< what the statistics measure from
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     wind_force,                ///< N
     normal,                    ///< unit normal of the front

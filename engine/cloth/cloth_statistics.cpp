@@ -29,13 +29,15 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
         component(push.half_stiffness, direction) =
             std::isfinite(stiffness) ? static_cast<float>(0.5 * stiffness) : 0.0f;
     }
-    // Sums relative to the cloth's middle keep their digits far from the origin.
-    const glsl::vec4 first = cloth.position.front(), last = cloth.position.back();
-    push.reference = {0.5f * (first.x + last.x), 0.5f * (first.y + last.y), 0.5f * (first.z + last.z),
-                      cloth.collision.contact.x};
     push.collider_first = first_collider(model.scene, model.scene.solver.substeps - 1);
     push.grid = cloth.grid.size();
     return push;
+}
+
+glsl::vec4 statistics_reference(const ClothModel& cloth) {
+    // Sums relative to the cloth's middle keep their digits far from the origin.
+    const glsl::vec4 first = cloth.position.front(), last = cloth.position.back();
+    return {0.5f * (first.x + last.x), 0.5f * (first.y + last.y), 0.5f * (first.z + last.z), cloth.collision.contact.x};
 }
 
 std::vector<float> mass_shares(const ClothModel& cloth) {
@@ -48,7 +50,7 @@ std::vector<float> mass_shares(const ClothModel& cloth) {
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
                                  const glsl::StatisticsRecord& record) {
     const double h = cloth.substep_length;
-    const glsl::vec4 reference = statistics_push(model, cloth).reference;
+    const glsl::vec4 reference = statistics_reference(cloth);
     ClothStatistics statistics;
     // Adding +0 turns the -0 of an empty sum into 0.
     statistics.stretch = strain_statistics(record.counts.z, record.squares.x + 0.0, record.strains.x, record.strains.z);

@@ -11,6 +11,9 @@ namespace drape {
 /// What a state of this cloth is reduced with; colliders are those of the frame's last substep.
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth);
 
+/// xyz: positions are summed relative to this point, m; w: thickness, m.
+glsl::vec4 statistics_reference(const ClothModel& cloth);
+
 /// Mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
 std::vector<float> mass_shares(const ClothModel& cloth);
 

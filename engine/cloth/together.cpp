@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
+#include <map>
 
 namespace drape {
 
@@ -21,10 +21,11 @@ bool alike(const Cloth& one, const Cloth& other) {
     return same == one;
 }
 
-/// Whether all of a step's data are its constants and the images of the state.
+/// Whether all of a step's data are its constants, the images of the state and, of pins, lists that can be joined.
 bool in_images(StepKind kind) {
     switch (kind) {
         case StepKind::wind:
+        case StepKind::pin:
         case StepKind::control:
         case StepKind::predict:
         case StepKind::force:
@@ -54,36 +55,67 @@ bool same_place(const Step& one, const Step& other) {
            one.last == other.last && one.count == other.count && one.conditional == other.conditional;
 }
 
-/// The steps of a list's cloths: a row per step of its first.
-using Rows = std::vector<std::vector<const Step*>>;
+bool same_step(const Step& one, const Step& other) {
+    return in_images(one.kind) && !one.conditional && same_place(one, other) &&
+           same_constants(one.constants, other.constants);
+}
 
-std::optional<Rows> rows_of(const std::vector<Step>& steps, const std::vector<std::size_t>& list) {
-    Rows rows;
-    for (const std::size_t cloth : list) {
-        std::size_t place = 0;
-        for (const Step& step : steps) {
-            if (step.cloth != cloth) continue;
-            if (cloth == list.front()) rows.emplace_back();
-            if (place == rows.size() || !same_place(cloth == list.front() ? step : *rows[place].front(), step))
-                return {};
-            rows[place++].push_back(&step);
+/// What the cloths of a list still have to do in a substep, each in its order.
+class Substep {
+  public:
+    explicit Substep(std::size_t cloths) : steps_(cloths), next_(cloths) {}
+    void add(std::size_t place, const Step& step) { steps_[place].push_back(&step); }
+
+    /// Shared steps where all have come to one; until then everybody goes on alone.
+    void merge(std::vector<Step>& merged) {
+        while (!is_done()) {
+            if (all_are_at_one()) {
+                merged.push_back(*front(0));
+                merged.back().together = true;
+                for (std::size_t& next : next_) ++next;
+            } else if (!go_on_alone(false, merged)) {
+                go_on_alone(true, merged);
+            }
         }
-        if (place != rows.size()) return {};
     }
-    return rows;
-}
 
-void add_row(const std::vector<const Step*>& row, std::vector<Step>& merged) {
-    const Step& first = *row.front();
-    const bool one = in_images(first.kind) && !first.conditional && std::ranges::all_of(row, [&](const Step* step) {
-                         return same_constants(first.constants, step->constants);
-                     });
-    for (const Step* step : row) {
-        merged.push_back(*step);
-        merged.back().together = one;
-        if (one) return;
+  private:
+    const Step* front(std::size_t place) const {
+        return next_[place] < steps_[place].size() ? steps_[place][next_[place]] : nullptr;
     }
-}
+    bool is_done() const {
+        for (std::size_t place = 0; place < steps_.size(); ++place)
+            if (front(place)) return false;
+        return true;
+    }
+    bool all_are_at_one() const {
+        for (std::size_t place = 0; place < steps_.size(); ++place)
+            if (!front(place) || !same_step(*front(0), *front(place))) return false;
+        return true;
+    }
+    /// Those whose step some other cloth has nowhere before it, or all that are left; whether there were any.
+    bool go_on_alone(bool all, std::vector<Step>& merged) {
+        bool any = false;
+        for (std::size_t place = 0; place < steps_.size(); ++place) {
+            if (!front(place) || (!all && everyone_comes_to(*front(place)))) continue;
+            merged.push_back(*front(place));
+            ++next_[place];
+            any = true;
+        }
+        return any;
+    }
+    bool everyone_comes_to(const Step& step) const {
+        for (std::size_t place = 0; place < steps_.size(); ++place) {
+            const auto begin = steps_[place].begin() + static_cast<std::ptrdiff_t>(next_[place]);
+            if (std::none_of(begin, steps_[place].end(), [&](const Step* other) { return same_step(step, *other); }))
+                return false;
+        }
+        return true;
+    }
+
+    std::vector<std::vector<const Step*>> steps_;
+    std::vector<std::size_t> next_;
+};
 
 }  // namespace
 
@@ -107,29 +139,33 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
 }
 
 std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vector<std::vector<std::size_t>>& lists) {
-    std::vector<Rows> tables;
-    std::vector<std::optional<std::size_t>> table_of;  // by cloth
-    std::vector<bool> leads;
-    for (const std::vector<std::size_t>& list : lists) {
-        std::optional<Rows> rows = rows_of(steps, list);
-        if (!rows) continue;
-        for (const std::size_t cloth : list) {
-            table_of.resize(std::max(table_of.size(), cloth + 1));
-            leads.resize(table_of.size());
-            table_of[cloth] = tables.size();
-            leads[cloth] = cloth == list.front();
-        }
-        tables.push_back(std::move(*rows));
-    }
+    struct Place {
+        std::size_t list, within;
+    };
+    std::map<std::size_t, Place> places;  // by cloth
+    for (std::size_t list = 0; list < lists.size(); ++list)
+        for (std::size_t within = 0; within < lists[list].size(); ++within)
+            places[lists[list][within]] = {list, within};
+    std::map<std::pair<std::size_t, std::uint32_t>, Substep> substeps;  // by list and substep
+    for (const Step& step : steps)
+        if (const auto place = places.find(step.cloth); place != places.end())
+            substeps.try_emplace({place->second.list, step.substep}, lists[place->second.list].size())
+                .first->second.add(place->second.within, step);
     std::vector<Step> merged;
-    std::vector<std::size_t> next(tables.size());
     for (const Step& step : steps) {
-        const bool alone = step.cloth >= table_of.size() || !table_of[step.cloth];
-        if (alone)
+        const auto place = places.find(step.cloth);
+        if (place == places.end()) {
             merged.push_back(step);
-        else if (leads[step.cloth])
-            add_row(tables[*table_of[step.cloth]][next[*table_of[step.cloth]]++], merged);
+            continue;
+        }
+        // All of a substep where its first step was.
+        const auto substep = substeps.find({place->second.list, step.substep});
+        if (substep == substeps.end()) continue;
+        substep->second.merge(merged);
+        substeps.erase(substep);
     }
+    for (Step& step : merged)
+        if (step.together) step.cloth = lists[places.at(step.cloth).list].front();
     return merged;
 }
 

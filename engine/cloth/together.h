@@ -15,8 +15,8 @@ namespace drape {
 std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene);
 
 /// The steps of a frame, with those that all cloths of a list take with the same constants made one (Step::together),
-/// named for the list's first. Where the cloths of a list do not take steps of the same kinds in the same order (pins
-/// of one move, another's do not), theirs stay as they are.
+/// named for the list's first. What only some of them do, or do otherwise, stays theirs: the sweeps around their pins,
+/// pins that let go. Every cloth keeps the order of its steps.
 std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vector<std::vector<std::size_t>>& lists);
 
 }  // namespace drape

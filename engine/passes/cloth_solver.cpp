@@ -137,21 +137,6 @@ ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& mo
         for (const std::size_t cloth : together_[k].cloths) together_of_[cloth] = k;
 }
 
-void ClothSolver::find_together(const vulkan::Device& device) {
-    for (const std::vector<std::size_t>& alike : cloths_alike(model_.scene)) {
-        const Grid& grid = model_.cloths[alike.front()].grid;
-        // Halves, until they fit.
-        std::size_t count = alike.size();
-        while (count > 1 && !buffered_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
-            count = (count + 1) / 2;
-        for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
-            const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
-            const std::size_t some = std::min(count, alike.size() - first);
-            if (some > 1) together_.push_back({{begin, begin + static_cast<std::ptrdiff_t>(some)}, {}});
-        }
-    }
-}
-
 void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run) {
     cloths_.clear();
     inputs_ = {};
@@ -173,6 +158,8 @@ ClothState ClothSolver::state_of(std::size_t index) const {
     state.name = state.model->name;
     state.topology = &topologies_[index];
     state.index = index;
+    state.pinned_count = state.model->pinned.size();
+    state.pin_count = state.model->dynamic_pins.size();
     state.buffered = schedule_ != Schedule::images;
     state.index_count = static_cast<std::uint32_t>(topologies_[index].indices().size());
     state.iteration_sizes = iteration_sizes_[index];
@@ -207,27 +194,16 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
         }
         together.state[row.field] = whole;
     }
+    declare_pins(graph, together, needs);
 }
 
-void ClothSolver::take(std::size_t cloth) {
-    if (together_of_[cloth] == together_.size()) return;
-    const Together& together = together_[together_of_[cloth]];
-    const auto place = static_cast<std::uint32_t>(std::ranges::find(together.cloths, cloth) - together.cloths.begin());
-    ClothState& state = cloths_[cloth];
-    state.away = together.state.away;
-    for (const FieldRow& row : cloth_fields()) {
-        const graph::Handle whole = together.state[row.field];
-        if (row.is_image() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
+template <class Add>
+void ClothSolver::for_each_dispatch(const Add& add) {
+    for (Together& together : together_) add(together.state);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        if (together_of_[cloth] == together_.size()) add(cloths_[cloth]);
+        take(cloth);
     }
-}
-
-void ClothSolver::give(std::size_t cloth) {
-    if (together_of_[cloth] == together_.size()) return;
-    ClothState& whole = together_[together_of_[cloth]].state;
-    const ClothState& state = cloths_[cloth];
-    for (const FieldRow& row : cloth_fields())
-        if (row.is_image() && state[row.field].valid())
-            whole[row.field] = {state[row.field].resource, state[row.field].version};
 }
 
 template <class Add>
@@ -260,9 +236,7 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
             add(cloths_[step.cloth], step);
             give(step.cloth);
         } else {
-            for (Together& together : together_) add(together.state, step);
-            for (ClothState& state : cloths_)
-                if (together_of_[state.index] == together_.size()) add(state, step);
+            for_each_dispatch([&](ClothState& state) { add(state, step); });
         }
     }
     for_each_cloth([&](ClothState& state) {
@@ -336,7 +310,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
 }
 
 void ClothSolver::add_normals(graph::Graph& graph) {
-    for_each_cloth([&](ClothState& state) { drape::add_normals(graph, pipelines_, state); });
+    for_each_dispatch([&](ClothState& state) { drape::add_normals(graph, pipelines_, state); });
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
@@ -356,7 +330,7 @@ std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, st
 }
 
 void ClothSolver::add_statistics(graph::Graph& graph) {
-    for_each_cloth([&](ClothState& state) {
+    for_each_dispatch([&](ClothState& state) {
         if (state.model->plan.gathered_tension) add_tension(graph, pipelines_, state);
         drape::add_statistics(graph, pipelines_, state, inputs_, *run_);
         if (model_.adaptive()) add_iteration_readback(graph, state);
@@ -364,12 +338,21 @@ void ClothSolver::add_statistics(graph::Graph& graph) {
     if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 
+glsl::StatisticsRecord ClothSolver::statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
+                                                      std::size_t cloth) const {
+    const bool alone = together_of_[cloth] == together_.size();
+    const std::string& name = alone ? model_.cloths[cloth].name : together_[together_of_[cloth]].state.name;
+    glsl::StatisticsRecord record;
+    const std::span<const std::byte> bytes = pool.buffer(statistics_readback_name(name), slot).mapped();
+    std::memcpy(&record, bytes.data() + place_of(cloth) * sizeof record, sizeof record);
+    return record;
+}
+
 std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot,
                                                      const SimulationModel& run) const {
     std::vector<ClothStatistics> all;
     for (const ClothModel& cloth : run.cloths) {
-        glsl::StatisticsRecord record;
-        std::memcpy(&record, pool.buffer(statistics_readback_name(cloth), slot).mapped().data(), sizeof record);
+        const glsl::StatisticsRecord record = statistics_record(pool, slot, all.size());
         all.push_back(cloth_statistics(run, cloth, record));
         if (!run.adaptive()) continue;
         glsl::uvec4 used;
@@ -406,6 +389,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         sizes.resize(glsl::iteration_size_count);
         vulkan::upload(pool.device(), pool.buffer(name), bytes_of(sizes));
     }
+    upload_pins(pool);
 }
 
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
@@ -417,6 +401,7 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
         if (!inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),
                          inputs.pins[cloth]);
+    write_pins(pool, slot, inputs, run.scene.solver.substeps);
 }
 
 }  // namespace drape

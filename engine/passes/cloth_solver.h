@@ -101,13 +101,24 @@ class ClothSolver {
     };
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs);
+    void declare_pins(graph::Graph& graph, Together& together, const FrameNeeds& needs);
+    void upload_pins(const graph::ResourcePool& pool) const;
+    void write_pins(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
+                    std::uint32_t substeps) const;
     ClothState state_of(std::size_t index) const;
     void find_together(const vulkan::Device& device);
     /// Gives a cloth the newest handles, and takes over those that it made.
     void take(std::size_t cloth);
     void give(std::size_t cloth);
+    /// Among those that it is together with; 0 of one alone.
+    std::uint32_t place_of(std::size_t cloth) const;
+    /// Whatever is done for cloths together, and for each of the others.
+    template <class Add>
+    void for_each_dispatch(const Add& add);
     template <class Add>
     void for_each_cloth(const Add& add);
+    glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
+                                             std::size_t cloth) const;
     std::vector<Step> steps() const;
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
 

@@ -12,9 +12,9 @@ void add_normals(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             state[Field::normal] = setup.write(state[Field::normal], graph::Access::compute_write, "normal");
             if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
 }
 

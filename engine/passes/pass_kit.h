@@ -44,6 +44,8 @@ struct ClothState {
     /// they lie in below each other.
     std::uint32_t count = 1;
     std::string name;
+    /// Of all of them: particles that pins hold, and pins, that move or let go.
+    std::size_t pinned_count = 0, pin_count = 0;
     /// Invalid where the cloth does not need the field (cloth/cloth_state.h).
     graph::Handle& operator[](Field field) { return handles[static_cast<std::size_t>(field)]; }
     const graph::Handle& operator[](Field field) const { return handles[static_cast<std::size_t>(field)]; }

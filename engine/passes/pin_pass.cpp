@@ -4,8 +4,8 @@ namespace drape {
 
 namespace {
 
-glsl::PinPush pin_push(const ClothModel& model, const Step& step) {
-    return {static_cast<int>(model.pinned.size()), static_cast<int>(step.substep * model.dynamic_pins.size())};
+glsl::PinPush pin_push(const ClothState& state, const Step& step) {
+    return {static_cast<int>(state.pinned_count), static_cast<int>(step.substep * state.pin_count)};
 }
 
 }  // namespace
@@ -19,7 +19,7 @@ void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         vulkan::variant_name("pin_release.comp",
                              {{"masked", masked}, {"tension", tension}, {"second_order", plan.second_order}}),
         constants);
-    const glsl::PinPush pins = pin_push(*state.model, step);
+    const glsl::PinPush pins = pin_push(state, step);
     const glsl::ReleasePush push{plan.release_stiffness, state.model->grid.size(), pins.particle_count,
                                  pins.motion_first, state.model->reach()};
     graph.add_pass(
@@ -55,7 +55,7 @@ void add_pin_motion(graph::Graph& graph, PipelineCache& pipelines, ClothState& s
             setup.read(state[Field::pinned_particles], graph::Access::compute_read, "pins");
             setup.read(state[Field::pin_motions], graph::Access::compute_read, "motions");
         },
-        [&pipeline, push = pin_push(*state.model, step)](graph::PassContext& context) {
+        [&pipeline, push = pin_push(state, step)](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.particle_count), 1);
         });
 }

@@ -23,14 +23,16 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
     if (collides) constants = collider_constants(model.scene);
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", collides}}), constants);
-    graph::Handle records = graph.buffer<glsl::StatisticsRecord>(
-        state.model->name + "/statistics of workgroups", partial_count(state.model->grid), graph::Lifetime::transient);
+    graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of workgroups",
+                                                                 partial_count(state.model->grid) * state.count,
+                                                                 graph::Lifetime::transient);
     graph.add_pass(
         state.pass_name("statistics", "statistics"),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
             setup.read(state[Field::end_excess], graph::Access::compute_read, "end_excess");
+            setup.read(state[Field::statistics_reference], graph::Access::compute_read, "reference");
             records = setup.write(records, graph::Access::compute_write, "partials");
             setup.read(state[Field::tension_row], graph::Access::compute_read, "tension_row");
             setup.read(state[Field::tension_column], graph::Access::compute_read, "tension_column");
@@ -40,22 +42,22 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
             }
             if (collides) setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
         },
-        [&pipeline, push = statistics_push(model, *state.model),
-         height = strip_count(state.model->grid)](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height);
+        [&pipeline, push = statistics_push(model, *state.model), height = strip_count(state.model->grid),
+         count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height, count);
         });
     return records;
 }
 
 }  // namespace
 
-std::string statistics_readback_name(const ClothModel& cloth) { return cloth.name + "/statistics on the host"; }
+std::string statistics_readback_name(const std::string& state) { return state + "/statistics on the host"; }
 
 void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model) {
     const graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
-    const graph::Handle result =
-        graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(*state.model), 1, graph::Lifetime::host_output);
+    const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name), state.count,
+                                                                      graph::Lifetime::host_output);
     const vulkan::ComputePipeline& pipeline = pipelines.get("statistics_sum.comp");
     const glsl::StatisticsSumPush push{static_cast<int>(partial_count(state.model->grid))};
     graph.add_pass(
@@ -64,7 +66,9 @@ void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& s
             setup.read(records, graph::Access::compute_read, "partials");
             static_cast<void>(setup.write(result, graph::Access::compute_write, "result"));
         },
-        [&pipeline, push](graph::PassContext& context) { context.dispatch(pipeline, push, 1, 1); });
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, 1, 1, count);
+        });
 }
 
 }  // namespace drape

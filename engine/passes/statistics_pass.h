@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// Host output buffer with one glsl::StatisticsRecord.
-std::string statistics_readback_name(const ClothModel& cloth);
+/// Host output buffer with a glsl::StatisticsRecord per cloth of a state (ClothState::name, count).
+std::string statistics_readback_name(const std::string& state);
 
 /// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". The sums are trees in a
 /// fixed order without atomics, so they repeat bit for bit and equal the twin's (reference/statistics.h).

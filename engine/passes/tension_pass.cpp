@@ -14,9 +14,9 @@ void add_tension(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             state[Field::tension_column] =
                 setup.write(state[Field::tension_column], graph::Access::compute_write, "tension_column");
         },
-        [&pipeline, push = *state.model->plan.gathered_tension](graph::PassContext& context) {
+        [&pipeline, push = *state.model->plan.gathered_tension, count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
+                             static_cast<std::uint32_t>(push.grid.y), count);
         });
 }
 

@@ -27,6 +27,7 @@ class Reduction {
           inputs_(inputs),
           colliders_(model.scene.colliders),
           push_(statistics_push(model, cloth)),
+          reference_(statistics_reference(cloth)),
           masses_(mass_shares(cloth)) {}
 
     StatisticsRecord run() const {
@@ -63,7 +64,7 @@ class Reduction {
         const float share = state_.topology.masked() ? masses_[index] : border_mass_share(particle, push_.grid);
         const vec3 velocity = xyz(state_[Field::displacement][index]) + xyz(state_[Field::end_excess][index]);
         StatisticsRecord record =
-            particle_statistics(xyz(position), velocity, share, xyz(push_.reference), static_cast<uint>(index));
+            particle_statistics(xyz(position), velocity, share, xyz(reference_), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
         if (position.w != 0.0f) record.extents.z = penetration(xyz(position));
@@ -88,7 +89,7 @@ class Reduction {
         for (std::size_t k = 0; k < colliders_.size(); ++k) {
             const ColliderRecord& record = inputs_.colliders[static_cast<std::size_t>(push_.collider_first) + k];
             const float depth =
-                collider_contact(colliders_[k].kind(), record, position, rest, push_.reference.w, 0.0f, 1.0e30f).depth;
+                collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f, 1.0e30f).depth;
             deepest = depth > deepest ? depth : deepest;
         }
         return deepest;
@@ -98,6 +99,7 @@ class Reduction {
     const FrameInputs& inputs_;
     const std::vector<drape::Collider>& colliders_;
     StatisticsPush push_;
+    vec4 reference_;
     std::vector<float> masses_;
 };
 

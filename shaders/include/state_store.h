@@ -1,13 +1,7 @@
 // How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
 // memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
-// either way. VECTOR_KEPT: not all of its texels are written. TOGETHER: cloths lie below each other in the
-// images, one by workgroup z (engine/cloth/together.h); texels are told within a cloth. Needs `push.grid`.
-#ifdef TOGETHER
-ivec2 placed(ivec2 texel) { return ivec2(texel.x, texel.y + int(gl_WorkGroupID.z) * push.grid.y); }
-#else
-#define placed(texel) (texel)
-#endif
-#define LOAD(name, texel) imageLoad(name, placed(texel))
+// either way. VECTOR_KEPT: not all of its texels are written. Needs `push.grid`.
+#include "include/together.h"
 #ifdef BUFFERED
 /// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
 int vector_pitch() { return (push.grid.x + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }

@@ -17,7 +17,6 @@ const int statistics_rows = 8;
 struct StatisticsPush {
     vec4 rest_length;     // m; 0: the cloth has no springs of this direction
     vec4 half_stiffness;  // N/m, k/2; 0: rigid, stores no energy
-    vec4 reference;       // xyz: positions are summed relative to this point, m; w: thickness, m
     ivec2 grid;           // columns, rows
     int collider_first;   // first collider at the frame's end
 };

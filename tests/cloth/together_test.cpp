@@ -82,23 +82,49 @@ TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
     const std::vector<Step> steps = frame_steps(model), merged = steps_together(steps, lists);
     for (std::size_t cloth = 0; cloth < 4; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
-    // Control, predict, four directions and collision of each of three substeps; pins have lists of their own.
-    EXPECT_EQ(count_of(merged, true), 3u * 7);
-    EXPECT_EQ(count_of(merged, false), 3u * (8 + 3) + 1);
+    // Control, predict, pins, four directions and collision of each of three substeps.
+    EXPECT_EQ(count_of(merged, true), 3u * 8);
+    EXPECT_EQ(count_of(merged, false), 3u * 8 + 1);
 }
 
-TEST(TogetherTest, StepsOfOtherKindsOrConstantsStayApart) {
-    SceneDescription scene = sheets(2);
+TEST(TogetherTest, WhatSomeDoNotDoOrDoOtherwiseStaysTheirs) {
+    SceneDescription scene = sheets(3);
     scene.cloths[1].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
     const Lists lists = cloths_alike(scene);
     ASSERT_EQ(lists.size(), 1u);
-    const std::vector<Step> moved = frame_steps(SimulationModel(scene));
-    EXPECT_EQ(count_of(steps_together(moved, lists), true), 0u) << "one moves a pin, the other does not";
-    EXPECT_EQ(steps_together(moved, lists).size(), moved.size());
-    std::vector<Step> softer = frame_steps(SimulationModel(sheets(2)));
-    for (Step& step : softer)
-        if (step.cloth == 1 && step.kind == StepKind::line) std::get<glsl::LinePush>(step.constants).compliance *= 2;
-    EXPECT_EQ(count_of(steps_together(softer, lists), true), 3u * 2) << "control and prediction";
+    std::vector<Step> steps = frame_steps(SimulationModel(scene));
+    std::vector<Step> merged = steps_together(steps, lists);
+    EXPECT_EQ(count_of(merged, true), 3u * 6) << "one moves a pin";
+    EXPECT_EQ(count_of(merged, false), 3u + 1);
+    for (Step& step : steps)
+        if (step.cloth == 2 && step.kind == StepKind::line && step.substep == 1)
+            std::get<glsl::LinePush>(step.constants).compliance *= 2;
+    merged = steps_together(steps, lists);
+    EXPECT_EQ(count_of(merged, true), 3u * 6 - 4) << "and another is softer in one substep";
+    for (std::size_t cloth = 0; cloth < 3; ++cloth)
+        EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
+}
+
+TEST(TogetherTest, ExplicitStepsInFlightOfSomeLeaveTheOthersAlone) {
+    SceneDescription scene = sheets(3);
+    scene.solver.method = SolverMethod::explicit_steps;
+    scene.solver.substeps = 11;
+    scene.cloths[1].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
+    const Lists lists = cloths_alike(scene);
+    ASSERT_EQ(lists.size(), 1u);
+    const std::vector<Step> steps = steps_in_flight(frame_steps(SimulationModel(scene)), 4);
+    const std::vector<Step> merged = steps_together(steps, lists);
+    const auto substeps_of = [](std::size_t cloth, const std::vector<Step>& all) {
+        std::vector<std::uint32_t> substeps;
+        for (const Step& step : all)
+            if (step.kind == StepKind::explicit_step && (step.cloth == cloth || step.together))
+                for (std::uint32_t k = 0; k < step.count; ++k) substeps.push_back(step.substep + k);
+        return substeps;
+    };
+    for (std::size_t cloth = 0; cloth < 3; ++cloth) {
+        EXPECT_EQ(substeps_of(cloth, merged), substeps_of(cloth, steps)) << cloth;
+        EXPECT_EQ(substeps_of(cloth, merged).size(), 11u);
+    }
 }
 
 }  // namespace

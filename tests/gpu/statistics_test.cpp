@@ -54,7 +54,7 @@ class StatisticsRun {
         slots_.submit(0, recorded_->commands(0));
         slots_.wait(0);
         glsl::StatisticsRecord result;
-        const auto bytes = pool_->buffer(statistics_readback_name(model_.cloths[0]), 0).mapped();
+        const auto bytes = pool_->buffer(statistics_readback_name(model_.cloths[0].name), 0).mapped();
         std::memcpy(&result, bytes.data(), sizeof result);
         return result;
     }
@@ -478,7 +478,7 @@ TEST(StatisticsTest, NobodyAsksNothingRuns) {
     options.draw = false;
     options.positions = true;
     const FrameLoop loop(test::gpu().device, model, options);
-    EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0])));
+    EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0].name)));
     const auto& skipped = loop.plan(FrameKind::simulate_and_output).skipped;
     EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Skipped& s) { return s.what == "statistics"; }));
     options.statistics = true;

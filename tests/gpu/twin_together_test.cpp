@@ -23,6 +23,7 @@ SceneDescription several(SolverMethod method) {
         cloth.placement.origin[1] += 0.1 * static_cast<double>(scene.cloths.size());
         cloth.velocity = {0, -0.5, 0};
         cloth.pins.push_back(test::pin_box(7, 9, 9, 9));
+        cloth.pins.back().path.keys = {{0, {0, 0, 0}, {}}, {0.2, {0, 0.05, 0.1}, {}}};
         scene.cloths.push_back(cloth);
     }
     return scene;
@@ -62,6 +63,16 @@ TEST(TwinTogetherTest, ExplicitStreams) {
     scene.wind = {};
     for (Cloth& cloth : scene.cloths) cloth.pins = {test::pin_top(cloth)};
     compare(scene);
+}
+
+TEST(TwinTogetherTest, OneMovesItsPins) {
+    for (const SolverMethod method : {SolverMethod::explicit_steps, SolverMethod::line}) {
+        SceneDescription scene = several(method);
+        scene.colliders = {};
+        scene.wind = {};
+        for (std::size_t k = 1; k < scene.cloths.size(); ++k) scene.cloths[k].pins = {test::pin_top(scene.cloths[k])};
+        compare(scene);
+    }
 }
 
 TEST(TwinTogetherTest, Relaxed) {

@@ -1,0 +1,53 @@
+// Cloths that are simulated together are reduced together, each about its own middle.
+#include <gtest/gtest.h>
+
+#include "frame_loop.h"
+#include "gpu_test.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+std::vector<ClothStatistics> after_frames(const SceneDescription& scene, std::uint32_t count) {
+    const SimulationModel model(scene);
+    FrameLoopOptions options;
+    options.draw = false;
+    options.statistics = true;
+    FrameLoop loop(test::gpu().device, model, options);
+    std::vector<ClothStatistics> last;
+    loop.run(
+        count, [=](std::uint32_t frame) { return frame == count; },
+        [&](const FinishedFrame& frame) { last = frame.statistics; });
+    return last;
+}
+
+TEST(StatisticsTest, OfClothsTogetherAreEachOnesOwn) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps}) {
+        SceneDescription scene = test::sheet(70, 11, 1, 0.2, 4);
+        scene.solver.method = method;
+        scene.cloths[0].stiffness = {false, 240, 40, 0};
+        for (int k = 1; k < 3; ++k) {
+            scene.cloths.push_back(scene.cloths[0]);
+            scene.cloths.back().name = "other " + std::to_string(k);
+            scene.cloths.back().placement.origin[2] += 3.0 * k;
+            scene.cloths.back().pins = {test::pin_box(0, 0, static_cast<std::uint32_t>(9 * k), 0)};
+        }
+        const std::vector<ClothStatistics> together = after_frames(scene, 4);
+        ASSERT_EQ(together.size(), 3u);
+        for (std::size_t k = 0; k < 3; ++k) {
+            SceneDescription alone = scene;
+            alone.cloths = {scene.cloths[k]};
+            const ClothStatistics expected = after_frames(alone, 4).at(0);
+            EXPECT_EQ(together[k].center_of_mass, expected.center_of_mass) << k;
+            EXPECT_EQ(together[k].kinetic_energy, expected.kinetic_energy) << k;
+            EXPECT_EQ(together[k].elastic_energy, expected.elastic_energy) << k;
+            EXPECT_EQ(together[k].stretch_error_rms, expected.stretch_error_rms) << k;
+            EXPECT_EQ(together[k].farthest, expected.farthest) << k;
+            EXPECT_EQ(together[k].fastest, expected.fastest) << k;
+        }
+        EXPECT_NE(together[0].kinetic_energy, together[2].kinetic_energy);
+    }
+}
+
+}  // namespace
+}  // namespace drape
