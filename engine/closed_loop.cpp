@@ -55,7 +55,7 @@ FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t subst
     Judged judged{solver_.statistics(*pool_, slot, *rung.model), {.substeps = substeps}, {}};
     for (graph::Timing& timing : rung.frame.recorded->timings(slot))
         judged.timings.push_back({std::move(timing.name), timing.milliseconds});
-    judged.self_records = solver_.self_records(*pool_, slot);
+    judged.self_record = solver_.self_record(*pool_, slot);
     return judged;
 }
 
@@ -102,9 +102,9 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         deliver(next_slot_, finished);  // the frame before, while this one is simulated
         judged = take_judged(slot, run.substeps);
         attempt_statistics_.push_back(judged.statistics);
-        attempt_self_records_.push_back(judged.self_records);
+        attempt_self_records_.push_back(judged.self_record);
         const double implausible =
-            std::max(watch_.excess(frame + k, judged.statistics), self_list_use(judged.self_records));
+            std::max(watch_.excess(frame + k, judged.statistics), self_list_use(judged.self_record));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
         if (judgement.stretch > 1 && !control_->at_top()) return judged;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cloth/self_contact.h"
 #include "passes/cut_pass.h"
 #include "passes/readback_pass.h"
 
@@ -48,8 +47,11 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     if (model_.closed_loop())
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
                          probe_length(model_));
-    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-        if (model_.cloths[cloth].self_contact) self_contact_.push_back({cloth, {}, 0, 0});
+    if (model_.self_contact) {
+        self_contact_.emplace();
+        for (const StartCrossing& each : model_.self_contact->crossed)
+            self_contact_->crossed.emplace_back(each.first, each.second);
+    }
     build_graphs();
     allocate_and_record();
     solver_.upload(*pool_);
@@ -230,28 +232,21 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
 }
 
-double FrameLoop::self_list_use(const std::vector<glsl::SelfRecord>& records) const {
-    double most = 0;
-    for (std::size_t i = 0; i < records.size(); ++i)
-        most = std::max(most, drape::self_list_use(*model_.cloths[self_contact_[i].cloth].self_contact, records[i]));
-    return most;
+double FrameLoop::self_list_use(const glsl::SelfRecord& record) const {
+    return model_.self_contact ? drape::self_list_use(model_.self_contact->push, record) : 0;
 }
 
-void FrameLoop::note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records) {
-    for (std::size_t i = 0; i < self_contact_.size(); ++i) {
-        const glsl::SelfRecord& record = records[i];
-        SelfContactReport& report = self_contact_[i];
-        const ClothModel& cloth = model_.cloths[report.cloth];
-        if (const double use = drape::self_list_use(*cloth.self_contact, record); use > 1)
-            throw vulkan::VulkanError(
-                fmt::format("cloth '{}' meets itself in more places than there is memory for: frame {} has {:.3g} "
-                            "times as many pairs of triangles and edges near each other; more substeps or a smaller "
-                            "self_collision.thickness make them fewer",
-                            cloth.name, frame, use));
-        report.most_pairs = std::max(report.most_pairs, record.most_pairs);
-        report.truncated += record.truncated;
-        if (record.unproved > 0 && !report.first_unproved) report.first_unproved = frame;
-    }
+void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record) {
+    if (!self_contact_) return;
+    if (const double use = self_list_use(record); use > 1)
+        throw vulkan::VulkanError(fmt::format(
+            "cloth meets {} in more places than there is memory for: frame {} has {:.3g} times as many pairs "
+            "of triangles and edges near each other; more substeps or a smaller "
+            "self_collision.thickness make them fewer",
+            model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
+    self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
+    self_contact_->truncated += record.truncated;
+    if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
 }
 
 void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
@@ -269,7 +264,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     }
     for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
         result.timings.push_back({std::move(timing.name), timing.milliseconds});
-    if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_records(*pool_, slot));
+    if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_record(*pool_, slot));
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         raster_->finish(bytes.first(raster_->readback_byte_count()));

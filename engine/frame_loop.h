@@ -102,8 +102,8 @@ class FrameLoop {
     /// Three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
-    /// Of each cloth that meets itself, over the frames simulated so far.
-    const std::vector<SelfContactReport>& self_contact() const { return self_contact_; }
+    /// Over the frames simulated so far; nothing: no cloth meets itself or another.
+    const std::optional<SelfContactReport>& self_contact() const { return self_contact_; }
 
     const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
     const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
@@ -122,7 +122,7 @@ class FrameLoop {
         std::vector<ClothStatistics> statistics;
         FrameEffort effort;
         std::vector<StageTime> timings;
-        std::vector<glsl::SelfRecord> self_records = {};
+        glsl::SelfRecord self_record = {};
     };
     struct InFlight {
         std::uint32_t frame = 0;
@@ -157,9 +157,9 @@ class FrameLoop {
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
     /// How full the fullest list came.
-    double self_list_use(const std::vector<glsl::SelfRecord>& records) const;
+    double self_list_use(const glsl::SelfRecord& record) const;
     /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
-    void note_self_contact(std::uint32_t frame, const std::vector<glsl::SelfRecord>& records);
+    void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
     void deliver(std::uint32_t slot, const Finished& finished);
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
@@ -210,8 +210,8 @@ class FrameLoop {
     Drive drive_;
     /// Of the frames of the last attempt, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
-    std::vector<std::vector<glsl::SelfRecord>> attempt_self_records_;  ///< likewise
-    std::vector<SelfContactReport> self_contact_;
+    std::vector<glsl::SelfRecord> attempt_self_records_;  ///< likewise
+    std::optional<SelfContactReport> self_contact_;
     std::uint32_t state_substeps_;    ///< that the state's history is of
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;         ///< of the last probe

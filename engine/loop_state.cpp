@@ -52,7 +52,7 @@ std::vector<std::byte> cut_bytes(const CutTopology& topology) {
 template <class Archive>
 void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
-    for (SelfContactReport& report : self_contact_) archive(report.first_unproved, report.most_pairs, report.truncated);
+    if (self_contact_) archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     sleep_.transfer(archive);
     drive_.transfer(archive);

@@ -14,6 +14,7 @@
 #include "output/png_sequence.h"
 #include "output/progress.h"
 #include "run_description.h"
+#include "scene/start_crossings.h"
 #include "scene_request.h"
 
 namespace drape {
@@ -239,17 +240,19 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
 }
 
 /// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
-bool needs_every_frame(const SceneDescription& scene) {
-    return !scene.cutters.empty() ||
-           std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
-}
+bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
 
-std::vector<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
-    std::vector<Manifest::SelfCollision> all;
-    for (const SelfContactReport& each : simulation.self_contact())
-        all.push_back(
-            {simulation.scene().cloths[each.cloth].name, each.first_unproved, each.most_pairs, each.truncated});
-    return all;
+std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told) return {};
+    const std::vector<Cloth>& cloths = simulation.scene().cloths;
+    std::vector<std::string> names;
+    for (const Cloth& cloth : cloths)
+        if (cloth.self_collision) names.push_back(cloth.name);
+    std::vector<std::pair<std::string, std::string>> crossed;
+    for (const auto& [one, other] : told->crossed) crossed.emplace_back(cloths[one].name, cloths[other].name);
+    return Manifest::SelfCollision{names,  cloths.size() > 1, told->first_unproved, told->most_pairs, told->truncated,
+                                   crossed};
 }
 
 /// Simulates what is missing. Returns whether all is there.

@@ -15,6 +15,7 @@
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
 #include "scene/overlap.h"
+#include "scene/start_crossings.h"
 
 namespace drape {
 
@@ -113,6 +114,10 @@ const SceneDescription& checked(const SceneDescription& scene) {
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),
                    ("a start outside all colliders: " + overlap_text(scene, overlap)).c_str());
+    if (result.errors.empty() && scene.overlap == Overlap::refuse && cloths_meet(scene))
+        for (const StartCrossing& crossing : start_crossings(scene))
+            expect(false, fmt::format("/cloths/{}", crossing.second),
+                   ("cloths that start apart: " + crossing_text(scene, crossing)).c_str());
     if (!result.errors.empty()) throw SceneFailure(std::move(result));
     return scene;
 }
@@ -195,7 +200,7 @@ SimulationFacts Simulation::facts() const {
     return facts;
 }
 
-std::vector<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
 
 std::vector<PassWork> Simulation::work() const {
     const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);

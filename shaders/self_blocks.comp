@@ -10,23 +10,38 @@ layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Boxes { SelfBox boxes[]; };
 layout(set = 0, binding = 1, std430) buffer Blocks { ivec2 blocks[]; };
-layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };
+#include "include/self_cloths.h"
+layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Meetings { uint meetings[]; };
+
+/// The cloth of a block, which has none of another: those begin at even columns and rows.
+int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
+
+bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
+    int other = block_owner(block);
+    if (other < 0 || meetings[owner * push.cloth_count + other] == 0u) return false;
+    return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]), push.margin);
+}
+
 
 void main() {
     ivec2 across = self_tree_size(push.grid, 1);
-    int index = int(gl_GlobalInvocationID.x), begin = push.grid.x * push.grid.y;
-    bool searches = index < across.x * across.y && record[0].search != 0u;
+    int last = across.x * across.y - 1, begin = push.grid.x * push.grid.y;
+    int index = min(int(gl_GlobalInvocationID.x), last);
     ivec2 own = ivec2(index % across.x, index / across.x), node = ivec2(0, 0);
+    int owner = block_owner(own);
+    bool searches = gl_GlobalInvocationID.x <= uint(last) && record[0].search != 0u && owner >= 0;
+    precise float most = (cloths[max(owner, 0)].thickness + push.thickness) * 0.5f;
     int level = searches ? push.top : push.top + 1;
     int first = 0, visits = 0;  // first: box of the level
     for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
-    SelfBox box = boxes[begin + min(index, across.x * across.y - 1)];
+    SelfBox box = boxes[begin + index];
     bool entered = true;
     while (level <= push.top) {
         ivec2 size = self_tree_size(push.grid, level);
         int place = first + node.y * size.x + node.x;
         bool open = entered && ((node.y + 1) << (level - 1)) > own.y && (level > 1 || place > begin + index) &&
-                    self_boxes_meet(box, boxes[place], push, push.margin);
+                    self_boxes_meet(box, boxes[place], push, most, push.margin);
         ++visits;
         if (visits > self_visit_limit) {
             atomicAdd(record[0].block_count, uint(push.cell_room));
@@ -35,6 +50,7 @@ void main() {
             entered = false;
         }
         for (int found = open && level == 1 ? 1 : 0; found > 0; --found) {
+            if (!meets(owner, box, node, boxes[place])) continue;
             uint at = atomicAdd(record[0].block_count, 1u);
             if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
         }

@@ -1,4 +1,4 @@
-// The tree of boxes over a cloth as it is at the start of a substep. LEAVES: its lowest level, a box per particle about
+// The tree of boxes over the sheet as it is at the start of a substep. LEAVES: its lowest level, a box per particle about
 // the cell whose first corner that is; and everything that the pairs of the substep will add up begins anew. Else the
 // levels from `level` to `last`, where several in one workgroup; the last of all says whether cells that may meet have
 // to be searched.
@@ -11,32 +11,37 @@
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 #ifdef LEAVES
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, std430) writeonly buffer Boxes { SelfBox boxes[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer Corrections { ivec4 corrections[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer Shares { uint shares[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) writeonly buffer Boxes { SelfBox boxes[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer Corrections { ivec4 corrections[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer Shares { uint shares[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Record { SelfRecord record[]; };
 
 SelfBox particle_box(ivec2 texel) {
-    return self_point_box(imageLoad(position, texel).xyz,
-                          self_relative_motion(imageLoad(displacement, texel).xyz, record[0].carried.xyz));
+    return self_point_box(imageLoad(positions, texel).xyz,
+                          self_relative_motion(imageLoad(displacements, texel).xyz, record[0].carried.xyz));
 }
 
-void main() {
-    int index = int(gl_GlobalInvocationID.x);
-    if (index >= push.grid.x * push.grid.y) return;
-    ivec2 texel = ivec2(index % push.grid.x, index / push.grid.x);
-    bool right = texel.x + 1 < push.grid.x;
-    bool below = texel.y + 1 < push.grid.y;
+SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
+    bool right = texel.x - cloth.first.x + 1 < cloth.grid.x;
+    bool below = texel.y - cloth.first.y + 1 < cloth.grid.y;
     SelfBox box = particle_box(texel);
     if (right) box = self_joined(box, particle_box(texel + ivec2(1, 0)));
     if (below) box = self_joined(box, particle_box(texel + ivec2(0, 1)));
     if (right && below) box = self_joined(box, particle_box(texel + ivec2(1, 1)));
-    boxes[index] = box;
-    corrections[index] = ivec4(0, 0, 0, 0);
-    for (int round = 0; round < self_rounds; ++round)
-        shares[round * push.grid.x * push.grid.y + index] = floatBitsToUint(1.0f);
+    return box;
+}
+
+void main() {
+    int stride = int(gl_NumWorkGroups.x) * workgroup_width, count = push.grid.x * push.grid.y;
+    for (int place = int(gl_GlobalInvocationID.x); place < count; place += stride) {
+        int owner = owner_of(place);
+        SelfBox box = self_no_box();
+        if (owner >= 0) box = cell_box(texel_of(place), cloths[owner]);
+        boxes[place] = box;
+        corrections[place] = ivec4(0, 0, 0, 0);
+        for (int round = 0; round < self_rounds; ++round) shares[round * count + place] = floatBitsToUint(1.0f);
+    }
 }
 #else
 layout(set = 0, binding = 0, std430) buffer Boxes { SelfBox boxes[]; };

@@ -8,8 +8,9 @@ layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, std430) readonly buffer Boxes { SelfBox boxes[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Blocks { ivec2 blocks[]; };
-layout(set = 0, binding = 2, std430) buffer Candidates { ivec2 candidates[]; };
-layout(set = 0, binding = 3, std430) buffer Record { SelfRecord record[]; };
+#include "include/self_cloths.h"
+layout(set = 0, binding = 4, std430) buffer Candidates { ivec2 candidates[]; };
+layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
 
 /// Cell k (0..3) of a block.
 ivec2 cell_of(int block, int k) {
@@ -32,11 +33,11 @@ Block block_of(int block) {
 }
 
 /// Bits of the cells of a block that one may come near.
-uint near(SelfBox box, Block other) {
-    return (self_boxes_meet(box, other.box0, push, push.margin) ? 1u : 0u) |
-           (self_boxes_meet(box, other.box1, push, push.margin) ? 2u : 0u) |
-           (self_boxes_meet(box, other.box2, push, push.margin) ? 4u : 0u) |
-           (self_boxes_meet(box, other.box3, push, push.margin) ? 8u : 0u);
+uint near(SelfBox box, Block other, float thickness) {
+    return (self_boxes_meet(box, other.box0, push, thickness, push.margin) ? 1u : 0u) |
+           (self_boxes_meet(box, other.box1, push, thickness, push.margin) ? 2u : 0u) |
+           (self_boxes_meet(box, other.box2, push, thickness, push.margin) ? 4u : 0u) |
+           (self_boxes_meet(box, other.box3, push, thickness, push.margin) ? 8u : 0u);
 }
 
 void main() {
@@ -45,8 +46,9 @@ void main() {
     for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
         ivec2 pair = blocks[i];
         Block one = block_of(pair.x), other = block_of(pair.y);
-        uint found = near(one.box0, other) | (near(one.box1, other) << 4) | (near(one.box2, other) << 8) |
-                     (near(one.box3, other) << 12);
+        float thickness = self_mean_thickness(cloth_at(one.at), cloth_at(other.at));
+        uint found = near(one.box0, other, thickness) | (near(one.box1, other, thickness) << 4) |
+                     (near(one.box2, other, thickness) << 8) | (near(one.box3, other, thickness) << 12);
         for (; found != 0u; found &= found - 1u) {
             int k = findLSB(found);
             ivec2 a = one.at + ivec2((k >> 2) & 1, k >> 3), b = other.at + ivec2(k & 1, (k >> 1) & 1);

@@ -1,4 +1,4 @@
-// What a substep's self-contact begins with: the motion that all particles are measured against, the mean of those of a
+// What a substep's contact begins with: the motion that all particles are measured against, the mean of those of a
 // few or, where some are always held, none, and records for the passes to come. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,15 +7,22 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 1, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacements;
+layout(set = 0, binding = 1, std430) readonly buffer Cloths { SelfCloth cloths[]; };
+layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };
+
+vec3 sample_of(int k) {
+    SelfCloth cloth = cloths[k / (self_samples * self_samples)];
+    return imageLoad(displacements, cloth.first + self_sample(cloth.grid, k % (self_samples * self_samples))).xyz;
+}
 
 void main() {
-    int count = push.held == 0 && gl_GlobalInvocationID.x == 0u ? self_samples * self_samples : 0;
+    int samples = self_samples * self_samples * push.cloth_count;
+    int count = push.held == 0 && gl_GlobalInvocationID.x == 0u ? samples : 0;
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
-    for (int k = 0; k < count; ++k) sum = sum + imageLoad(displacement, self_sample(push.grid, k)).xyz;
+    for (int k = 0; k < count; ++k) sum = sum + sample_of(k);
     if (gl_GlobalInvocationID.x > 0u) return;
-    record[0].carried = vec4(self_mean(sum), 0.0f);
+    record[0].carried = vec4(self_mean(sum, push.cloth_count), 0.0f);
     record[0].pair_count = 0u;
     record[0].cell_count = 0u;
     record[0].short_rounds = 0u;

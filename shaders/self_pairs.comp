@@ -1,42 +1,21 @@
 // Lists the pairs of primitives that this substep may bring together, of the cells that were found near each other: of
-// each what its first particle owns. MASKED: triangles that exist are read from an image (holes, cuts).
+// each what its first particle owns.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, std430) readonly buffer Cells { ivec2 cells[]; };
-layout(set = 0, binding = 3, std430) buffer Pairs { uvec4 pairs[]; };
-layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
-#ifdef MASKED
-layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D existing;
-#endif
-
-bool triangle_exists(ivec2 cell, int which) {
-    if (!cell_inside(cell, push.grid)) return false;
-#ifdef MASKED
-    return (imageLoad(existing, cell).x & uint(which)) != 0u;
-#else
-    return true;
-#endif
-}
-
-bool edge_exists(ivec2 particle, int k) {
-    for (int side = 0; side < 2; ++side) {
-        ivec4 owner = self_edge_owner(k, side);
-        if (triangle_exists(particle + ivec2(owner.x, owner.y), owner.z)) return true;
-    }
-    return false;
-}
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
+layout(set = 0, binding = 5, std430) buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 
 /// Corners of a cell, its first particle the first, and their motions.
 struct Cell {
     ivec2 at;
+    SelfCloth cloth;
     vec3 x0, x1, x2, x3;
     vec3 moved0, moved1, moved2, moved3;
     uint edges;      // bit k: edge k exists
@@ -44,32 +23,34 @@ struct Cell {
 };
 
 vec3 moved_at(ivec2 texel) {
-    return self_relative_motion(imageLoad(displacement, texel).xyz, record[0].carried.xyz);
+    return self_relative_motion(imageLoad(displacements, texel).xyz, record[0].carried.xyz);
 }
 
-vec3 at(ivec2 texel) { return imageLoad(position, texel).xyz; }
+vec3 at(ivec2 texel) { return imageLoad(positions, texel).xyz; }
 
 Cell cell_of(int index) {
-    ivec2 own = ivec2(index % push.grid.x, index / push.grid.x);
+    ivec2 own = texel_of(index);
     ivec2 right = own + ivec2(1, 0), below = own + ivec2(0, 1), across = own + ivec2(1, 1);
-    uint edges = (edge_exists(own, 0) ? 1u : 0u) | (edge_exists(own, 1) ? 2u : 0u) | (edge_exists(own, 2) ? 4u : 0u);
-    uint triangles = (triangle_exists(own, 1) ? 1u : 0u) | (triangle_exists(own, 2) ? 2u : 0u);
-    return Cell(own, at(own), at(right), at(below), at(across), moved_at(own), moved_at(right), moved_at(below),
-                moved_at(across), edges, triangles);
+    vec4 displacement = imageLoad(displacements, own);
+    uint bits = uint(displacement.w);
+    return Cell(own, cloth_at(own), at(own), at(right), at(below), at(across),
+                self_relative_motion(displacement.xyz, record[0].carried.xyz), moved_at(right), moved_at(below),
+                moved_at(across), bits >> 2, bits & 3u);
 }
 
-bool listed(bool edges, SelfCorners x, SelfCorners motions, float thickness) {
-    return self_listed_pair(edges, self_gap(edges, x), motions, thickness, push.thickness);
+bool listed(bool edges, SelfCorners x, SelfCorners motions, float kept, float thickness) {
+    return self_listed_pair(edges, self_gap(edges, x), motions, kept, thickness);
 }
 
 /// Bits of the triangles of a cell that a particle may meet.
 uint near_triangles(Cell one, Cell other) {
+    float thickness = self_mean_thickness(one.cloth, other.cloth);
     bool meets_upper =
         listed(false, SelfCorners(one.x0, other.x0, other.x1, other.x2),
-               SelfCorners(one.moved0, other.moved0, other.moved1, other.moved2), push.thickness);
+               SelfCorners(one.moved0, other.moved0, other.moved1, other.moved2), thickness, thickness);
     bool meets_lower =
         listed(false, SelfCorners(one.x0, other.x1, other.x3, other.x2),
-               SelfCorners(one.moved0, other.moved1, other.moved3, other.moved2), push.thickness);
+               SelfCorners(one.moved0, other.moved1, other.moved3, other.moved2), thickness, thickness);
     return ((meets_upper ? 1u : 0u) | (meets_lower ? 2u : 0u)) & other.triangles;
 }
 
@@ -81,23 +62,24 @@ Edge along(Cell cell) { return Edge(cell.x0, cell.x1, cell.moved0, cell.moved1);
 Edge across(Cell cell) { return Edge(cell.x0, cell.x2, cell.moved0, cell.moved2); }
 Edge diagonal(Cell cell) { return Edge(cell.x1, cell.x2, cell.moved1, cell.moved2); }
 
-uint near_edge(Edge one, Edge other) {
+uint near_edge(Edge one, Edge other, float thickness) {
     SelfCorners motions = SelfCorners(one.moved_a, one.moved_b, other.moved_a, other.moved_b);
-    return listed(true, SelfCorners(one.a, one.b, other.a, other.b), motions, push.thickness) ? 1u : 0u;
+    return listed(true, SelfCorners(one.a, one.b, other.a, other.b), motions, thickness, thickness) ? 1u : 0u;
 }
 
 /// Bits of the existing edges of a cell that one that exists may meet.
-uint near_edges_of(Edge one, Cell other) {
-    uint bits = near_edge(one, along(other)) | (near_edge(one, across(other)) << 1) |
-                (near_edge(one, diagonal(other)) << 2);
+uint near_edges_of(Edge one, Cell other, float thickness) {
+    uint bits = near_edge(one, along(other), thickness) | (near_edge(one, across(other), thickness) << 1) |
+                (near_edge(one, diagonal(other), thickness) << 2);
     return bits & other.edges;
 }
 
 /// Bits of the pairs of edges of two cells that may meet, three for each of the first.
 uint near_edges(Cell one, Cell other) {
-    uint first = (one.edges & 1u) != 0u ? near_edges_of(along(one), other) : 0u;
-    uint second = (one.edges & 2u) != 0u ? near_edges_of(across(one), other) : 0u;
-    uint third = (one.edges & 4u) != 0u ? near_edges_of(diagonal(one), other) : 0u;
+    float thickness = self_mean_thickness(one.cloth, other.cloth);
+    uint first = (one.edges & 1u) != 0u ? near_edges_of(along(one), other, thickness) : 0u;
+    uint second = (one.edges & 2u) != 0u ? near_edges_of(across(one), other, thickness) : 0u;
+    uint third = (one.edges & 4u) != 0u ? near_edges_of(diagonal(one), other, thickness) : 0u;
     return first | (second << 3) | (third << 6);
 }
 
@@ -107,11 +89,12 @@ vec3 moved(uint corner) { return moved_at(self_texel(corner)); }
 /// Lists a pair unless it shares a corner, or the thickness that it keeps is less than what it was found with.
 void add_pair(bool edges, uvec4 pair) {
     if (self_shares_corner(edges, pair)) return;
-    float thickness = self_pair_thickness(push, edges, self_texel(pair.x), self_texel(pair.y), self_texel(pair.z),
-                                          self_texel(pair.w));
+    SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
+    float kept = self_pair_thickness(one, other, edges, self_texel(pair.x), self_texel(pair.y), self_texel(pair.z),
+                                     self_texel(pair.w));
     SelfCorners x = SelfCorners(where(pair.x), where(pair.y), where(pair.z), where(pair.w));
     SelfCorners motions = SelfCorners(moved(pair.x), moved(pair.y), moved(pair.z), moved(pair.w));
-    if (!listed(edges, x, motions, thickness)) return;
+    if (!listed(edges, x, motions, kept, self_mean_thickness(one, other))) return;
     uint place = atomicAdd(record[0].pair_count, 1u);
     if (place < uint(push.pair_room)) pairs[place] = uvec4(edges ? pair.x | self_edge_pair : pair.x, pair.yzw);
 }

@@ -9,40 +9,39 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, std430) readonly buffer Pairs { uvec4 pairs[]; };
-layout(set = 0, binding = 3, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Before { vec4 before[]; };
-layout(set = 0, binding = 5, std430) buffer Shares { uint shares[]; };
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 
 struct Corner {
-    int index;
+    int place;
     vec3 x;
     bool held;
     float along, share;  // of its motion: m along the normal, and what it makes already
 };
 
-vec3 motion(int index, ivec2 texel, bool held) {
-    vec3 moved = imageLoad(displacement, texel).xyz;
-    if (!held) moved = self_bounded(moved, before[index].xyz, push.thickness);
+vec3 motion(Corner corner, uint which, float thickness) {
+    vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
+    if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, thickness);
     return self_relative_motion(moved, record[0].carried.xyz);
 }
 
-Corner corner_of(uint place) {
-    ivec2 texel = self_texel(place);
-    int index = texel.y * push.grid.x + texel.x;
-    vec4 x = imageLoad(position, texel);
-    int before = (push.round - 1) * push.grid.x * push.grid.y + index;
+Corner corner_of(uint which) {
+    ivec2 texel = self_texel(which);
+    int place = place_of(texel);
+    vec4 x = imageLoad(positions, texel);
+    int before = (push.round - 1) * push.grid.x * push.grid.y + place;
     float share = push.round > 0 ? uintBitsToFloat(shares[max(before, 0)]) : 0.0f;
-    return Corner(index, x.xyz, !(x.w > 0.0f), 0.0f, share);
+    return Corner(place, x.xyz, !(x.w > 0.0f), 0.0f, share);
 }
 
 void bound(SelfGap gap, Corner corner, float middle, float end, float side) {
     float share =
         self_share(gap, middle, end, side, corner.along, corner.share, corner.held, push.least);
     if (!(share < 1.0f)) return;
-    atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.index], floatBitsToUint(share));
+    atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
     atomicOr(record[0].short_rounds, 1u << push.round);
 }
 
@@ -54,11 +53,13 @@ void main() {
         uvec4 pair = pairs[i];
         bool edges = (pair.x & self_edge_pair) != 0u;
         Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
+        SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
         SelfGap gap = self_gap(edges, SelfCorners(a.x, b.x, c.x, d.x));
-        a.along = ordered_dot(gap.normal, motion(a.index, self_texel(pair.x), a.held));
-        b.along = ordered_dot(gap.normal, motion(b.index, self_texel(pair.y), b.held));
-        c.along = ordered_dot(gap.normal, motion(c.index, self_texel(pair.z), c.held));
-        d.along = ordered_dot(gap.normal, motion(d.index, self_texel(pair.w), d.held));
+        for (int go = push.round == 0 && self_touch(gap) ? 1 : 0; go > 0; --go) atomicAdd(record[0].unproved, 1u);
+        a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
+        b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
+        c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
+        d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
         vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along),
                              vec4(a.share, b.share, c.share, d.share));
         float middle = self_middle(edges, end);

@@ -2,9 +2,12 @@
 
 #include <cmath>
 
-#include "cloth/self_contact.h"
-
 namespace drape {
+
+double largest_coordinate(const Cloth& cloth) {
+    const Vec3& o = cloth.placement.origin;
+    return std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
+}
 
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
@@ -50,14 +53,11 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
             static_cast<float>(spacing[0] * spacing[1]),
             0};
     // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
-    const Vec3& o = cloth.placement.origin;
-    const double extent = std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
-                  static_cast<float>(2.4e-7 * extent), static_cast<float>(recovery_speed * h)},
+                  static_cast<float>(2.4e-7 * largest_coordinate(cloth)), static_cast<float>(recovery_speed * h)},
                  grid.size(),
                  0,
                  0};
-    if (cloth.self_collision) self_contact = self_contact_constants(scene, cloth, *this, extent);
 }
 
 }  // namespace drape

@@ -6,7 +6,6 @@
 #include "cloth/method.h"
 #include "cloth/solver_choice.h"
 #include "shared/residual_types.h"
-#include "shared/self_contact_types.h"
 
 namespace drape {
 
@@ -22,6 +21,9 @@ struct ModelOptions {
 /// enough to leave little speed and elastic energy behind (a sheet that starts across a ball).
 inline constexpr double recovery_speed = 0.1;
 
+/// m, that the cloth is expected to have.
+double largest_coordinate(const Cloth& cloth);
+
 struct ClothModel : ClothGeometry {
     /// The scene's method must be chosen: `auto` is resolved by SimulationModel.
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
@@ -29,10 +31,9 @@ struct ClothModel : ClothGeometry {
     double substep_length;  ///< s
     bool collides;          ///< with colliders of the scene
     MethodPlan plan;
-    glsl::WindPush wind;                                ///< substep is set per substep
-    glsl::CollisionPush collision;                      ///< first is set per substep
-    glsl::ResidualPush residual;                        ///< of the check between iterations
-    std::optional<glsl::SelfContactPush> self_contact;  ///< level and first are set per step
+    glsl::WindPush wind;            ///< substep is set per substep
+    glsl::CollisionPush collision;  ///< first is set per substep
+    glsl::ResidualPush residual;    ///< of the check between iterations
 
     /// Of every particle at the start, 0 where pinned: row by row.
     std::vector<glsl::vec4> start_displacement() const;

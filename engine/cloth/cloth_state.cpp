@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "cloth/cloth_statistics.h"
-#include "cloth/self_contact.h"
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
@@ -16,9 +15,10 @@ namespace {
 
 using glsl::layout_of;
 using Context = const FieldContext&;
+using Bytes = std::vector<std::byte>;
 
 template <class T>
-std::vector<std::byte> bytes_of(const std::vector<T>& values) {
+Bytes bytes_of(const std::vector<T>& values) {
     const auto bytes = std::as_bytes(std::span(values));
     return {bytes.begin(), bytes.end()};
 }
@@ -34,7 +34,8 @@ bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
-bool meets_itself(Context c) { return c.cloth.self_contact.has_value(); }
+/// Contact's fields are kept with the first cloth.
+bool keeps_contact(Context c) { return c.model.self_contact && &c.cloth == &c.model.cloths.front(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -47,11 +48,17 @@ FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); 
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
-FieldExtent particle_list(Context c) { return {c.cloth.grid.particle_count()}; }
-FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.cloth.grid.size())}; }
-FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.cloth.self_contact->pair_room)}; }
-FieldExtent self_cell_list(Context c) { return {static_cast<std::uint64_t>(c.cloth.self_contact->cell_room)}; }
-FieldExtent self_share_list(Context c) { return {c.cloth.grid.particle_count() * glsl::self_rounds}; }
+FieldExtent self_cloth_list(Context c) { return {c.model.cloths.size()}; }
+FieldExtent self_meeting_list(Context c) { return {c.model.cloths.size() * c.model.cloths.size()}; }
+FieldExtent self_sheet(Context c) {
+    const glsl::ivec2 grid = c.model.self_contact->push.grid;
+    return {static_cast<std::uint64_t>(grid.x), static_cast<std::uint64_t>(grid.y)};
+}
+FieldExtent self_place_list(Context c) { return {c.model.self_contact->place_count()}; }
+FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.model.self_contact->push.grid)}; }
+FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.pair_room)}; }
+FieldExtent self_cell_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.cell_room)}; }
+FieldExtent self_share_list(Context c) { return {c.model.self_contact->place_count() * glsl::self_rounds}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
@@ -73,17 +80,27 @@ constexpr FieldView stored = FieldView::image_and_buffer;
 std::vector<FieldRow> self_contact_rows() {
     using enum FieldLife;
     using enum FieldView;
+    static const auto &vector = layout_of<glsl::vec4>(), &pair = layout_of<glsl::ivec2>(),
+                      &integer = layout_of<glsl::uint>();
     return {
-        {Field::self_boxes, "self boxes", buffer, layout_of<glsl::SelfBox>(), device, meets_itself, self_box_list},
-        {Field::self_candidates, "self candidates", buffer, layout_of<glsl::ivec2>(), device, meets_itself,
-         self_cell_list},
-        {Field::self_cells, "self cells", buffer, layout_of<glsl::ivec2>(), device, meets_itself, self_cell_list},
-        {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, meets_itself, self_pair_list},
-        {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, meets_itself,
-         particle_list},
-        {Field::self_before, "self before", buffer, layout_of<glsl::vec4>(), device, meets_itself, particle_list},
-        {Field::self_shares, "self shares", buffer, layout_of<glsl::uint>(), device, meets_itself, self_share_list},
-        {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, meets_itself, one},
+        {Field::self_owners, "self owners", buffer, layout_of<int>(), constant, keeps_contact, self_place_list,
+         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->owners()) : Bytes{}; }},
+        {Field::self_cloths, "self cloths", buffer, layout_of<glsl::SelfCloth>(), constant, keeps_contact,
+         self_cloth_list,
+         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->cloths) : Bytes{}; }},
+        {Field::self_meetings, "self meetings", buffer, integer, constant, keeps_contact, self_meeting_list,
+         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->meetings) : Bytes{}; }},
+        {Field::self_positions, "self positions", image, vector, device, keeps_contact, self_sheet},
+        {Field::self_displacements, "self displacements", image, vector, device, keeps_contact, self_sheet},
+        {Field::self_boxes, "self boxes", buffer, layout_of<glsl::SelfBox>(), device, keeps_contact, self_box_list},
+        {Field::self_candidates, "self candidates", buffer, pair, device, keeps_contact, self_cell_list},
+        {Field::self_cells, "self cells", buffer, pair, device, keeps_contact, self_cell_list},
+        {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_pair_list},
+        {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, keeps_contact,
+         self_place_list},
+        {Field::self_before, "self before", buffer, vector, device, keeps_contact, self_place_list},
+        {Field::self_shares, "self shares", buffer, integer, device, keeps_contact, self_share_list},
+        {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, keeps_contact, one},
     };
 }
 

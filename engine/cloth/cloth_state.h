@@ -43,19 +43,24 @@ enum class Field : std::uint8_t {
     tension_column,            ///< tension applied in the substep; carried to the next one (line) or the next iteration
     tension_shear_down_right,  ///< (relax), and of stretch springs where the stretch error is wanted
     tension_shear_down_left,
-    residuals,         ///< stretch error by workgroup
-    iterations,        ///< sizes of the next iteration's dispatches, and iterations run (residual_types.h)
-    iteration_sizes,   ///< the sizes to choose from
-    triangles,         ///< index buffer
-    cut_vertices,      ///< vertices on cut springs
-    tethers,           ///< of every particle
-    self_boxes,        ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)
-    self_candidates,   ///< pairs of cells that may come near each other until the next search
-    self_cells,        ///< those that are in this substep
-    self_pairs,        ///< corners of the pairs of primitives near each other
-    self_corrections,  ///< sums of integers, by particle
-    self_before,       ///< displacement before contact, m
-    self_shares,       ///< bits of the share of its motion that it may make, by round
+    residuals,           ///< stretch error by workgroup
+    iterations,          ///< sizes of the next iteration's dispatches, and iterations run (residual_types.h)
+    iteration_sizes,     ///< the sizes to choose from
+    triangles,           ///< index buffer
+    cut_vertices,        ///< vertices on cut springs
+    tethers,             ///< of every particle
+    self_owners,         ///< of contact, kept with the first cloth for all: by place on the sheet its cloth, or -1
+    self_cloths,         ///< where the cloths lie on the sheet (shared/self_contact_types.h)
+    self_meetings,       ///< by cloth and cloth: 1 where they meet
+    self_positions,      ///< by place on the sheet: position at the start of the substep, m; w: relative inverse mass
+    self_displacements,  ///< likewise: motion within it, m; w: bits of the triangles and edges that it owns
+    self_boxes,          ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)
+    self_candidates,     ///< pairs of cells that may come near each other until the next search
+    self_cells,          ///< those that are in this substep
+    self_pairs,          ///< corners of the pairs of primitives near each other
+    self_corrections,    ///< sums of integers, by place
+    self_before,       ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
+    self_shares,       ///< bits of the share of its motion that a particle may make, by round
     self_record,       ///< what self-contact was in the frame
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< of every substep
@@ -103,6 +108,10 @@ struct FieldRow {
     /// Bytes at the start, or since the last cut, at most as many as the extent holds; null: zeros.
     std::vector<std::byte> (*start)(const FieldContext&) = nullptr;
     bool is_image() const { return view != FieldView::buffer; }
+    /// Of contact between cloths: kept with the first cloth, for all.
+    bool is_shared() const { return field >= Field::self_owners && field <= Field::self_record; }
+    /// Cloths that are simulated together (cloth/together.h) have it in one image.
+    bool lies_together() const { return is_image() && !is_shared(); }
 };
 
 /// By Field.

@@ -1,7 +1,5 @@
 #include "cloth/schedule.h"
 
-#include "cloth/self_contact.h"
-
 namespace drape {
 
 namespace {
@@ -21,7 +19,6 @@ class Substep {
         add(cloth_.plan.once);
         add_iterations();
         add_tethers();
-        add_self_contact();
     }
 
   private:
@@ -56,12 +53,25 @@ class Substep {
         if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations);
     }
 
-    /// Last of all, so that nothing moves a particle after its motion was found to cross nothing.
-    void add_self_contact() {
-        if (!cloth_.self_contact) return;
-        glsl::SelfContactPush push = *cloth_.self_contact;
+    const SimulationModel& model_;
+    const ClothModel& cloth_;
+    std::size_t index_;
+    std::uint32_t substep_;
+    std::vector<Step>& steps_;
+};
+
+/// Adds the steps of contact between the cloths to a substep's, last of all, so that nothing moves a particle after its
+/// motion was found to cross nothing.
+class ContactSteps {
+  public:
+    ContactSteps(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
+        : model_(model), contact_(*model.self_contact), substep_(substep), steps_(steps) {}
+
+    void add() {
+        glsl::SelfContactPush push = contact_.push;
         push.first = substep_ == 0 ? 1 : 0;
-        const auto add_one = [&](StepKind kind) { add(kind).constants = push; };
+        const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
+        add_for_cloths(StepKind::self_gather);
         add_one(StepKind::self_common);
         for (push.level = 0; push.level <= push.top; push.level = push.last + 1) {
             push.last = last_level(push, push.level);
@@ -72,14 +82,26 @@ class Substep {
             add_one(kind);
         for (push.round = 0; push.round < glsl::self_iterations; ++push.round)
             for (const StepKind kind : {StepKind::self_contact, StepKind::self_push}) add_one(kind);
-        if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations + 1);
+        if (!model_.scene.colliders.empty()) collide();
         for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_room);
         add_one(StepKind::self_move);
+        add_for_cloths(StepKind::self_return);
+    }
+
+  private:
+    void add_for_cloths(StepKind kind) {
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth)});
+    }
+    void collide() {
+        add_for_cloths(StepKind::self_return);
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            steps_.push_back({StepKind::collide, cloth, substep_, model_.scene.solver.iterations + 1});
+        add_for_cloths(StepKind::self_gather);
     }
 
     const SimulationModel& model_;
-    const ClothModel& cloth_;
-    std::size_t index_;
+    const SelfContact& contact_;
     std::uint32_t substep_;
     std::vector<Step>& steps_;
 };
@@ -88,8 +110,10 @@ class Substep {
 
 std::vector<Step> frame_steps(const SimulationModel& model) {
     std::vector<Step> steps;
-    for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep)
+    for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) Substep(model, cloth, substep, steps).add();
+        if (model.self_contact) ContactSteps(model, substep, steps).add();
+    }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
     return steps;
 }

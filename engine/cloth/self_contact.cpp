@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/cloth_model.h"
-
 namespace drape {
 
 namespace {
@@ -13,40 +11,108 @@ namespace {
 /// spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
+double smaller_spacing(const ClothModel& model) { return std::min(model.spacing[0], model.spacing[1]); }
+
 int top_level(glsl::ivec2 grid) {
     int level = 0;
     while (self_tree_boxes_of(grid, level) > 1) ++level;
     return level;
 }
 
+glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
+    const double spacing = smaller_spacing(model);
+    const SelfCollision asked = cloth.self_collision.value_or(SelfCollision{});
+    glsl::SelfCloth constants{};
+    constants.grid = model.grid.size();
+    constants.spacing = {static_cast<float>(model.spacing[0]), static_cast<float>(model.spacing[1])};
+    constants.thickness = static_cast<float>(asked.thickness.value_or(
+        std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing)));
+    constants.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
+    // A corner and the diagonal beside it.
+    constants.least_flat =
+        static_cast<float>(model.spacing[0] * model.spacing[1] / std::hypot(model.spacing[0], model.spacing[1]));
+    return constants;
+}
+
+/// kg, of an inner particle.
+double particle_mass(const Cloth& cloth, const ClothModel& model) {
+    return cloth.areal_density * model.spacing[0] * model.spacing[1];
+}
+
+int stepped(int length) { return (length + self_sheet_step) / self_sheet_step * self_sheet_step; }
+
+/// Lays the cloths on shelves of a sheet about as wide as high. Returns its columns and rows.
+glsl::ivec2 lay_out(std::vector<glsl::SelfCloth>& cloths) {
+    double area = 0;
+    int width = 0;
+    for (const glsl::SelfCloth& cloth : cloths) {
+        area += double(stepped(cloth.grid.x)) * stepped(cloth.grid.y);
+        width = std::max(width, cloth.grid.x);
+    }
+    width = std::max(width, static_cast<int>(std::sqrt(area)));
+    glsl::ivec2 sheet{0, 0}, next{0, 0};
+    int shelf = 0;
+    for (glsl::SelfCloth& cloth : cloths) {
+        if (next.x + cloth.grid.x > width) {
+            next = {0, next.y + shelf};
+            shelf = 0;
+        }
+        cloth.first = next;
+        sheet = {std::max(sheet.x, next.x + cloth.grid.x), std::max(sheet.y, next.y + cloth.grid.y)};
+        next.x += stepped(cloth.grid.x);
+        shelf = std::max(shelf, stepped(cloth.grid.y));
+    }
+    return sheet;
+}
+
 }  // namespace
 
-glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, const Cloth& cloth,
-                                             const ClothGeometry& geometry, double extent) {
-    const double spacing = std::min(geometry.spacing[0], geometry.spacing[1]);
-    const SelfCollision& asked = *cloth.self_collision;
-    const double thickness = asked.thickness.value_or(
-        std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing));
-    const double substep = 1.0 / (scene.time.fps * scene.solver.substeps);
-    const glsl::ivec2 grid = geometry.grid.size();
-    const auto count = grid.x * grid.y;
-    glsl::SelfContactPush push{};
-    push.grid = grid;
-    push.spacing = {static_cast<float>(geometry.spacing[0]), static_cast<float>(geometry.spacing[1])};
-    push.thickness = static_cast<float>(thickness);
-    push.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
-    push.recovery = static_cast<float>(recovery_speed * substep);
+SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
+                         const std::vector<StartCrossing>& not_meeting)
+    : crossed(not_meeting) {
+    const std::size_t count = models.size();
+    std::uint64_t particles = 0;
+    double margin = 0, extent = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Cloth& cloth = scene.cloths[k];
+        glsl::SelfCloth& constants = cloths.emplace_back(constants_of(cloth, models[k]));
+        constants.lightness =
+            static_cast<float>(particle_mass(scene.cloths[0], models[0]) / particle_mass(cloth, models[k]));
+        const double looks = search_margin(smaller_spacing(models[k]), constants.thickness);
+        margin = k == 0 ? looks : std::min(margin, looks);
+        extent = std::max(extent, largest_coordinate(cloth));
+        push.thickness = std::max(push.thickness, constants.thickness);
+        particles += models[k].grid.particle_count();
+        // What they are pressed against must not seem to move.
+        if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;
+        for (std::size_t other = 0; other < count; ++other)
+            meetings.push_back(k != other || cloth.self_collision ? 1 : 0);
+    }
+    for (const StartCrossing& each : crossed)
+        meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = 0;
+    push.grid = lay_out(cloths);
+    push.recovery = static_cast<float>(recovery_speed * models[0].substep_length);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
-    // A corner and the diagonal beside it.
-    push.least_flat = static_cast<float>(geometry.spacing[0] * geometry.spacing[1] /
-                                         std::hypot(geometry.spacing[0], geometry.spacing[1]));
-    push.margin = static_cast<float>(search_margin(spacing, thickness));
-    push.pair_room = count * static_cast<int>(self_pairs_per_particle);
-    push.cell_room = count * static_cast<int>(self_cells_per_particle);
-    push.top = top_level(grid);
-    // What they are pressed against must not seem to move.
-    push.held = std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; }) ? 1 : 0;
-    return push;
+    push.margin = static_cast<float>(margin);
+    push.pair_room = static_cast<int>(particles * self_pairs_per_particle);
+    push.cell_room = static_cast<int>(particles * self_cells_per_particle);
+    push.top = top_level(push.grid);
+    push.cloth_count = static_cast<int>(count);
+}
+
+std::vector<int> SelfContact::owners() const {
+    std::vector<int> all(place_count(), -1);
+    for (std::size_t k = 0; k < cloths.size(); ++k)
+        for (int row = 0; row < cloths[k].grid.y; ++row) {
+            const auto begin =
+                std::size_t(cloths[k].first.y + row) * std::size_t(push.grid.x) + std::size_t(cloths[k].first.x);
+            std::fill_n(all.begin() + static_cast<std::ptrdiff_t>(begin), cloths[k].grid.x, static_cast<int>(k));
+        }
+    return all;
+}
+
+glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
+    return {cloths[cloth].grid, cloths[cloth].first, push.grid.x};
 }
 
 double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record) {

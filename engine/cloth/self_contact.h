@@ -1,22 +1,41 @@
-// What a cloth's contact with itself is made with (shaders/include/self_contact.h). Pure.
+// What contact of cloths with themselves and each other is made with (shaders/include/self_contact.h). Pure.
 #pragma once
 
-#include "cloth/cloth_geometry.h"
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cloth/cloth_model.h"
+#include "scene/start_crossings.h"
 #include "shared/self_contact_types.h"
 
 namespace drape {
 
 /// Per particle: pairs that their list has room for, and pairs of cells.
 inline constexpr std::uint32_t self_pairs_per_particle = 96, self_cells_per_particle = 48;
+/// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
+/// the lower nodes of its tree of boxes are of one cloth each.
+inline constexpr int self_sheet_step = 8;
 
-/// `extent`: m, largest coordinate that the cloth is expected to have.
-glsl::SelfContactPush self_contact_constants(const SceneDescription& scene, const Cloth& cloth,
-                                             const ClothGeometry& geometry, double extent);
+/// How the cloths of a scene meet.
+struct SelfContact {
+    /// `crossed`: those that start through each other never meet.
+    SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
+                const std::vector<StartCrossing>& crossed);
 
-/// How full the fullest of a cloth's lists came in a frame; above 1 something found no room in it.
+    glsl::SelfContactPush push{};         ///< level, last, first and round are set per step
+    std::vector<glsl::SelfCloth> cloths;  ///< where each lies on the sheet
+    std::vector<glsl::uint> meetings;     ///< by cloth and cloth: 1 where they meet
+    std::vector<StartCrossing> crossed;   ///< those that do not because they start through each other
+    std::vector<int> owners() const;      ///< by place on the sheet: its cloth, or -1
+    glsl::SelfClothPush cloth_push(std::size_t cloth) const;
+    std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
+};
+
+/// How full the fullest of the lists came in a frame; above 1 something found no room in it.
 double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record);
 
-/// Boxes of the tree over a grid's particles: of one level, of all.
+/// Boxes of the tree over a sheet: of one level, of all.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);
 std::uint64_t self_tree_boxes(glsl::ivec2 grid);
 

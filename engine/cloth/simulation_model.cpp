@@ -17,7 +17,7 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
       options(wanted),
       windy(description.wind.blows()) {
     scene.solver = choice.settings;
-    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+    add_cloths(cloths_meet(scene) ? start_crossings(scene) : std::vector<StartCrossing>{});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
 }
 
@@ -29,7 +29,12 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       options(run.options),
       windy(run.windy) {
     scene.solver.substeps = substeps;
+    add_cloths(run.self_contact ? run.self_contact->crossed : std::vector<StartCrossing>{});
+}
+
+void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+    if (cloths_meet(scene)) self_contact.emplace(scene, cloths, crossed);
 }
 
 SimulationModel::StretchLimits SimulationModel::stretch_limits() const {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cloth/cloth_model.h"
+#include "cloth/self_contact.h"
 
 namespace drape {
 
@@ -19,6 +19,7 @@ struct SimulationModel {
     SolverChoice choice;
     ModelOptions options;
     std::vector<ClothModel> cloths;
+    std::optional<SelfContact> self_contact;  ///< nothing: no cloth meets itself or another
     bool windy;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }
@@ -43,6 +44,9 @@ struct SimulationModel {
     std::vector<SkippedWork> skipped() const;
     /// What the cloths follow only in part.
     std::vector<Compromise> compromises() const;
+
+  private:
+    void add_cloths(const std::vector<StartCrossing>& crossed);
 };
 
 }  // namespace drape

@@ -30,6 +30,7 @@ enum class StepKind {
     tether,
     collide,
     check,
+    self_gather,
     self_common,
     self_boxes,
     self_blocks,
@@ -40,6 +41,7 @@ enum class StepKind {
     self_push,
     self_room,
     self_move,
+    self_return,
     advance
 };
 
@@ -47,7 +49,7 @@ enum class StepKind {
 /// set per iteration.
 using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush,
                                    glsl::ExplicitPush, glsl::BendPush, glsl::TwistPush, glsl::SpringPush,
-                                   glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush>;
+                                   glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {
@@ -55,8 +57,8 @@ struct MethodStep {
     StepConstants constants;
 };
 
-/// `Step::cloth` of a step that is taken for every cloth of the scene.
-inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1);
+/// `Step::cloth` of a step that is taken for every cloth of the scene, and of one of contact, for all of them at once.
+inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1), between_cloths = all_cloths - 1;
 
 /// A step of a frame.
 struct Step {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <tuple>
 
 namespace drape {
 
@@ -126,7 +127,7 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
     if (!scene.cutters.empty() || own_iterations) return lists;
     for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
         const Cloth& cloth = scene.cloths[k];
-        if (cloth.self_collision || std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) continue;
+        if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) continue;
         const auto list = std::ranges::find_if(
             lists, [&](const std::vector<std::size_t>& each) { return alike(scene.cloths[each.front()], cloth); });
         if (list == lists.end())
@@ -146,20 +147,25 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
     for (std::size_t list = 0; list < lists.size(); ++list)
         for (std::size_t within = 0; within < lists[list].size(); ++within)
             places[lists[list][within]] = {list, within};
-    std::map<std::pair<std::size_t, std::uint32_t>, Substep> substeps;  // by list and substep
-    for (const Step& step : steps)
-        if (const auto place = places.find(step.cloth); place != places.end())
-            substeps.try_emplace({place->second.list, step.substep}, lists[place->second.list].size())
-                .first->second.add(place->second.within, step);
-    std::vector<Step> merged;
+    std::map<std::tuple<std::size_t, std::uint32_t, std::size_t>, Substep> substeps;  // by list, substep, part of it
+    std::size_t part = 0;  // what is between two steps of contact, which nobody comes past
     for (const Step& step : steps) {
+        part += step.cloth == between_cloths ? 1 : 0;
+        if (const auto place = places.find(step.cloth); place != places.end())
+            substeps.try_emplace({place->second.list, step.substep, part}, lists[place->second.list].size())
+                .first->second.add(place->second.within, step);
+    }
+    std::vector<Step> merged;
+    part = 0;
+    for (const Step& step : steps) {
+        part += step.cloth == between_cloths ? 1 : 0;
         const auto place = places.find(step.cloth);
         if (place == places.end()) {
             merged.push_back(step);
             continue;
         }
         // All of a substep where its first step was.
-        const auto substep = substeps.find({place->second.list, step.substep});
+        const auto substep = substeps.find({place->second.list, step.substep, part});
         if (substep == substeps.end()) continue;
         substep->second.merge(merged);
         substeps.erase(substep);

@@ -11,7 +11,7 @@ namespace drape {
 
 /// Cloths that differ in nothing but what lies in their state: name, placement, velocity, pins, looks. A list of two or
 /// more per kind, ascending. None where cutters may make any of them another kind or each has its own number of
-/// iterations, and of those that meet themselves or are large enough to fill a device alone.
+/// iterations, and of those that are large enough to fill a device alone.
 std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene);
 
 /// The steps of a frame, with those that all cloths of a list take with the same constants made one (Step::together),

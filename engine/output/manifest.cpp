@@ -92,23 +92,31 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
     return json;
 }
 
-Json::Value self_collision_json(const std::vector<Manifest::SelfCollision>& all) {
-    Json::Value json(Json::arrayValue);
-    for (const Manifest::SelfCollision& each : all) {
-        Json::Value row(Json::objectValue);
-        row["cloth"] = each.cloth;
-        row["proved"] = !each.first_unproved;
-        row["certificate"] = each.first_unproved
-                                 ? fmt::format(
-                                       "not proved from frame {} on: a held particle moved farther than was "
-                                       "shown to cross nothing",
-                                       *each.first_unproved)
-                                 : std::string("no crossing in any substep");
-        if (each.first_unproved) row["first_unproved_frame"] = *each.first_unproved;
-        row["most_pairs"] = each.most_pairs;
-        row["motions_cut_short"] = Json::UInt64(each.truncated);
-        json.append(row);
+std::string certificate_of(const Manifest::SelfCollision& told) {
+    if (!told.crossed.empty()) return "not proved: cloths started through each other, and do not meet";
+    if (told.first_unproved)
+        return fmt::format(
+            "not proved from frame {} on: a held particle moved farther than was shown to cross nothing, or cloth "
+            "touched",
+            *told.first_unproved);
+    return "no crossing in any substep";
+}
+
+Json::Value self_collision_json(const Manifest::SelfCollision& told) {
+    Json::Value json(Json::objectValue);
+    for (const std::string& cloth : told.cloths) json["cloths"].append(cloth);
+    json["between_cloths"] = told.between_cloths;
+    json["proved"] = !told.first_unproved && told.crossed.empty();
+    json["certificate"] = certificate_of(told);
+    for (const auto& [one, other] : told.crossed) {
+        Json::Value pair(Json::arrayValue);
+        pair.append(one);
+        pair.append(other);
+        json["crossed_at_start"].append(pair);
     }
+    if (told.first_unproved) json["first_unproved_frame"] = *told.first_unproved;
+    json["most_pairs"] = told.most_pairs;
+    json["motions_cut_short"] = Json::UInt64(told.truncated);
     return json;
 }
 
@@ -218,7 +226,7 @@ std::string manifest_json(const Manifest& manifest) {
     json["solver"] = solver_json(manifest.solver);
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
-    if (!manifest.self_collision.empty()) json["self_collision"] = self_collision_json(manifest.self_collision);
+    if (manifest.self_collision) json["self_collision"] = self_collision_json(*manifest.self_collision);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);

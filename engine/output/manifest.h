@@ -72,10 +72,12 @@ struct Manifest {
         std::uint32_t enough_substeps = 0;  // that would follow all of it; 0: none would
     };
     struct SelfCollision {
-        std::string cloth;
-        std::optional<std::uint32_t> first_unproved;  // frame; nothing: no crossing in any substep
-        std::uint32_t most_pairs = 0;                 // that were near each other in a substep
-        std::uint64_t truncated = 0;                  // motions cut short
+        std::vector<std::string> cloths;                           // that meet themselves
+        bool between_cloths = false;                               // all cloths meet each other
+        std::optional<std::uint32_t> first_unproved;               // frame; nothing: no crossing in any substep
+        std::uint32_t most_pairs = 0;                              // that were near each other in a substep
+        std::uint64_t truncated = 0;                               // motions cut short
+        std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
     };
     struct Cut {  // found at the end of the frame, acts from the next one on
         std::int64_t frame = 0;
@@ -109,7 +111,7 @@ struct Manifest {
     Validation validation;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
-    std::vector<SelfCollision> self_collision;
+    std::optional<SelfCollision> self_collision;
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     std::vector<FrameStatistics> statistics;

@@ -171,7 +171,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
     ClothState state = state_of(index);
     const bool alone = together_of_[index] == together_.size();
     for (const FieldRow& row : cloth_fields())
-        if (row.needed(about) && (alone || !row.is_image()))
+        if (row.needed(about) && (alone || !row.lies_together()))
             state[row.field] = declare_field(graph, row, about, state.buffered);
     cloths_.push_back(state);
 }
@@ -182,7 +182,7 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
     together.state.count = count;
     together.state.name = together_name(model_, together.cloths);
     for (const FieldRow& row : cloth_fields()) {
-        if (!row.is_image()) continue;
+        if (!row.lies_together()) continue;
         graph::Handle whole;
         std::vector<std::string> slices;
         for (const std::size_t cloth : together.cloths) slices.push_back(resource_name(model_.cloths[cloth], row));
@@ -228,9 +228,10 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
             graph.add_flops(flops * step.count * state.count);
     };
     for (const Step& step : steps()) {
-        const std::size_t place = step.cloth == all_cloths ? together_.size() : together_of_[step.cloth];
-        if (step.together) {
-            add(together_[place].state, step);
+        if (step.cloth == between_cloths) {
+            add(cloths_.front(), step);
+        } else if (step.together) {
+            add(together_[together_of_[step.cloth]].state, step);
         } else if (step.cloth != all_cloths) {
             take(step.cloth);
             add(cloths_[step.cloth], step);
@@ -239,9 +240,8 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
             for_each_dispatch([&](ClothState& state) { add(state, step); });
         }
     }
-    for_each_cloth([&](ClothState& state) {
-        if (state.model->self_contact) add_self_readback(graph, state);
-    });
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
+    if (run_->self_contact) add_self_readback(graph, cloths_.front());
 }
 
 std::vector<Step> ClothSolver::steps() const {
@@ -284,6 +284,10 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_collision(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::check:
             return add_check(graph, pipelines_, state, *run_, step);
+        case StepKind::self_gather:
+            return add_self_gather(graph, pipelines_, state, cloths_.front(), step);
+        case StepKind::self_return:
+            return add_self_return(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::self_common:
             return add_self_common(graph, pipelines_, state, step);
         case StepKind::self_boxes:
@@ -362,13 +366,10 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
     return all;
 }
 
-std::vector<glsl::SelfRecord> ClothSolver::self_records(const graph::ResourcePool& pool, std::uint32_t slot) const {
-    std::vector<glsl::SelfRecord> all;
-    for (const ClothModel& cloth : model_.cloths)
-        if (cloth.self_contact)
-            std::memcpy(&all.emplace_back(), pool.buffer(self_readback_name(cloth), slot).mapped().data(),
-                        sizeof(glsl::SelfRecord));
-    return all;
+glsl::SelfRecord ClothSolver::self_record(const graph::ResourcePool& pool, std::uint32_t slot) const {
+    glsl::SelfRecord record{};
+    if (model_.self_contact) std::memcpy(&record, pool.buffer(self_readback_name, slot).mapped().data(), sizeof record);
+    return record;
 }
 
 void ClothSolver::upload(const graph::ResourcePool& pool) const {

@@ -80,8 +80,8 @@ class ClothSolver {
     std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot,
                                             const SimulationModel& run) const;
 
-    /// Of each cloth that meets itself, of the slot's last simulated frame.
-    std::vector<glsl::SelfRecord> self_records(const graph::ResourcePool& pool, std::uint32_t slot) const;
+    /// What contact between the cloths was in the slot's last simulated frame; where there is none, nothing.
+    glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
 
     const SimulationModel& model() const { return model_; }
     std::size_t pipeline_count() const { return pipelines_.size(); }

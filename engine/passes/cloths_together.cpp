@@ -67,7 +67,7 @@ void ClothSolver::take(std::size_t cloth) {
     state.away = together.state.away;
     for (const FieldRow& row : cloth_fields()) {
         const graph::Handle whole = together.state[row.field];
-        if (row.is_image() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
+        if (row.lies_together() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
     }
 }
 
@@ -77,7 +77,7 @@ void ClothSolver::give(std::size_t cloth) {
     const ClothState& state = cloths_[cloth];
     if (state.away != whole.away) throw std::logic_error("a cloth left those that it is together with");
     for (const FieldRow& row : cloth_fields())
-        if (row.is_image() && state[row.field].valid())
+        if (row.lies_together() && state[row.field].valid())
             whole[row.field] = {state[row.field].resource, state[row.field].version};
 }
 

@@ -1,6 +1,9 @@
 #include "passes/self_contact_pass.h"
 
-#include "cloth/self_contact.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "vulkan/api.h"
 
 namespace drape {
@@ -10,163 +13,224 @@ namespace {
 using graph::Access;
 using graph::PassSetup;
 
-/// A pass of `pipeline` over `width` x `height` invocations.
-template <class SetUp>
-void add_pass(graph::Graph& graph, const ClothState& state, const Step& step, const char* name,
+/// Beyond it invocations take several places each.
+constexpr std::size_t most_invocations = std::size_t{1} << 21;
+
+/// A pass of all cloths together, or of one between its fields and the sheet.
+graph::PassName pass_name(const std::string& label, const Step& step) {
+    return {fmt::format("{} (substep {})", label, step.substep), "simulate", label};
+}
+
+template <class Push, class SetUp>
+void add_pass(graph::Graph& graph, const graph::PassName& name, const Step& step,
               const vulkan::ComputePipeline& pipeline, glsl::ivec2 size, const SetUp& set_up) {
-    graph.add_pass(state.step_name(name, step), set_up,
-                   [&pipeline, size, push = step.push<glsl::SelfContactPush>()](graph::PassContext& context) {
-                       context.dispatch(pipeline, push, static_cast<std::uint32_t>(size.x),
-                                        static_cast<std::uint32_t>(size.y));
-                   });
+    graph.add_pass(name, set_up, [&pipeline, size, push = step.push<Push>()](graph::PassContext& context) {
+        context.dispatch(pipeline, push, static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y));
+    });
 }
 
-/// An invocation per particle, or per share of the pairs.
-glsl::ivec2 in_a_row(const ClothState& state) { return {static_cast<int>(state.model->grid.particle_count()), 1}; }
-
-void read_state(PassSetup& setup, const ClothState& state) {
-    setup.read(state[Field::position], Access::compute_read, "position");
-    setup.read(state[Field::displacement], Access::compute_read, "displacement");
+/// A pass over the sheet.
+template <class SetUp>
+void add_pass(graph::Graph& graph, const Step& step, const char* name, const vulkan::ComputePipeline& pipeline,
+              int invocations, const SetUp& set_up) {
+    add_pass<glsl::SelfContactPush>(graph, pass_name(name, step), step, pipeline, {invocations, 1}, set_up);
 }
 
+/// An invocation per place on the sheet, or per share of the pairs.
+int in_a_row(const Step& step) {
+    const glsl::ivec2 grid = step.push<glsl::SelfContactPush>().grid;
+    return static_cast<int>(std::min(std::size_t(grid.x) * std::size_t(grid.y), most_invocations));
+}
+
+/// Of a pass that looks up which cloth a place is of (shaders/include/self_cloths.h).
+const vulkan::ComputePipeline& pipeline_of(PipelineCache& pipelines, const char* module, const Step& step) {
+    const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
+    return pipelines.get(module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}});
+}
+
+void read(PassSetup& setup, const ClothState& contact, Field field, const char* name) {
+    setup.read(contact[field], Access::compute_read, name);
+}
+void update_in_place(PassSetup& setup, ClothState& contact, Field field, const char* name) {
+    drape::update_in_place(setup, contact[field], name);
+}
+
+void read_cloths(PassSetup& setup, const ClothState& contact) {
+    read(setup, contact, Field::self_owners, "owners");
+    read(setup, contact, Field::self_cloths, "cloths");
+}
+/// What shaders/include/self_sheet.h declares.
+void read_sheet(PassSetup& setup, const ClothState& contact) {
+    read(setup, contact, Field::self_positions, "positions");
+    read(setup, contact, Field::self_displacements, "displacements");
+    read_cloths(setup, contact);
+}
 /// Of a pass that moves particles.
-std::string touching(const char* shader, const ClothState& state) {
-    return vulkan::variant_name(shader, {{"history", state.model->plan.second_order}, {"buffered", state.buffered}});
+void move_on_sheet(PassSetup& setup, ClothState& contact) {
+    read(setup, contact, Field::self_positions, "positions");
+    update_in_place(setup, contact, Field::self_displacements, "displacements");
+    read_cloths(setup, contact);
+    update_in_place(setup, contact, Field::self_before, "before");
 }
-void touch(PassSetup& setup, ClothState& state) {
-    setup.read(state[Field::position], Access::compute_read, "position");
-    update(setup, state[Field::displacement], "displacement");
-    if (!state.model->plan.second_order) return;
-    update_in_place(setup, state[Field::displacement_before], "displacement_before");
-    update_in_place(setup, state[Field::line_control], "control");
+void write(PassSetup& setup, ClothState& contact, Field field, const char* name) {
+    contact[field] = setup.write(contact[field], Access::compute_write, name);
 }
 
 }  // namespace
 
-void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    add_pass(graph, state, step, "self common", pipelines.get("self_common.comp"), {1, 1}, [&](PassSetup& setup) {
-        setup.read(state[Field::displacement], Access::compute_read, "displacement");
-        update_in_place(setup, state[Field::self_record], "record");
+void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+                     const Step& step) {
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}}));
+    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather", step), step, pipeline, cloth.model->grid.size(),
+                                  [&](PassSetup& setup) {
+                                      read(setup, cloth, Field::position, "position");
+                                      read(setup, cloth, Field::displacement, "displacement");
+                                      if (cloth.masked()) read(setup, cloth, Field::cells, "existing");
+                                      // Other cloths' places, and those of none, stay.
+                                      update_in_place(setup, contact, Field::self_positions, "positions");
+                                      update_in_place(setup, contact, Field::self_displacements, "displacements");
+                                  });
+}
+
+void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& cloth, ClothState& contact,
+                     const Step& step) {
+    const bool history = cloth.model->plan.second_order;
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("self_return.comp", {{"history", history}, {"buffered", cloth.buffered}}));
+    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self return", step), step, pipeline, cloth.model->grid.size(),
+                                  [&](PassSetup& setup) {
+                                      read(setup, contact, Field::self_displacements, "displacements");
+                                      update_in_place(setup, contact, Field::self_before, "before");
+                                      update(setup, cloth[Field::displacement], "displacement");
+                                      if (!history) return;
+                                      update_in_place(setup, cloth, Field::displacement_before, "displacement_before");
+                                      update_in_place(setup, cloth, Field::line_control, "control");
+                                  });
+}
+
+void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self common", pipelines.get("self_common.comp"), 1, [&](PassSetup& setup) {
+        read(setup, contact, Field::self_displacements, "displacements");
+        read(setup, contact, Field::self_cloths, "cloths");
+        update_in_place(setup, contact, Field::self_record, "record");
     });
 }
 
-void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
     const auto& push = step.push<glsl::SelfContactPush>();
     const bool leaves = push.level == 0;
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("self_boxes.comp", {{"leaves", leaves}}));
+    if (leaves)
+        return add_pass(graph, step, "self boxes", pipeline_of(pipelines, "self_boxes_leaves.comp", step),
+                        in_a_row(step), [&](PassSetup& setup) {
+                            read_sheet(setup, contact);
+                            write(setup, contact, Field::self_boxes, "boxes");
+                            write(setup, contact, Field::self_corrections, "corrections");
+                            write(setup, contact, Field::self_shares, "shares");
+                            read(setup, contact, Field::self_record, "record");
+                        });
     const int count =
         push.last > push.level ? glsl::workgroup_width : static_cast<int>(self_tree_boxes_of(push.grid, push.level));
-    add_pass(
-        graph, state, step, leaves ? "self boxes" : "self boxes above", pipeline, {count, 1}, [&](PassSetup& setup) {
-            if (leaves) {
-                read_state(setup, state);
-                state[Field::self_boxes] = setup.write(state[Field::self_boxes], Access::compute_write, "boxes");
-                state[Field::self_corrections] =
-                    setup.write(state[Field::self_corrections], Access::compute_write, "corrections");
-                state[Field::self_shares] = setup.write(state[Field::self_shares], Access::compute_write, "shares");
-                setup.read(state[Field::self_record], Access::compute_read, "record");
-            } else {
-                update_in_place(setup, state[Field::self_boxes], "boxes");
-                update_in_place(setup, state[Field::self_record], "record");
-            }
-        });
+    add_pass(graph, step, "self boxes above", pipelines.get("self_boxes.comp"), count, [&](PassSetup& setup) {
+        update_in_place(setup, contact, Field::self_boxes, "boxes");
+        update_in_place(setup, contact, Field::self_record, "record");
+    });
 }
 
-void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const auto& push = step.push<glsl::SelfContactPush>();
-    add_pass(graph, state, step, "self blocks", pipelines.get("self_blocks.comp"),
-             {static_cast<int>(self_tree_boxes_of(push.grid, 1)), 1}, [&](PassSetup& setup) {
-                 setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
-                 update_in_place(setup, state[Field::self_cells], "blocks");
-                 update_in_place(setup, state[Field::self_record], "record");
-             });
-}
-
-void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    add_pass(graph, state, step, "self cells", pipelines.get("self_cells.comp"), in_a_row(state),
+void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    const auto blocks = static_cast<int>(self_tree_boxes_of(step.push<glsl::SelfContactPush>().grid, 1));
+    add_pass(graph, step, "self blocks", pipeline_of(pipelines, "self_blocks.comp", step), blocks,
              [&](PassSetup& setup) {
-                 setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
-                 setup.read(state[Field::self_cells], Access::compute_read, "blocks");
-                 update_in_place(setup, state[Field::self_candidates], "candidates");
-                 update_in_place(setup, state[Field::self_record], "record");
+                 read(setup, contact, Field::self_boxes, "boxes");
+                 read_cloths(setup, contact);
+                 read(setup, contact, Field::self_meetings, "meetings");
+                 update_in_place(setup, contact, Field::self_cells, "blocks");
+                 update_in_place(setup, contact, Field::self_record, "record");
              });
 }
 
-void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    add_pass(graph, state, step, "self near", pipelines.get("self_near.comp"), in_a_row(state), [&](PassSetup& setup) {
-        read_state(setup, state);
-        setup.read(state[Field::self_boxes], Access::compute_read, "boxes");
-        setup.read(state[Field::self_candidates], Access::compute_read, "candidates");
-        update_in_place(setup, state[Field::self_cells], "cells");
-        update_in_place(setup, state[Field::self_record], "record");
-    });
-}
-
-void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("self_pairs.comp", {{"masked", state.masked()}}));
-    add_pass(graph, state, step, "self pairs", pipeline, in_a_row(state), [&](PassSetup& setup) {
-        read_state(setup, state);
-        setup.read(state[Field::self_cells], Access::compute_read, "cells");
-        update_in_place(setup, state[Field::self_pairs], "pairs");
-        update_in_place(setup, state[Field::self_record], "record");
-        if (state.masked()) setup.read(state[Field::cells], Access::compute_read, "existing");
-    });
-}
-
-void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    add_pass(graph, state, step, "self contact", pipelines.get("self_contact.comp"), in_a_row(state),
+void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self cells", pipeline_of(pipelines, "self_cells.comp", step), in_a_row(step),
              [&](PassSetup& setup) {
-                 read_state(setup, state);
-                 setup.read(state[Field::self_pairs], Access::compute_read, "pairs");
-                 setup.read(state[Field::self_record], Access::compute_read, "record");
-                 update_in_place(setup, state[Field::self_corrections], "corrections");
+                 read(setup, contact, Field::self_boxes, "boxes");
+                 read_cloths(setup, contact);
+                 read(setup, contact, Field::self_cells, "blocks");
+                 update_in_place(setup, contact, Field::self_candidates, "candidates");
+                 update_in_place(setup, contact, Field::self_record, "record");
              });
 }
 
-void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get(touching("self_push.comp", state));
-    add_pass(graph, state, step, "self push", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
-        touch(setup, state);
-        update_in_place(setup, state[Field::self_corrections], "corrections");
-        update_in_place(setup, state[Field::self_before], "before");
-    });
+void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self near", pipeline_of(pipelines, "self_near.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 read_sheet(setup, contact);
+                 read(setup, contact, Field::self_meetings, "meetings");
+                 read(setup, contact, Field::self_boxes, "boxes");
+                 read(setup, contact, Field::self_candidates, "candidates");
+                 update_in_place(setup, contact, Field::self_cells, "cells");
+                 update_in_place(setup, contact, Field::self_record, "record");
+             });
 }
 
-void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    add_pass(graph, state, step, "self room", pipelines.get("self_room.comp"), in_a_row(state), [&](PassSetup& setup) {
-        read_state(setup, state);
-        setup.read(state[Field::self_pairs], Access::compute_read, "pairs");
-        update_in_place(setup, state[Field::self_record], "record");
-        setup.read(state[Field::self_before], Access::compute_read, "before");
-        update_in_place(setup, state[Field::self_shares], "shares");
-    });
+void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self pairs", pipeline_of(pipelines, "self_pairs.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 read_sheet(setup, contact);
+                 read(setup, contact, Field::self_cells, "cells");
+                 update_in_place(setup, contact, Field::self_pairs, "pairs");
+                 update_in_place(setup, contact, Field::self_record, "record");
+             });
 }
 
-void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get(touching("self_move.comp", state));
-    add_pass(graph, state, step, "self move", pipeline, state.model->grid.size(), [&](PassSetup& setup) {
-        touch(setup, state);
-        setup.read(state[Field::self_shares], Access::compute_read, "shares");
-        setup.read(state[Field::self_before], Access::compute_read, "before");
-        update_in_place(setup, state[Field::self_record], "record");
-    });
+void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self contact", pipeline_of(pipelines, "self_contact.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 read_sheet(setup, contact);
+                 read(setup, contact, Field::self_pairs, "pairs");
+                 read(setup, contact, Field::self_record, "record");
+                 update_in_place(setup, contact, Field::self_corrections, "corrections");
+             });
 }
 
-std::string self_readback_name(const ClothModel& cloth) { return cloth.name + "/self record on the host"; }
+void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self push", pipeline_of(pipelines, "self_push.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 move_on_sheet(setup, contact);
+                 update_in_place(setup, contact, Field::self_corrections, "corrections");
+             });
+}
 
-void add_self_readback(graph::Graph& graph, const ClothState& state) {
+void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self room", pipeline_of(pipelines, "self_room.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 read_sheet(setup, contact);
+                 read(setup, contact, Field::self_pairs, "pairs");
+                 update_in_place(setup, contact, Field::self_record, "record");
+                 read(setup, contact, Field::self_before, "before");
+                 update_in_place(setup, contact, Field::self_shares, "shares");
+             });
+}
+
+void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self move", pipeline_of(pipelines, "self_move.comp", step), in_a_row(step),
+             [&](PassSetup& setup) {
+                 move_on_sheet(setup, contact);
+                 read(setup, contact, Field::self_shares, "shares");
+                 update_in_place(setup, contact, Field::self_record, "record");
+             });
+}
+
+void add_self_readback(graph::Graph& graph, const ClothState& contact) {
     const graph::Handle empty =
-        graph.buffer({self_readback_name(*state.model), sizeof(glsl::SelfRecord), graph::Lifetime::host_output});
+        graph.buffer({self_readback_name, sizeof(glsl::SelfRecord), graph::Lifetime::host_output});
     const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
     graph.add_pass(
-        state.pass_name("self record readback", "simulate"),
+        {"self record readback", "simulate", "self record readback"},
         [&](PassSetup& setup) {
-            setup.read(state[Field::self_record], Access::transfer_read);
+            setup.read(contact[Field::self_record], Access::transfer_read);
             *target = setup.write(empty, Access::transfer_write);
         },
-        [record = state[Field::self_record], target](graph::PassContext& context) {
+        [record = contact[Field::self_record], target](graph::PassContext& context) {
             const VkBufferCopy whole{0, 0, sizeof(glsl::SelfRecord)};
             vkCmdCopyBuffer(context.commands(), context.buffer(record).handle(), context.buffer(*target).handle(), 1,
                             &whole);

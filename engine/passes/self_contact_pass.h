@@ -1,37 +1,46 @@
-// Contact of a cloth with itself: the passes that end a substep (shaders/include/self_contact.h).
+// Contact of cloths with themselves and each other: the passes that end a substep (shaders/include/self_contact.h).
+// `contact`: the state of the scene's first cloth, with which what they share is kept.
 #pragma once
 
 #include "passes/pass_kit.h"
 
 namespace drape {
 
+/// Lays a cloth's particles on the sheet: reads its position, displacement, [existing triangles].
+void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+                     const Step& step);
+/// Moves those that contact moved since then: reads what lies on the sheet; updates the cloth's displacement,
+/// [displacement before, line control].
+void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& cloth, ClothState& contact,
+                     const Step& step);
+
+// The rest know the sheet alone: by position and displacement they mean those on it.
+
 /// Reads displacement; begins the record anew.
-void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, record; writes levels of the tree of boxes. The lowest also begins the sums and shares
 /// anew; the root's says in the record whether candidates are searched.
-void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads boxes; writes the list of cells, for now with blocks of them, where the record says so, counts them in it.
-void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads boxes and that list; writes the candidates where the record says so, counts them in it.
-void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, boxes, candidates; writes the list of cells, counts them in the record.
-void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
-/// Reads position, displacement, cells, [existing triangles]; writes the list of pairs, counts them in the record.
-void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position, displacement, cells; writes the list of pairs, counts them in the record.
+void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, pairs; adds to the corrections.
-void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
-/// Reads position; takes the corrections; updates displacement, [displacement before, line control]; the first one
-/// writes what it was before.
-void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position; takes the corrections; updates displacement; the first one writes what it was before.
+void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, displacement before contact, pairs; lowers the round's shares, notes in the record
 /// that it did.
-void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
-/// Reads position, displacement before contact, shares; updates displacement, [displacement before, line control], the
-/// record.
-void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position, displacement before contact, shares; updates displacement, the record.
+void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 
 /// Copies the frame's record to the host.
-void add_self_readback(graph::Graph& graph, const ClothState& state);
-std::string self_readback_name(const ClothModel& cloth);
+void add_self_readback(graph::Graph& graph, const ClothState& contact);
+inline constexpr const char* self_readback_name = "self record on the host";
 
 }  // namespace drape

@@ -77,6 +77,7 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
 
 Twin::Twin(const SimulationModel& model) : model_(&model) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
+    if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
 void Twin::run_frame(std::uint32_t frame) {
@@ -87,6 +88,7 @@ void Twin::run_frame(std::uint32_t frame) {
 void Twin::change_step(const SimulationModel& run) {
     const std::vector<StepChange> changes = step_changes(run, model_->scene.solver.substeps, run.scene.solver.substeps);
     model_ = &run;
+    if (contact_) contact_->model = &*run.self_contact;
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
         TwinCloth& state = cloths_[cloth];
         for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
@@ -103,6 +105,7 @@ void Twin::change_step(const SimulationModel& run) {
 }
 
 void Twin::run_step(const Step& step, const FrameInputs& inputs) {
+    if (step.cloth == between_cloths) return run_contact(step);
     if (step.cloth != all_cloths) return run_step(step.cloth, step, inputs);
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) run_step(cloth, step, inputs);
 }
@@ -142,26 +145,14 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return collide(model, state, inputs, step.substep);
         case StepKind::check:
             return check(model, state, step);
-        case StepKind::self_common:
-            return self_common(model, state, step);
-        case StepKind::self_boxes:
-            return self_boxes(model, state, step);
-        case StepKind::self_blocks:
-        case StepKind::self_cells:
-        case StepKind::self_near:
-            return;  // it tries all pairs of cells
-        case StepKind::self_pairs:
-            return self_pairs(model, state, step);
-        case StepKind::self_contact:
-            return self_contact(state, step);
-        case StepKind::self_push:
-            return self_push(model, state, step);
-        case StepKind::self_room:
-            return self_room(state, step);
-        case StepKind::self_move:
-            return self_move(model, state, step);
         case StepKind::advance:
             return advance(model, state);
+        case StepKind::self_gather:
+            return self_gather(state, step);
+        case StepKind::self_return:
+            return self_return(model, state, step);
+        default:
+            return;  // of all cloths at once
     }
 }
 

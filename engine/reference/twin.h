@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cloth/cloth_state.h"
@@ -46,17 +47,23 @@ struct TwinCloth {
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    /// What the passes of self-contact hand each other.
-    struct SelfContact {
-        std::vector<glsl::SelfBox> boxes;  ///< by particle
-        std::vector<glsl::uvec4> pairs;
-        std::vector<glsl::ivec4> corrections;
-        std::vector<glsl::vec3> before;  ///< displacements before contact, m
-        std::vector<float> shares;       ///< of their motions that the particles make, after the last round
-        glsl::SelfRecord record{};
-    } self;
     bool iterates = true;               ///< what the last check found: conditional steps run
     std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
+};
+
+/// What the passes of contact hand each other: by place on the sheet of all cloths, as on the device.
+struct TwinContact {
+    explicit TwinContact(const SelfContact& contact);
+
+    const SelfContact* model;
+    std::vector<int> owners;
+    std::vector<glsl::vec4> positions, displacements;
+    std::vector<glsl::SelfBox> boxes;
+    std::vector<glsl::uvec4> pairs;
+    std::vector<glsl::ivec4> corrections;
+    std::vector<glsl::vec4> before;
+    std::vector<float> shares;  ///< of their motions that the particles make, after the last round
+    glsl::SelfRecord record{};
 };
 
 class Twin {
@@ -75,6 +82,8 @@ class Twin {
 
     const TwinCloth& cloth(std::size_t index) const { return cloths_[index]; }
     TwinCloth& cloth(std::size_t index) { return cloths_[index]; }
+    /// Of a scene that has contact between cloths.
+    const TwinContact& contact() const { return *contact_; }
     /// What cuts made of a cloth; cutting it acts from the next step on.
     CutTopology& topology(std::size_t index) { return cloths_[index].topology; }
 
@@ -97,19 +106,15 @@ class Twin {
     void twist(TwinCloth& state, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_common(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_boxes(const ClothModel& model, TwinCloth& state, const Step& step);
-    static bool self_lies_flat(const ClothModel& model, TwinCloth& state, const glsl::SelfContactPush& push,
-                               glsl::ivec2 cell);
-    void self_pairs(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_contact(TwinCloth& state, const Step& step);
-    void self_push(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_room(TwinCloth& state, const Step& step);
-    void self_move(const ClothModel& model, TwinCloth& state, const Step& step);
+    void self_gather(TwinCloth& state, const Step& step);
+    void self_return(const ClothModel& model, TwinCloth& state, const Step& step);
+    /// A step of all cloths at once.
+    void run_contact(const Step& step);
     void advance(const ClothModel& model, TwinCloth& state);
 
     const SimulationModel* model_;
     std::vector<TwinCloth> cloths_;
+    std::optional<TwinContact> contact_;
 };
 
 }  // namespace drape

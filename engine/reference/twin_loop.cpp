@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "cloth/self_contact.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/statistics.h"
@@ -95,9 +94,8 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
         const std::vector<ClothStatistics> found = statistics(twin, frame + k, at(substeps));
         attempt_statistics_.push_back(found);
         double implausible = watch_.excess(frame + k, found);
-        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            if (const auto& contact = model_.cloths[cloth].self_contact)
-                implausible = std::max(implausible, self_list_use(*contact, twin.cloth(cloth).self.record));
+        if (const auto& contact = model_.self_contact)
+            implausible = std::max(implausible, self_list_use(contact->push, twin.contact().record));
         return std::pair(stretch_judgement(model_, found), implausible);
     };
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);

@@ -9,6 +9,7 @@
 #include "scene/overlap.h"
 #include "scene/scene_rules.h"
 #include "scene/start.h"
+#include "scene/start_crossings.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -171,8 +172,22 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
         if (other - cloths.begin() == static_cast<std::ptrdiff_t>(i)) continue;
         node.element(i).warn(
             fmt::format("cloths \"{}\" and \"{}\" are set to touch, but will pass through each other: "
-                        "contact between cloths is not simulated",
+                        "only with self_collision in one of a scene's cloths do they meet",
                         other->name, cloths[i].name));
+    }
+}
+
+/// Of each two cloths that start through each other, where cloths meet: a warning, or an error where the scene refuses
+/// that.
+void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
+    for (const StartCrossing& crossing : start_crossings(scene)) {
+        const SceneNode cloth = cloths.element(crossing.second), placement = cloth.member("placement");
+        const SceneNode& blamed = placement ? placement : cloth;
+        const std::string text = crossing_text(scene, crossing);
+        if (scene.overlap == Overlap::refuse)
+            blamed.fail("expected cloths that start apart (/overlap is \"refuse\"): " + text);
+        else
+            blamed.warn(text + ": the two will not meet, and no frame is proved; place one of them elsewhere");
     }
 }
 
@@ -278,9 +293,10 @@ bool check_scene(const Members& members, SceneDescription& scene) {
             name.fail(fmt::format("expected a name no other cloth has, got \"{}\"", cloths[i].name));
         count_particles(node.element(i).member("grid"), cloths[i], particle_total);
     }
-    warn_of_touching(node, cloths);
+    if (!cloths_meet(scene)) warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
+    if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
     return !members.fit({"time", "gravity", "cloths", "solver"}) || check_fall(members, scene);
 }
 

@@ -68,7 +68,12 @@ std::vector<OracleKind> kinds_of_shape() {
          "No particle is deep in a collider and the cloth's thickness on it, and something touches.",
          {{"depth", "largest depth, in units of the collider's radius or least half extent, of a plane in metres"}},
          no_collider},
-        {"uncrossed", "In no frame does a triangle of a cloth cross another one of it.", {}, nothing},
+        {"uncrossed",
+         "In no frame does a triangle cross another one of its cloth or of another; where some cloths have "
+         "self_collision, those "
+         "that have not may cross themselves.",
+         {},
+         nothing},
         {"supported",
          "In the last frame the top of the cloth lies at a height.",
          {cloth,

@@ -17,11 +17,8 @@ constexpr std::size_t most_particles = std::size_t{1} << 18;
 /// By particle: whether it is a corner of a cell that no hole takes away.
 std::vector<bool> in_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1];
-    std::vector<bool> missing((columns - 1) * (rows - 1)), used(columns * rows);
-    for (const IndexBox& hole : cloth.holes)
-        for (std::size_t row = hole.first[1]; row < hole.last[1]; ++row)
-            for (std::size_t column = hole.first[0]; column < hole.last[0]; ++column)
-                missing[row * (columns - 1) + column] = true;
+    const std::vector<bool> missing = missing_cells(cloth);
+    std::vector<bool> used(columns * rows);
     for (std::size_t row = 0; row + 1 < rows; ++row)
         for (std::size_t column = 0; column + 1 < columns; ++column)
             if (!missing[row * (columns - 1) + column])

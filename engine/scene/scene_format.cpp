@@ -144,13 +144,13 @@ const Object<Appearance> appearance{"appearance",
 
 const Object<SelfCollision> self_collision{
     "self_collision",
-    "Contact of a cloth with itself.",
+    "Contact of a cloth with itself, and with the scene's other cloths.",
     {
         {"thickness", &SelfCollision::thickness, optional(number(positive)),
          "Metres kept between layers: 0.1 to 1 times the grid's smaller spacing. Absent: the cloth's thickness, within "
-         "these."},
+         "these. Two cloths keep the mean of theirs."},
         {"friction", &SelfCollision::friction, optional(number(not_negative)),
-         "Coulomb coefficient between layers. Absent: the cloth's."},
+         "Coulomb coefficient between layers. Absent: the cloth's. Two cloths have the geometric mean."},
     }};
 
 const Object<Cloth> cloth{
@@ -175,11 +175,10 @@ const Object<Cloth> cloth{
          "Coulomb coefficient of the cloth's side; a pair of surfaces uses the geometric mean."},
         {"thickness", &Cloth::thickness, number(not_negative), "Metres kept from colliders."},
         {"self_collision", &Cloth::self_collision, true_or(self_collision),
-         "Whether the cloth meets itself. No triangle then passes through another of the same cloth in any substep; "
-         "the "
-         "manifest says whether that was proved. Different cloths still pass through each other, and so do triangles "
-         "that "
-         "a cutter has split."},
+         "Whether the cloth meets itself. Once one of a scene's cloths does, all of them meet each other, those "
+         "without "
+         "it as with its defaults. No triangle then passes through one that it meets in any substep; the manifest says "
+         "whether that was proved. Triangles that a cutter has split meet nothing."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},

@@ -46,6 +46,16 @@ std::vector<bool> held_at_start(const Cloth& cloth) {
     return held;
 }
 
+std::vector<bool> missing_cells(const Cloth& cloth) {
+    const std::size_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
+    std::vector<bool> missing(columns * rows);
+    for (const IndexBox& hole : cloth.holes)
+        for (std::size_t row = hole.first[1]; row < hole.last[1]; ++row)
+            for (std::size_t column = hole.first[0]; column < hole.last[0]; ++column)
+                missing[row * columns + column] = true;
+    return missing;
+}
+
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
     const Placement& placement = cloth.placement;
     const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);

@@ -15,6 +15,9 @@ double start_jitter(const Cloth& cloth);
 /// By particle: whether a pin holds it at the start.
 std::vector<bool> held_at_start(const Cloth& cloth);
 
+/// By cell, row by row: whether a hole takes it away.
+std::vector<bool> missing_cells(const Cloth& cloth);
+
 /// m, of a particle without jitter.
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);
 

@@ -11,8 +11,9 @@
 
 #include "scene/motion.h"
 #include "scene/oracle_kinds.h"
+#include "scene/start_crossings.h"
 #include "scene/surface_distance.h"
-#include "verify/triangle_crossings.h"
+#include "scene/triangle_crossings.h"
 
 namespace drape::verify {
 
@@ -280,17 +281,25 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
-/// No triangle of a cloth crosses another one of it.
+/// No triangle crosses another one; but of a cloth that does not meet itself, where others do, those of its own.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
+    const std::vector<Cloth>& cloths = run.scene.cloths;
+    const bool asked = cloths_meet(run.scene);
+    const auto counts = [&](std::size_t one, std::size_t other) {
+        return one != other || !asked || cloths[one].self_collision;
+    };
+    std::vector<TriangleCrossings::Mesh> meshes(cloths.size());
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
+        meshes[cloth].indices = ClothMeasure(run.scene, cloth).grid.triangle_indices();
     std::size_t worst = 0, worst_frame = 0;
-    for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
-        const std::vector<std::uint32_t> triangles = ClothMeasure(run.scene, cloth).grid.triangle_indices();
-        for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
-            std::vector<TriangleCrossings::Point> points;
-            for (std::size_t i = 0; i < run.frames[frame][cloth].size(); ++i) points.push_back(run.at(frame, cloth, i));
-            const std::size_t crossings = TriangleCrossings(std::move(points), triangles).count();
-            if (crossings > worst) worst = crossings, worst_frame = frame;
+    for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
+        for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+            meshes[cloth].points.clear();
+            for (std::size_t i = 0; i < run.frames[frame][cloth].size(); ++i)
+                meshes[cloth].points.push_back(run.at(frame, cloth, i));
         }
+        const std::size_t crossings = TriangleCrossings(meshes).count(counts);
+        if (crossings > worst) worst = crossings, worst_frame = frame;
     }
     return {worst == 0, fmt::format("{} pairs of triangles cross, most in frame {}", worst, worst_frame)};
 }

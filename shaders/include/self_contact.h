@@ -1,5 +1,5 @@
-// Contact of a cloth with itself (docs/physics.md 5). A pair is a particle and a triangle, or two edges,
-// that share no corner: nothing else meets first when a surface comes to cross itself. Of every pair that a substep may
+// Contact of cloths with themselves and each other (docs/physics.md 5). A pair is a particle and a triangle, or two edges,
+// that share no corner: nothing else meets first when surfaces come to cross. Of every pair that a substep may
 // bring together a plane between the two is known, and no corner goes more than its share of the way to that plane: so
 // nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et
 // al. 2025, "Offset Geometric Contact"). Before that pairs nearer than the thickness are pushed apart, with friction.
@@ -21,24 +21,50 @@ const int self_visit_limit = 60000;
 /// Particles along a side of the lattice whose mean motion is the common one.
 const int self_samples = 6;
 
-/// The thickness that a pair keeps. Primitives that are nearer than two thicknesses in the flat cloth keep half of that
-/// distance: pushed together in its plane the cloth is not stiffer for it. `corners`: columns and rows of the
-/// particles.
-SHARED float self_pair_thickness(SelfContactPush push, bool edges, ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
+/// Exactly a cloth's own with itself.
+SHARED float self_mean_thickness(SelfCloth one, SelfCloth other) {
+    precise float mean = (one.thickness + other.thickness) * 0.5f;
+    return mean;
+}
+
+SHARED bool self_same_cloth(SelfCloth one, SelfCloth other) {
+    return one.first.x == other.first.x && one.first.y == other.first.y;
+}
+
+/// Inverse masses of a pair's corners, all in the first cloth's units.
+SHARED vec4 self_corner_masses(bool edges, SelfCloth one, SelfCloth other, vec4 relative) {
+    precise vec4 masses =
+        vec4(relative.x * one.lightness, relative.y * (edges ? one.lightness : other.lightness),
+             relative.z * other.lightness, relative.w * other.lightness);
+    return masses;
+}
+
+SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
+    if (self_same_cloth(one, other)) return one.friction;
+    precise float mean = sqrt(one.friction * other.friction);
+    return mean;
+}
+
+/// The thickness that a pair keeps. Primitives of one cloth that are nearer than two thicknesses in it when it is flat
+/// keep half of that distance: pushed together in its plane the cloth is not stiffer for it. `a` to `d`: columns and
+/// rows of the particles; `one`, `other`: the cloths of the first and of the last.
+SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
+    float thickness = self_mean_thickness(one, other);
+    if (!self_same_cloth(one, other)) return thickness;
     int columns = b.x - a.x, rows = b.y - a.y;
     if (edges) {
         columns = c.x - a.x;
         rows = c.y - a.y;
     }
-    if (columns > 4 || columns < -4 || rows > 4 || rows < -4) return push.thickness;
-    precise vec3 liesa = vec3(float(a.x) * push.spacing.x, float(a.y) * push.spacing.y, 0.0f);
-    precise vec3 liesb = vec3(float(b.x) * push.spacing.x, float(b.y) * push.spacing.y, 0.0f);
-    precise vec3 liesc = vec3(float(c.x) * push.spacing.x, float(c.y) * push.spacing.y, 0.0f);
-    precise vec3 liesd = vec3(float(d.x) * push.spacing.x, float(d.y) * push.spacing.y, 0.0f);
+    if (columns > 4 || columns < -4 || rows > 4 || rows < -4) return thickness;
+    precise vec3 liesa = vec3(float(a.x) * one.spacing.x, float(a.y) * one.spacing.y, 0.0f);
+    precise vec3 liesb = vec3(float(b.x) * one.spacing.x, float(b.y) * one.spacing.y, 0.0f);
+    precise vec3 liesc = vec3(float(c.x) * one.spacing.x, float(c.y) * one.spacing.y, 0.0f);
+    precise vec3 liesd = vec3(float(d.x) * one.spacing.x, float(d.y) * one.spacing.y, 0.0f);
     SelfCorners x = self_relative(SelfCorners(liesa, liesb, liesc, liesd));
     vec3 across = self_sum(self_weights(edges, x), x);
     precise float half_distance = sqrt(ordered_dot(across, across)) * 0.5f;
-    return self_least(push.thickness, half_distance);
+    return self_least(thickness, half_distance);
 }
 
 /// Most that a pair's corners come nearer to each other along its normal in a substep before contact corrects it, all
@@ -53,7 +79,7 @@ SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
 }
 
 /// Whether a pair is listed: it may come nearer than its thickness; or, with what contact may add to every corner's
-/// motion, meet.
+/// motion, meet. `thickness`: the mean of the two cloths'.
 SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float pair_thickness, float thickness) {
     precise float slack = thickness * self_listed_share;
     precise float listing =
@@ -73,16 +99,16 @@ SHARED float self_box_distance(SelfBox a, SelfBox b) {
 }
 
 /// Within which what is in two boxes may be listed in this substep: the boxes hold all of its motions.
-SHARED float self_reach(SelfBox a, SelfContactPush push) {
+SHARED float self_reach(SelfBox a, SelfContactPush push, float thickness) {
     float doubt = self_doubt(self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
                                           self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
-    precise float reach = (push.thickness + push.least) + doubt * 4.0f;
+    precise float reach = (thickness + push.least) + doubt * 4.0f;
     return reach;
 }
 
-/// Whether what is in two boxes may be listed, with `margin` for the substeps to come.
-SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float margin) {
-    precise float reach = self_reach(a, push) + margin;
+/// Whether what is in two boxes may be listed, with `margin` for the substeps to come. `thickness`: the mean of theirs.
+SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness, float margin) {
+    precise float reach = self_reach(a, push, thickness) + margin;
     return self_box_distance(a, b) <= reach;
 }
 
@@ -105,12 +131,12 @@ SHARED ivec2 self_sample(ivec2 grid, int k) {
                  (2 * row + 1) * (grid.y - 1) / (2 * self_samples));
 }
 
-SHARED vec3 self_mean(vec3 sum) {
-    precise vec3 mean = sum / float(self_samples * self_samples);
+SHARED vec3 self_mean(vec3 sum, int cloth_count) {
+    precise vec3 mean = sum / float(self_samples * self_samples * cloth_count);
     return mean;
 }
 
-/// Whether two cells are the same or neighbours: those are judged by how flat the cloth is about them.
+/// Whether two cells are the same or neighbours, and so of one cloth: those are judged by how flat the cloth is about them.
 SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     int columns = b.x - a.x, rows = b.y - a.y;
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
@@ -179,11 +205,11 @@ SHARED float self_singular_value(vec3 first, vec3 second) {
 /// motions the particles make. The cloth there is a linear map but for what its particles are off it, by `off` at most,
 /// and for how they move in its plane: two points `flat` apart at rest are at least s flat - 2 off - 2 within apart,
 /// s the map's smaller singular value. What they move across that plane brings none nearer.
-SHARED bool self_patch_lies_flat(SelfContactPush push, SelfPatch x, SelfPatch motions) {
+SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatch x, SelfPatch motions) {
     precise vec3 along = (x.right - x.left) * 0.5f;
     precise vec3 across = (x.down - x.up) * 0.5f;
-    precise vec3 first = along / push.spacing.x;
-    precise vec3 second = across / push.spacing.y;
+    precise vec3 first = along / cloth.spacing.x;
+    precise vec3 second = across / cloth.spacing.y;
     float singular = self_singular_value(first, second);
     // Pairs farther apart keep more, but no more than half of their distance.
     if (!(singular > 0.5f)) return false;
@@ -195,12 +221,17 @@ SHARED bool self_patch_lies_flat(SelfContactPush push, SelfPatch x, SelfPatch mo
         self_largest(self_largest_coordinate(x.down_right),
                      self_largest(self_largest_coordinate(x.up_right), self_largest_coordinate(x.down_left)))));
     precise float within = sqrt(self_largest(self_moves_within(motions, unit), 0.0f));
-    precise float slack = push.thickness * self_listed_share;
-    precise float half_flat = push.least_flat * 0.5f;
-    float listed = self_largest(self_least(push.thickness, half_flat), slack);
-    precise float distance = singular * push.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
+    precise float slack = cloth.thickness * self_listed_share;
+    precise float half_flat = cloth.least_flat * 0.5f;
+    float listed = self_largest(self_least(cloth.thickness, half_flat), slack);
+    precise float distance = singular * cloth.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
     precise float needed = ((listed + within * 2.002f) + doubt * 4.0f) + push.least;
     return distance > needed;
+}
+
+/// Of a place on the sheet where no cloth is: near nothing.
+SHARED SelfBox self_no_box() {
+    return SelfBox(vec4(1.0e30f, 1.0e30f, 1.0e30f, 0.0f), vec4(-1.0e30f, -1.0e30f, -1.0e30f, 0.0f));
 }
 
 SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
@@ -324,6 +355,9 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
     precise float part = share + left * (allowed / wanted);
     return self_limited(part);
 }
+
+/// Whether two primitives touch, so that no plane between them is known: then nothing is proved of them.
+SHARED bool self_touch(SelfGap gap) { return !(gap.distance > 1.0e-12f); }
 
 /// A motion made in part.
 SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {

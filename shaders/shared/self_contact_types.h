@@ -1,4 +1,5 @@
-// Structs of the passes that keep a cloth from passing through itself, shared by GLSL and C++. std430.
+// Structs of the passes that keep cloths from passing through themselves and each other, shared by GLSL and C++.
+// std430.
 #ifndef DRAPE_SELF_CONTACT_TYPES_H
 #define DRAPE_SELF_CONTACT_TYPES_H
 
@@ -27,31 +28,49 @@ const int self_iterations = 3;
 /// Rounds in which motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 
+/// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other,
+/// so that what holds for a grid holds for it, and a column and a row name a particle of the scene.
 struct SelfContactPush {
-    ivec2 grid;       // columns, rows
-    vec2 spacing;     // m along columns, rows, at rest
-    float thickness;  // m kept between layers
-    float friction;
-    float recovery;    // m that a substep gives back of a thickness that is missing
-    float least;       // m: distances that rounding leaves in doubt
-    float least_flat;  // m: least distance of two primitives of the flat cloth that share no corner
-    float margin;      // m: by how much more than it needs to the search for cells looks
-    int pair_room;     // pairs that the list can hold
-    int cell_room;     // likewise of pairs of cells, and of candidates
-    int level;         // boxes: the first that this pass makes
-    int last;          // boxes: the last
-    int top;           // level of the root
-    int first;         // 1: the frame's first substep
-    int round;         // contact, push, room: which
-    int held;          // 1: some particles are always held, so that nothing is carried along with all
+    ivec2 grid;       // columns, rows of the sheet
+    float thickness;  // m: the largest that a cloth keeps
+    float recovery;   // m that a substep gives back of a thickness that is missing
+    float least;      // m: distances that rounding leaves in doubt
+    float margin;     // m: by how much more than it needs to the search for cells looks
+    int pair_room;    // pairs that the list can hold
+    int cell_room;    // likewise of pairs of cells, and of candidates
+    int level;        // boxes: the first that this pass makes
+    int last;         // boxes: the last
+    int top;          // level of the root
+    int first;        // 1: the frame's first substep
+    int round;        // contact, push, room: which
+    int held;         // 1: some particles are always held, so that nothing is carried along with all
+    int cloth_count;
 };
 
-/// What a cloth's self-contact was in the substeps of a frame so far. m.
+/// A cloth on the sheet.
+struct SelfCloth {
+    ivec2 first;       // column, row of its first particle
+    ivec2 grid;        // columns, rows
+    vec2 spacing;      // m along columns, rows, at rest
+    float thickness;   // m kept between its layers
+    float friction;    // between them
+    float least_flat;  // m: least distance of two primitives of the flat cloth that share no corner
+    float lightness;   // of its particles' relative inverse masses, in those of the first cloth
+};
+
+/// Of the passes between a cloth's own fields and the sheet.
+struct SelfClothPush {
+    ivec2 grid;   // the cloth's
+    ivec2 first;  // where it lies on the sheet
+    int columns;  // the sheet's
+};
+
+/// What contact between the scene's cloths was in the substeps of a frame so far. m.
 struct SelfRecord {
     vec4 carried;          // motion that all particles are measured against in this substep; w unused
     uint pair_count;       // of this substep, those that found no room included
     uint most_pairs;       // of the frame
-    uint unproved;         // motions of held particles that were not proved to cross nothing
+    uint unproved;         // motions of held particles that were not proved to cross nothing, pairs that touched
     uint truncated;        // motions of free particles that were cut short
     uint cell_count;       // pairs of cells of this substep, those that found no room included
     uint candidate_count;  // pairs of cells that may meet in it or later, likewise

@@ -135,6 +135,13 @@ TEST(ClosedLoop, WithClothThatMeetsItself) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
+TEST(ClosedLoop, WithClothsThatMeetEachOther) {
+    SceneDescription scene = automatic(test::layers(SolverMethod::line, 1), 12);
+    for (Cloth& cloth : scene.cloths) cloth.velocity = {0, -3, 0};
+    scene.solver.tolerance = 0.0002;
+    EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
+}
+
 TEST(ClosedLoop, TwoRunsGiveTheSameBytesAndSoDoFramesAskedForOneByOne) {
     SceneDescription scene = hanging_by_corners(16);
     scene.solver.tolerance_motion = 0.03;

@@ -1,9 +1,7 @@
 // Long runs of cloth that meets itself: fold and twist until they have settled or are wound up.
 #include <gtest/gtest.h>
 
-#include "reference/twin.h"
 #include "support/self_contact_scenes.h"
-#include "verify/triangle_crossings.h"
 
 namespace drape {
 namespace {
@@ -19,12 +17,8 @@ Seen run(const SceneDescription& scene, std::uint32_t frames) {
     Seen seen;
     for (std::uint32_t frame = 1; frame <= frames && seen.first_crossed == 0; ++frame) {
         twin.run_frame(frame);
-        const TwinCloth& state = twin.cloth(0);
-        std::vector<verify::TriangleCrossings::Point> points;
-        for (const glsl::vec4& x : state[Field::position]) points.push_back({double(x.x), double(x.y), double(x.z)});
-        if (verify::TriangleCrossings(std::move(points), model.cloths[0].grid.triangle_indices()).count() > 0)
-            seen.first_crossed = frame;
-        if (seen.first_unproved == 0 && state.self.record.unproved > 0) seen.first_unproved = frame;
+        if (test::crossings(model, twin) > 0) seen.first_crossed = frame;
+        if (seen.first_unproved == 0 && twin.contact().record.unproved > 0) seen.first_unproved = frame;
     }
     return seen;
 }

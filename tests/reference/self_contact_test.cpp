@@ -1,4 +1,4 @@
-// Contact of a cloth with itself, on the twin: judged by a checker that shares nothing with it.
+// Contact of cloths with themselves and each other, on the twin: judged by a checker that shares nothing with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,18 +8,9 @@
 #include "reference/kernels.h"
 #include "reference/twin.h"
 #include "support/self_contact_scenes.h"
-#include "verify/triangle_crossings.h"
 
 namespace drape {
 namespace {
-
-using verify::TriangleCrossings;
-
-std::size_t crossings(const ClothModel& model, const TwinCloth& state) {
-    std::vector<TriangleCrossings::Point> points;
-    for (const glsl::vec4& x : state[Field::position]) points.push_back({double(x.x), double(x.y), double(x.z)});
-    return TriangleCrossings(std::move(points), model.grid.triangle_indices()).count();
-}
 
 struct Found {
     std::size_t crossed_frames = 0;
@@ -32,13 +23,14 @@ Found run(const SceneDescription& scene, std::uint32_t frames) {
     Found found;
     for (std::uint32_t frame = 1; frame <= frames; ++frame) {
         twin.run_frame(frame);
-        const TwinCloth& state = twin.cloth(0);
-        const std::size_t crossed = crossings(model.cloths[0], state);
+        const std::size_t crossed = test::crossings(model, twin);
         found.crossed_frames += crossed > 0 ? 1 : 0;
-        found.most_pairs = std::max(found.most_pairs, state.self.record.most_pairs);
-        found.unproved += state.self.record.unproved;
-        found.truncated += state.self.record.truncated;
-        EXPECT_TRUE(crossed == 0 || !scene.cloths[0].self_collision || found.unproved > 0)
+        if (!model.self_contact) continue;
+        const glsl::SelfRecord& record = twin.contact().record;
+        found.most_pairs = std::max(found.most_pairs, record.most_pairs);
+        found.unproved += record.unproved;
+        found.truncated += record.truncated;
+        EXPECT_TRUE(crossed == 0 || found.unproved > 0)
             << "certified, but " << crossed << " triangles cross in frame " << frame;
     }
     std::printf("[ measured ] crossings in %zu of %u frames, %u pairs, %u motions cut short, %u not proved\n",
@@ -92,6 +84,51 @@ TEST(SelfContactTest, WhatIsHeldAcrossItselfIsNotCertified) {
     const Found found = run(scene, 30);
     EXPECT_GT(found.crossed_frames, 0u);
     EXPECT_GT(found.unproved, 0u);
+}
+
+TEST(SelfContactTest, WithoutItClothsGoThroughEachOther) {
+    SceneDescription scene = test::layers(SolverMethod::line, 16);
+    scene.cloths[0].self_collision.reset();
+    EXPECT_GT(run(scene, 20).crossed_frames, 0u);
+}
+
+TEST(SelfContactTest, ClothsLieOnEachOtherByLineSolves) { expect_apart(test::layers(SolverMethod::line, 16), 60); }
+
+TEST(SelfContactTest, ClothsLieOnEachOtherByExplicitSteps) {
+    expect_apart(test::layers(SolverMethod::explicit_steps, 40), 40);
+}
+
+/// A strip held by its ends is pressed down onto a sheet that is held by its sides.
+TEST(SelfContactTest, ClothsThatAreHeldAgainstEachOther) {
+    SceneDescription scene = test::sheet(11, 9, 0.6, 0.48, 24);
+    scene.solver.method = SolverMethod::line;
+    Cloth& sheet = scene.cloths[0];
+    sheet.self_collision = SelfCollision{};
+    sheet.thickness = 0.02;
+    sheet.stiffness = {false, 2000, 100, 1e-4};
+    sheet.damping = 1;
+    sheet.placement = {{-0.3, 0.5, -0.24}, {1, 0, 0}, {0, 0, 1}};
+    Cloth strip = sheet;
+    strip.name = "strip";
+    strip.grid = {7, 13};
+    strip.size = {0.35, 0.7};
+    strip.placement.origin = {-0.15, 0.54, -0.36};
+    sheet.pins = {test::pin_box(0, 0, 0, 8), test::pin_box(10, 0, 10, 8)};
+    strip.pins = {test::pin_box(0, 0, 6, 0), test::pin_box(0, 12, 6, 12)};
+    for (Pin& pin : strip.pins) pin.path.keys = {{0, {}, {}}, {0.25, {0, -0.35, 0}, {}}};
+    scene.cloths.push_back(strip);
+    expect_apart(scene, 40, true);
+}
+
+TEST(SelfContactTest, ClothsThatStartThroughEachOtherDoNotMeet) {
+    SceneDescription scene = test::layers(SolverMethod::line, 16);
+    scene.cloths[1].placement.u = {0, 1, 0};
+    scene.cloths[1].placement.origin = {0.02, 0.02, -0.25};
+    const SimulationModel model(scene);
+    ASSERT_EQ(model.self_contact->crossed.size(), 1u);
+    EXPECT_EQ(model.self_contact->crossed[0].first, 0u);
+    EXPECT_EQ(model.self_contact->crossed[0].second, 1u);
+    EXPECT_EQ(model.self_contact->meetings, (std::vector<glsl::uint>{1, 0, 1, 0, 0, 1, 1, 1, 0}));
 }
 
 /// Against points tried all over the two primitives.
@@ -166,7 +203,7 @@ TEST(TriangleCrossingsTest, KnowsCrossingFromTouchingAndApart) {
                           const TriangleCrossings::Point& r, const std::vector<std::uint32_t>& indices) {
         std::vector<TriangleCrossings::Point> points = flat;
         points.insert(points.end(), {p, q, r});
-        return TriangleCrossings(points, indices).count();
+        return TriangleCrossings({{points, indices}}).count();
     };
     EXPECT_EQ(with({0.2, 0.2, -1}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 1u);
     EXPECT_EQ(with({0.2, 0.2, 0.01}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 0u);

@@ -1,4 +1,5 @@
-// Cloth that starts inside a collider is noticed: which, how deep, how much of it; and refused where the scene says so.
+// Cloth that starts inside a collider, or through another cloth, is noticed: which, how deep, how much of it; and
+// refused where the scene says so.
 #include "scene/overlap.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 namespace drape {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -109,6 +111,47 @@ TEST(OverlapTest, IsAnErrorWhereTheSceneRefusesIt) {
     ASSERT_TRUE(outside.scene);
     EXPECT_EQ(outside.scene->overlap, Overlap::refuse);
     EXPECT_THAT(outside.warnings, IsEmpty());
+}
+
+/// A sheet that lies about the origin, and one of half its size placed as told.
+SceneResult crossing(const std::string& placement, const std::vector<std::string>& overrides = {}) {
+    return read_scene_text(fmt::format(R"({{"name": "crossing",
+"cloths": [{{"name": "sheet", "grid": [5, 5], "size": [1, 1], "self_collision": true,
+  "placement": {{"origin": [-0.5, 0, -0.5], "u": [1, 0, 0], "v": [0, 0, 1]}}}},
+  {{"name": "other", "grid": [3, 3], "size": [0.5, 0.5],
+  "placement": {}}}]}})",
+                                       placement),
+                           "crossing.json", overrides);
+}
+const std::string upright = R"({"origin": [-0.2, 0.3, 0.1], "u": [1, 0, 0], "v": [0, -1, 0]})",
+                  beside = R"({"origin": [0.6, 0.3, 0.1], "u": [1, 0, 0], "v": [0, -1, 0]})",
+                  above = R"({"origin": [-0.2, 0.001, -0.3], "u": [1, 0, 0], "v": [0, 0, 1]})",
+                  upon = R"({"origin": [-0.2, 1e-7, -0.3], "u": [1, 0, 0], "v": [0, 0, 1]})";
+
+TEST(StartCrossingTest, IsSaidOfClothsThatMeet) {
+    const auto warned = [](const SceneResult& result) {
+        std::vector<std::string> texts;
+        for (const SceneError& warning : result.warnings) texts.push_back(warning.text());
+        return texts;
+    };
+    EXPECT_THAT(warned(crossing(upright)),
+                ElementsAre(AllOf(HasSubstr("crossing.json:5:16: /cloths/1/placement: cloths \"sheet\" and \"other\" "
+                                            "start through each other ("),
+                                  HasSubstr("the two will not meet, and no frame is proved"))));
+    EXPECT_THAT(warned(crossing(upon)), ElementsAre(HasSubstr("start on each other")));
+    EXPECT_THAT(warned(crossing(beside)), IsEmpty());
+    EXPECT_THAT(warned(crossing(above)), IsEmpty());
+    EXPECT_THAT(warned(crossing(upright, {"/cloths/0/holes=[[[0,2],[4,3]]]"})), IsEmpty()) << "through a hole";
+    EXPECT_THAT(warned(crossing(upright, {"/cloths/0/self_collision=false"})),
+                ElementsAre(HasSubstr("are set to touch, but will pass through each other")));
+}
+
+TEST(StartCrossingTest, IsAnErrorWhereTheSceneRefusesIt) {
+    const SceneResult refused = crossing(upright, {"/overlap=\"refuse\""});
+    ASSERT_EQ(refused.errors.size(), 1u);
+    EXPECT_THAT(refused.errors[0].text(),
+                HasSubstr("expected cloths that start apart (/overlap is \"refuse\"): cloths "));
+    EXPECT_TRUE(crossing(beside, {"/overlap=\"refuse\""}).scene);
 }
 
 }  // namespace

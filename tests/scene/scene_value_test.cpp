@@ -158,7 +158,7 @@ std::vector<std::string> warnings_of(std::string_view text) {
 TEST(SceneWarnings, ClothsSetToTouch) {
     const std::vector<std::string> expected{
         "s:2:1: /cloths/1: cloths \"a\" and \"b\" are set to touch, but will pass through each other: "
-        "contact between cloths is not simulated"};
+        "only with self_collision in one of a scene's cloths do they meet"};
     EXPECT_EQ(warnings_of("{\"cloths\": [{\"name\": \"a\"},\n{\"name\": \"b\", \"placement\": {\"origin\": "
                           "[0.5, 0.5, 0]}}]}"),
               expected);

@@ -1,6 +1,8 @@
-// Small scenes in which a cloth meets itself.
+// Small scenes in which cloths meet themselves and each other.
 #pragma once
 
+#include "reference/twin.h"
+#include "scene/triangle_crossings.h"
 #include "support/sheets.h"
 
 namespace drape::test {
@@ -43,6 +45,57 @@ inline SceneDescription twist(std::uint32_t n, double thickness, SolverMethod me
         cloth.pins.push_back(pin);
     }
     return scene;
+}
+
+/// Three sheets above each other over a ball, of different grids, weights and thicknesses: the lowest, which falls on
+/// the ball, meets itself; the next one, turned, is small and has a hole; the last one is coarse and comes fast.
+inline SceneDescription layers(SolverMethod method, std::uint32_t substeps) {
+    SceneDescription scene = sheet(15, 13, 0.84, 0.72, substeps);
+    scene.solver.method = method;
+    const auto lie = [](Cloth& cloth, Vec3 origin, double degrees) {
+        const double c = std::cos(degrees * 0.017453292519943295), s = std::sin(degrees * 0.017453292519943295);
+        cloth.placement = {origin, {c, 0, s}, {-s, 0, c}};
+        cloth.stiffness = {false, 200, 40, 1e-4};
+        cloth.damping = 1;
+        cloth.friction = 0.4;
+    };
+    Cloth small = scene.cloths[0], coarse = scene.cloths[0];
+    lie(scene.cloths[0], {-0.42, 0.36, -0.36}, 0);
+    scene.cloths[0].self_collision = SelfCollision{0.02, {}};
+    small.name = "small";
+    small.grid = {12, 10};
+    small.size = {0.44, 0.36};
+    small.areal_density *= 0.5;
+    small.holes = {{{4, 3}, {7, 6}}};
+    small.thickness = 0.01;
+    lie(small, {-0.15, 0.41, -0.25}, 25);
+    coarse.name = "coarse";
+    coarse.grid = {7, 9};
+    coarse.size = {0.5, 0.64};
+    coarse.areal_density *= 3;
+    coarse.thickness = 0.03;
+    lie(coarse, {-0.2, 0.5, -0.3}, -10);
+    coarse.velocity = {0.5, -3, 0};
+    scene.cloths.push_back(small);
+    scene.cloths.push_back(coarse);
+    Collider ball{Sphere{{0, 0, 0}, 0.3}};
+    ball.friction = 0.4;
+    scene.colliders = {ball};
+    return scene;
+}
+
+/// Pairs of triangles that cross, of cloths that meet.
+inline std::size_t crossings(const SimulationModel& model, const Twin& twin) {
+    std::vector<TriangleCrossings::Mesh> meshes;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+        meshes.push_back({{}, model.cloths[cloth].grid.triangle_indices()});
+        for (const glsl::vec4& x : twin.cloth(cloth)[Field::position])
+            meshes.back().points.push_back({double(x.x), double(x.y), double(x.z)});
+    }
+    const auto counts = [&](std::size_t one, std::size_t other) {
+        return one != other || model.cloths.size() == 1 || model.scene.cloths[one].self_collision;
+    };
+    return TriangleCrossings(meshes).count(counts);
 }
 
 }  // namespace drape::test

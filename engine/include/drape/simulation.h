@@ -104,14 +104,16 @@ struct SimulationFacts {
     std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
 };
 
-/// What was proved of a cloth that meets itself, of all frames simulated so far.
+/// What was proved of the cloths of a scene in which one meets itself, and all each other, of all frames simulated so
+/// far.
 struct SelfContactReport {
-    std::size_t cloth = 0;
-    /// Frame in which a held particle first moved so that a crossing could not be ruled out; nothing: no triangle
-    /// passed through another in any substep.
+    /// Frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; nothing:
+    /// no triangle that meets another passed through it in any substep.
     std::optional<std::uint32_t> first_unproved;
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, near each other
     std::uint64_t truncated = 0;   ///< motions cut short because they would have crossed
+    /// Cloths that started through each other: these do not meet, and of them nothing is proved.
+    std::vector<std::pair<std::size_t, std::size_t>> crossed = {};
 };
 
 /// What a kind of pass does in a frame that is handed out, of the substeps that the scene begins with.
@@ -170,7 +172,7 @@ class Simulation {
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
     SimulationFacts facts() const;
     /// One for each cloth that meets itself.
-    std::vector<SelfContactReport> self_contact() const;
+    std::optional<SelfContactReport> self_contact() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".

@@ -1,7 +1,7 @@
-// Which triangles of a mesh cross each other: the judge of self-contact. In extended precision, over a tree of bounding
-// boxes; shares no code with the solver. Two triangles cross when an edge of one passes through the other's inside;
-// triangles that share an edge cannot, but for folding flat onto each other, and those that share a corner
-// are tried with the edges that do not touch it.
+// Which triangles of meshes cross each other: the judge of contact between cloths. In extended precision, over a tree
+// of bounding boxes; shares no code with the solver. Two triangles cross when an edge of one passes through the other's
+// inside; triangles that share an edge cannot, but for folding flat onto each other, and those that share a corner are
+// tried with the edges that do not touch it.
 #pragma once
 
 #include <algorithm>
@@ -12,28 +12,42 @@
 #include <utility>
 #include <vector>
 
-namespace drape::verify {
+namespace drape {
 
 class TriangleCrossings {
   public:
     using Point = std::array<double, 3>;
     using Triangle = std::array<std::uint32_t, 3>;
 
-    TriangleCrossings(std::vector<Point> points, const std::vector<std::uint32_t>& indices)
-        : points_(std::move(points)) {
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            triangles_.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    struct Mesh {
+        std::vector<Point> points;           ///< m
+        std::vector<std::uint32_t> indices;  ///< three points per triangle
+    };
+
+    explicit TriangleCrossings(const std::vector<Mesh>& meshes) {
+        for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+            const auto first = static_cast<std::uint32_t>(points_.size());
+            const std::vector<std::uint32_t>& indices = meshes[mesh].indices;
+            points_.insert(points_.end(), meshes[mesh].points.begin(), meshes[mesh].points.end());
+            for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+                triangles_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2]});
+            mesh_.resize(triangles_.size(), mesh);
+        }
         order_.resize(triangles_.size());
         std::iota(order_.begin(), order_.end(), 0u);
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Pairs of triangles that cross.
-    std::size_t count() const {
+    /// Pairs of triangles that cross, of those meshes for whose indices `counts` is true.
+    template <class Counts>
+    std::size_t count(const Counts& counts) const {
         std::size_t crossings = 0;
-        for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
-            crossings += crossings_of(0, triangle, box_of(triangle));
+        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
+            crossings += crossings_of(0, triangle, box_of(triangle), counts);
         return crossings;
+    }
+    std::size_t count() const {
+        return count([](std::size_t, std::size_t) { return true; });
     }
 
   private:
@@ -87,13 +101,16 @@ class TriangleCrossings {
         return place;
     }
 
-    std::size_t crossings_of(std::size_t place, std::uint32_t triangle, const Box& box) const {
+    template <class Counts>
+    std::size_t crossings_of(std::size_t place, std::uint32_t triangle, const Box& box, const Counts& counts) const {
         const Node& node = nodes_[place];
         if (!node.box.meets(box)) return 0;
-        if (node.left != 0) return crossings_of(node.left, triangle, box) + crossings_of(node.right, triangle, box);
+        if (node.left != 0)
+            return crossings_of(node.left, triangle, box, counts) + crossings_of(node.right, triangle, box, counts);
         std::size_t crossings = 0;
         for (std::size_t i = node.begin; i < node.end; ++i)
-            if (order_[i] > triangle && box_of(order_[i]).meets(box)) crossings += cross(triangle, order_[i]) ? 1 : 0;
+            if (order_[i] > triangle && box_of(order_[i]).meets(box) && counts(mesh_[triangle], mesh_[order_[i]]))
+                crossings += cross(triangle, order_[i]) ? 1 : 0;
         return crossings;
     }
 
@@ -136,8 +153,9 @@ class TriangleCrossings {
 
     std::vector<Point> points_;
     std::vector<Triangle> triangles_;
+    std::vector<std::size_t> mesh_;  ///< by triangle
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_;
 };
 
-}  // namespace drape::verify
+}  // namespace drape

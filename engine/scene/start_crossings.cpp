@@ -1,0 +1,113 @@
+#include "scene/start_crossings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/start.h"
+#include "scene/surface_distance.h"
+#include "scene/triangle_crossings.h"
+#include "scene/vectors.h"
+
+namespace drape {
+
+namespace {
+
+using exact::minus;
+
+/// A cloth as it starts.
+struct Sheet {
+    const Cloth* cloth;
+    std::vector<bool> missing;
+    std::vector<Vec3> at;
+    Vec3 lower, upper;
+    double doubt;  ///< m: less than single precision can tell
+
+    explicit Sheet(const Cloth& of)
+        : cloth(&of), missing(missing_cells(of)), at(start_positions(of)), lower(at[0]), upper(at[0]) {
+        double farthest = 0;
+        for (const Vec3& x : at)
+            for (std::size_t k = 0; k < 3; ++k) {
+                lower[k] = std::min(lower[k], x[k]);
+                upper[k] = std::max(upper[k], x[k]);
+                farthest = std::max(farthest, std::abs(x[k]));
+            }
+        doubt = 4e-6 * farthest + of.placement.jitter;
+    }
+
+    TriangleCrossings::Mesh mesh() const {
+        TriangleCrossings::Mesh mesh{at, {}};
+        const std::uint32_t columns = cloth->grid[0], cells = columns - 1;
+        for (std::uint32_t row = 0; row + 1 < cloth->grid[1]; ++row)
+            for (std::uint32_t column = 0; column < cells; ++column) {
+                if (missing[std::size_t{row} * cells + column]) continue;
+                const std::uint32_t first = row * columns + column, below = first + columns;
+                for (const std::uint32_t corner : {first, first + 1, below, first + 1, below + 1, below})
+                    mesh.indices.push_back(corner);
+            }
+        return mesh;
+    }
+
+    /// Whether a point is on the flat cloth, but for `doubt`.
+    bool holds(const Vec3& point, double within) const {
+        const Vec3 &origin = at.front(), &u_end = at[cloth->grid[0] - 1], &v_end = at[at.size() - cloth->grid[0]];
+        const Vec3 from = minus(point, origin), u = minus(u_end, origin), v = minus(v_end, origin);
+        const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), area = uu * vv - uv * uv;
+        if (!(area > 0)) return false;
+        const double fu = dot(from, u), fv = dot(from, v);
+        const double s = (fu * vv - fv * uv) / area, t = (fv * uu - fu * uv) / area;
+        const Vec3 off{from[0] - s * u[0] - t * v[0], from[1] - s * u[1] - t * v[1], from[2] - s * u[2] - t * v[2]};
+        if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1 && length(off) <= within)) return false;
+        const auto cell = [](double share, std::uint32_t particles) {
+            return std::min(static_cast<std::size_t>(share * (particles - 1)), std::size_t{particles} - 2);
+        };
+        return !missing[cell(t, cloth->grid[1]) * (cloth->grid[0] - 1) + cell(s, cloth->grid[0])];
+    }
+};
+
+bool boxes_meet(const Sheet& a, const Sheet& b, double within) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (a.lower[k] > b.upper[k] + within || b.lower[k] > a.upper[k] + within) return false;
+    return true;
+}
+
+bool touches(const Sheet& a, const Sheet& b, double within) {
+    return std::ranges::any_of(a.at, [&](const Vec3& x) { return b.holds(x, within); }) ||
+           std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
+}
+
+}  // namespace
+
+bool cloths_meet(const SceneDescription& scene) {
+    return std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
+}
+
+std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
+    std::vector<Sheet> sheets;
+    for (const Cloth& cloth : scene.cloths) sheets.emplace_back(cloth);
+    std::vector<StartCrossing> all;
+    for (std::size_t second = 1; second < sheets.size(); ++second)
+        for (std::size_t first = 0; first < second; ++first) {
+            const Sheet &a = sheets[first], &b = sheets[second];
+            const double within = a.doubt + b.doubt;
+            if (!boxes_meet(a, b, within)) continue;
+            const std::size_t crossings =
+                TriangleCrossings({a.mesh(), b.mesh()}).count([](std::size_t one, std::size_t other) {
+                    return one != other;
+                });
+            if (crossings > 0 || touches(a, b, within)) all.push_back({first, second, crossings});
+        }
+    return all;
+}
+
+std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing) {
+    const std::string how = crossing.triangles == 0
+                                ? "on each other"
+                                : fmt::format("through each other ({} pair{} of triangles cross{})", crossing.triangles,
+                                              crossing.triangles == 1 ? "" : "s", crossing.triangles == 1 ? "es" : "");
+    return fmt::format("cloths \"{}\" and \"{}\" start {}", scene.cloths[crossing.first].name,
+                       scene.cloths[crossing.second].name, how);
+}
+
+}  // namespace drape

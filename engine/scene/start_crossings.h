@@ -1,0 +1,26 @@
+// Cloths that start through each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drape/scene.h"
+
+namespace drape {
+
+/// Whether any cloth of a scene meets itself: then all of them meet each other.
+bool cloths_meet(const SceneDescription& scene);
+
+struct StartCrossing {
+    std::size_t first = 0, second = 0;  ///< indices of the scene's cloths
+    std::size_t triangles = 0;          ///< pairs of them that cross; 0: the two only touch
+};
+
+/// Every two cloths that at time 0 cross, or are somewhere nearer to each other than single precision can tell. Exact
+/// in double precision; holes count as such.
+std::vector<StartCrossing> start_crossings(const SceneDescription& scene);
+
+/// `cloths "a" and "b" start through each other (37 pairs of triangles cross)`.
+std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing);
+
+}  // namespace drape

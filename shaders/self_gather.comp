@@ -1,0 +1,45 @@
+// Lays a cloth's particles on the sheet, as they are at this point of a substep.
+// MASKED: triangles that exist are read from an image (holes, cuts).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
+#include "shared/simulation_types.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfClothPush push; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 2, rgba32f) uniform image2D positions;      // of the sheet, where other cloths' stay
+layout(set = 0, binding = 3, rgba32f) uniform image2D displacements;  // likewise
+#ifdef MASKED
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D existing;
+#endif
+
+bool exists(ivec2 cell, int which) {
+    if (!cell_inside(cell, push.grid)) return false;
+#ifdef MASKED
+    return (imageLoad(existing, cell).x & uint(which)) != 0u;
+#else
+    return true;
+#endif
+}
+
+/// Bits of what a particle owns and that exists: two triangles, then three edges.
+uint owned(ivec2 texel) {
+    uint bits = (exists(texel, 1) ? 1u : 0u) | (exists(texel, 2) ? 2u : 0u);
+    for (int k = 0; k < 3; ++k) {
+        ivec4 one = self_edge_owner(k, 0), other = self_edge_owner(k, 1);
+        bool is_edge = exists(texel + ivec2(one.x, one.y), one.z) || exists(texel + ivec2(other.x, other.y), other.z);
+        bits |= is_edge ? 4u << k : 0u;
+    }
+    return bits;
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    imageStore(positions, push.first + texel, imageLoad(position, texel));
+    vec3 moved = imageLoad(displacement, texel).xyz;
+    imageStore(displacements, push.first + texel, vec4(moved, float(owned(texel))));
+}

@@ -1,0 +1,37 @@
+// Moves those of a cloth's particles that contact has moved on the sheet. HISTORY: such a particle is at once as fast as
+// it is left, and the cloth goes on in backward Euler substeps (include/bdf2.h).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants HISTORY BUFFERED
+#include "shared/line_types.h"
+#include "shared/self_contact_types.h"
+#include "shared/simulation_types.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfClothPush push; };
+#include "include/state_store.h"
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
+VECTOR_OUT(1, DisplacementOut, displacement_out);
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;  // on the sheet
+layout(set = 0, binding = 3, std430) buffer Before { vec4 before[]; };  // w: 1 where contact has moved the particle
+#ifdef HISTORY
+VECTOR_KEPT(4, DisplacementBefore, displacement_before);
+layout(set = 0, binding = 5, r32ui) uniform uimage2D control;
+#endif
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    ivec2 laid = push.first + texel;
+    int place = laid.y * push.columns + laid.x;
+    if (before[place].w == 0.0f) return;
+    before[place].w = 0.0f;
+    vec3 displacement = imageLoad(displacements, laid).xyz;
+    STORE_VECTOR(displacement_out, texel, vec4(displacement, imageLoad(displacement_in, texel).w));
+#ifdef HISTORY
+    STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
+    // Most that come here find it done.
+    if (imageLoad(control, ivec2(control_hold, 0)).x < line_hold_contact)
+        imageAtomicMax(control, ivec2(control_hold, 0), line_hold_contact);
+#endif
+}
