@@ -96,7 +96,7 @@ const std::vector<SceneBreak>& scene_breaks() {
         {"two_cloths", "penetration", "boxes forgotten", 30, forgotten<Box>},
         {"two_cloths", "supported", "no thickness", 40, no_thickness},
         {"two_cloths", "released", "never released", 75, never_released},
-        {"two_cloths", "swing", "no damping", 120, no_damping},
+        {"two_cloths", "uncrossed", "no self-collision", 90, no_self_collision},
         {"two_cloths", "stretch", "springs a thousand times too soft", 30, springs_a_thousand_times_too_soft},
         {"two_corner_drape", "swing", "no damping", 60, no_damping},
         {"two_corner_drape", "mirror", "one side weighs half", 40, nullptr, one_side_weighs_half},
