@@ -35,6 +35,8 @@ TEST(SelfContactLongTest, ThinFold) {
 }
 TEST(SelfContactLongTest, Twist) { expect_never_crossed(test::twist(25, 0.4, SolverMethod::line, 40, 1.5, 2), 240); }
 
+TEST(SelfContactLongTest, Stack) { expect_never_crossed(test::stack(8, 12, SolverMethod::line, 24), 150); }
+
 /// The bars cannot be stopped, and a rope that is wound tight cannot let them through.
 TEST(SelfContactLongTest, WhatIsWoundTooFarIsNotCertified) {
     const Seen seen = run(test::twist(25, 0.4, SolverMethod::line, 40, 8, 4), 240);

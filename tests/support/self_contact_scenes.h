@@ -1,6 +1,8 @@
 // Small scenes in which cloths meet themselves and each other.
 #pragma once
 
+#include <string>
+
 #include "reference/twin.h"
 #include "scene/triangle_crossings.h"
 #include "support/sheets.h"
@@ -81,6 +83,29 @@ inline SceneDescription layers(SolverMethod method, std::uint32_t substeps) {
     Collider ball{Sphere{{0, 0, 0}, 0.3}};
     ball.friction = 0.4;
     scene.colliders = {ball};
+    return scene;
+}
+
+/// Sheets of n x n particles, each turned against the one below, that fall onto a ball and each other.
+inline SceneDescription stack(std::uint32_t count, std::uint32_t n, SolverMethod method, std::uint32_t substeps) {
+    SceneDescription scene = sheet(n, n, 0.7, 0.7, substeps);
+    scene.solver.method = method;
+    const Cloth first = scene.cloths[0];
+    scene.cloths.clear();
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const double angle = 0.4 * k, c = std::cos(angle), s = std::sin(angle);
+        Cloth& cloth = scene.cloths.emplace_back(first);
+        cloth.name = "sheet" + std::to_string(k);
+        cloth.placement = {{-0.35 * (c - s), 0.36 + 0.05 * k, -0.35 * (c + s)}, {c, 0, s}, {-s, 0, c}};
+        cloth.stiffness = {false, 200, 40, 1e-4};
+        cloth.damping = 1;
+        cloth.friction = 0.4;
+        cloth.self_collision = SelfCollision{0.3 * 0.7 / (n - 1), {}};
+    }
+    Collider ball{Sphere{{0, 0, 0}, 0.3}}, ground{Plane{}};
+    ball.friction = ground.friction = 0.4;
+    ground.shape = Plane{{0, 1, 0}, -0.3};
+    scene.colliders = {ball, ground};
     return scene;
 }
 
