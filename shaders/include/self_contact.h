@@ -1,5 +1,5 @@
-// Contact of cloths with themselves and each other (docs/physics.md 5). A pair is a particle and a triangle, or two edges,
-// that share no corner: nothing else meets first when surfaces come to cross. Of every pair that a substep may
+// Contact of cloths with themselves and each other (docs/physics.md 5). A pair is a particle and a triangle, or two
+// edges, that share no corner: nothing else meets first when surfaces come to cross. Of every pair that a substep may
 // bring together a plane between the two is known, and no corner goes more than its share of the way to that plane: so
 // nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et
 // al. 2025, "Offset Geometric Contact"). Before that pairs nearer than the thickness are pushed apart, with friction.
@@ -33,9 +33,8 @@ SHARED bool self_same_cloth(SelfCloth one, SelfCloth other) {
 
 /// Inverse masses of a pair's corners, all in the first cloth's units.
 SHARED vec4 self_corner_masses(bool edges, SelfCloth one, SelfCloth other, vec4 relative) {
-    precise vec4 masses =
-        vec4(relative.x * one.lightness, relative.y * (edges ? one.lightness : other.lightness),
-             relative.z * other.lightness, relative.w * other.lightness);
+    precise vec4 masses = vec4(relative.x * one.lightness, relative.y * (edges ? one.lightness : other.lightness),
+                               relative.z * other.lightness, relative.w * other.lightness);
     return masses;
 }
 
@@ -136,7 +135,8 @@ SHARED vec3 self_mean(vec3 sum, int cloth_count) {
     return mean;
 }
 
-/// Whether two cells are the same or neighbours, and so of one cloth: those are judged by how flat the cloth is about them.
+/// Whether two cells are the same or neighbours, and so of one cloth: those are judged by how flat the cloth is about
+/// them.
 SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     int columns = b.x - a.x, rows = b.y - a.y;
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
