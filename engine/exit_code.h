@@ -33,7 +33,7 @@ inline constexpr std::array<ExitCodeRow, 13> exit_code_rows{{
     {ExitCode::io, "file", "a file, a folder or stdout could not be read or written"},
     {ExitCode::usage, "usage", "the command line is wrong"},
     {ExitCode::scene, "scene", "a scene is wrong"},
-    {ExitCode::device, "device", "no usable device, a failing Vulkan call, or not enough memory"},
+    {ExitCode::device, "device", "no usable device, a failing Vulkan call, no memory left"},
     {ExitCode::diverged, "diverged", "the simulation is no longer finite, or not plausible"},
     {ExitCode::validation, "validation", "a validation message was reported"},
     {ExitCode::comparison, "comparison", "a comparison or a measurement is over its limit"},

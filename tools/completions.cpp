@@ -41,7 +41,12 @@ std::string function_name(const CommandText& command) {
     return name;
 }
 
-std::string first_line(const std::string& help) { return help.substr(0, help.find('\n')); }
+/// What a menu has room for: up to the first semicolon, colon, sentence or line.
+std::string brief(const std::string& help) {
+    std::size_t end = help.find('\n');
+    for (const char* mark : {"; ", ": ", ". "}) end = std::min(end, help.find(mark));
+    return help.substr(0, end);
+}
 
 /// In single quotes of a shell.
 std::string quoted_word(const std::string& text) {
@@ -138,7 +143,7 @@ std::string zsh_action(const OptionText& option) {
 /// An argument of _arguments; brackets and colons of the help would end it.
 std::string zsh_argument(const OptionText& option, const std::string& name) {
     std::string help;
-    for (const char c : first_line(option.help)) {
+    for (const char c : brief(option.help)) {
         if (c == '[' || c == ']' || c == ':') help += '\\';
         help += c;
     }
@@ -212,7 +217,7 @@ std::string fish_completion(const std::vector<CommandText>& commands) {
                 continue;
             else if (!option.value.empty())
                 line += " -x";
-            text += line + " -d " + quoted_word(first_line(option.help)) + "\n";
+            text += line + " -d " + quoted_word(brief(option.help)) + "\n";
         }
     }
     return text;

@@ -23,10 +23,11 @@ std::string plain(const std::string& text) {
     return roff;
 }
 
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (c == '\n') c = ' ';
-    return text;
+/// A paragraph; lines of the help begin lines here.
+std::string filled(const std::string& text) {
+    std::string roff;
+    for (const char c : plain(text)) roff += c == '\n' ? std::string("\n.br\n") : std::string(1, c);
+    return roff;
 }
 
 /// Lines as they stand.
@@ -43,7 +44,7 @@ std::string option_entry(const OptionText& option) {
     for (const std::string& name : option.names) names += (names.empty() ? "" : ", ") + name;
     const std::string value =
         option.is_positional || option.value.empty() ? "" : " \\fI" + plain(option.value) + "\\fR";
-    return fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", plain(names), value, plain(one_line(option.help)));
+    return fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", plain(names), value, filled(option.help));
 }
 
 }  // namespace

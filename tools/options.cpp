@@ -40,28 +40,11 @@ std::string check_override(const std::string& text) {
     return fmt::format("expected /json/pointer=value, got '{}'", text);
 }
 
-/// Words in lines of at most 79 characters, each after the first indented.
-std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
-    std::string lines;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find(' '), text.size());
-        const std::string_view word = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const bool breaks = !lines.empty() && column + 1 + word.size() > 79;
-        if (!lines.empty()) lines += breaks ? "\n" + std::string(indent, ' ') : " ";
-        column = (breaks ? indent : column + (lines.empty() ? 0 : 1)) + word.size();
-        lines += word;
-    }
-    return lines;
-}
-
 /// A paragraph per format that --export takes.
 std::string format_help(bool drawn) {
     std::string text;
     for (const OutputFormat* format : output_formats())
-        if (exported(*format, drawn))
-            text += fmt::format("\n{:5}{}", format->name,
-                                wrapped(fmt::format("{}: {}", format->files, format->holds), 5, 5));
+        if (exported(*format, drawn)) text += fmt::format("\n{:6}{}: {}", format->name, format->files, format->holds);
     return text;
 }
 
@@ -86,6 +69,9 @@ void add_formats(CLI::App& command, const std::string& help, bool drawn,
     };
     command.add_option_function<std::vector<std::string>>("--export", set, help + format_help(drawn))
         ->delimiter(',')
+        ->allow_extra_args(false)  // what follows is the scene
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("FORMAT,...")
         ->check(check, "");
 }
@@ -117,11 +103,10 @@ void add_view_options(CLI::App& command, PictureView& view) {
     std::string words;
     for (const auto& [name, kind] : view_spellings) words += (words.empty() ? "" : "|") + std::string(name);
     add_option(command, "--view", words.c_str(),
-               "What pictures show of the cloths. stretch: the largest strain of the springs at\n"
-               "each particle, as a heat map with its legend; warp, weft: strain along the\n"
-               "cloth's u (growing column) or v (growing row), also when pressed together; wire:\n"
-               "triangles; normals: 0.5 + 0.5 n of the side in view, in world axes, as sRGB.\n"
-               "Default: shaded",
+               "What pictures show of the cloths. stretch: the largest strain of the springs at each particle, as a "
+               "heat map with its legend; warp, weft: strain along the cloth's u (growing column) or v (growing row), "
+               "also when pressed together; wire: triangles; normals: 0.5 + 0.5 n of the side in view, in world axes, "
+               "as sRGB. Default: shaded",
                [&view, words](const std::string& text) {
                    const auto* found = std::ranges::find(view_spellings, text, &Spelling<View>::name);
                    if (found == std::end(view_spellings)) return fmt::format("expected {}, got '{}'", words, text);
@@ -129,8 +114,8 @@ void add_view_options(CLI::App& command, PictureView& view) {
                    return std::string();
                });
     add_option(command, "--view-range", "PERCENT",
-               "Strain at the end of the heat map, the same in every frame; what is beyond it\n"
-               "has the end's colour. Default: by weight, wind and stiffness of the scene",
+               "Strain at the end of the heat map, the same in every frame; what is beyond it has the end's colour. "
+               "Default: by weight, wind and stiffness of the scene",
                [&view](const std::string& text) { return set_range(text, view.range); });
 }
 
@@ -191,7 +176,7 @@ void add_optional_file(CLI::App& command, const char* name, const std::string& h
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
     CLI::Option* option = command.add_option("--set", overrides,
-                                             "Replace a value of the scene, as in /solver/substeps=40 or\n"
+                                             "Replace a value of the scene, as in /solver/substeps=40 or "
                                              "/wind/velocity=[1,0,0]; repeatable, applied in order");
     option->allow_extra_args(false)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     option->type_name("/POINTER=VALUE")->check(check_override, "");
@@ -202,18 +187,16 @@ void add_format_option(CLI::App& command, const std::string& help, std::vector<s
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-    add_option(command, "--device", "DEVICE",
-               "INDEX, UUID, unique part of the NAME, or cpu\n"
-               "(`drape devices` lists them); default: a GPU when\n"
-               "there is one",
-               device);
+    add_option(
+        command, "--device", "DEVICE",
+        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: a GPU when there is one",
+        device);
 }
 
 void add_validate_option(CLI::App& command, bool& validate) {
     add_flag(command, "--validate",
-             "Core and synchronization validation by the Khronos\n"
-             "layer: each message on stderr, and exit code 6\n"
-             "when there was one",
+             "Core and synchronization validation by the Khronos layer: each message on stderr, and exit code 6 when "
+             "there was one",
              validate);
 }
 
@@ -230,9 +213,8 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
     std::string words;
     for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
     add_option(command, "--schedule", words.c_str(),
-               "How passes run on the device, all to the same bits: `buffers` stores through\n"
-               "buffers of the images' memory, `streams` takes several explicit steps at\n"
-               "once besides; default: by the device and the method",
+               "How passes run on the device, all to the same bits: `buffers` stores through buffers of the images' "
+               "memory, `streams` takes several explicit steps at once besides; default: by the device and the method",
                [&scene, words](const std::string& text) {
                    const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
                    if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
@@ -257,28 +239,25 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
 void add_run_options(CLI::App& command, RunRequest& request) {
     add_scene_options(command, request.scene);
     command
-        .add_option("-o,--output", request.output,
-                    request.draws()
-                        ? "Folder for the results, made when missing; refused when not empty without\n"
-                          "--overwrite or --resume. - instead: video on stdout, y4m or what --export says,\n"
-                          "and nothing else"
-                        : "Folder for the results, made when missing; refused when not empty without\n"
-                          "--overwrite or --resume")
+        .add_option(
+            "-o,--output", request.output,
+            request.draws()
+                ? "Folder for the results, made when missing; refused when not empty without --overwrite or --resume. "
+                  "- instead: video on stdout, y4m or what --export says, and nothing else"
+                : "Folder for the results, made when missing; refused when not empty without --overwrite or --resume")
         ->required()
         ->type_name("DIR");
     add_option(command, "-s,--start", "FRAME",
-               "First frame to write; default: 0, the initial state. Frame n shows the time\n"
-               "n/fps seconds",
+               "First frame to write; default: 0, the initial state. Frame n shows the time n/fps seconds",
                whole(0, [&request](std::uint32_t value) { request.start = value; }));
     add_option(command, "-e,--end", "FRAME", "Last frame to write, inclusive; default, and at most: the scene's last",
                whole(0, [&request](std::uint32_t value) { request.end = value; }));
     add_option(command, "-j,--step", "N",
-               "Write every N-th frame, counted from --start; default: 1. All frames up to\n"
-               "the last one are simulated",
+               "Write every N-th frame, counted from --start; default: 1. All frames up to the last one are simulated",
                whole(1, [&request](std::uint32_t value) { request.step = value; }));
     add_option(command, "--on-failure", "stop|keep",
-               "At a frame that is not plausible or misses its tolerance: stop, or keep it and\n"
-               "go on to the end, with the same exit code; default: stop",
+               "At a frame that is not plausible or misses its tolerance: stop, or keep it and go on to the end, with "
+               "the same exit code; default: stop",
                [&request](const std::string& text) {
                    if (text != "stop" && text != "keep") return fmt::format("expected stop or keep, got '{}'", text);
                    request.keep_failed = text == "keep";
@@ -291,20 +270,18 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     command
         .add_flag_callback(
             "--resume", [&request] { request.existing = ExistingFiles::resume; },
-            request.draws() ? "Go on with an unfinished run of the same scene, size, samples, view, program,\n"
-                              "device and driver: from its newest checkpoint, or, without one, keeping its pictures,\n"
-                              "from frame 0. The result has the bytes of an undisturbed run. Refused,\n"
-                              "changing nothing, when a picture or checkpoint there is another run's or\n"
-                              "damaged"
-                            : "Go on with an unfinished run of the same scene, program, device and driver:\n"
-                              "from its newest checkpoint, or, without one, from frame 0. The result has the\n"
-                              "bytes of an undisturbed run. Refused, changing nothing, when a checkpoint\n"
-                              "there is another run's or damaged")
+            request.draws()
+                ? "Go on with an unfinished run of the same scene, size, samples, view, program, device and driver: "
+                  "from its newest checkpoint, or, without one, keeping its pictures, from frame 0. The result has the "
+                  "bytes of an undisturbed run. Refused, changing nothing, when a picture or checkpoint there is "
+                  "another run's or damaged"
+                : "Go on with an unfinished run of the same scene, program, device and driver: from its newest "
+                  "checkpoint, or, without one, from frame 0. The result has the bytes of an undisturbed run. Refused, "
+                  "changing nothing, when a checkpoint there is another run's or damaged")
         ->excludes(overwrite);
     add_option(command, "--checkpoint", "SECONDS|never",
-               "How often what it takes to go on is written beside the results, and where the\n"
-               "run is stopped by a signal; --resume goes on from there. Gone when the run is\n"
-               "done. Default: 60",
+               "How often what it takes to go on is written beside the results, and where the run is stopped by a "
+               "signal; --resume goes on from there. Gone when the run is done. Default: 60",
                [&request](const std::string& text) { return set_checkpoint(text, request); });
     CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")

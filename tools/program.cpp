@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "drape.h"
+#include "help_text.h"
 #include "scene/nearest_word.h"
 #include "streams.h"
 
@@ -27,7 +28,26 @@ Data goes to stdout, messages to stderr. Exit codes:
 )text";
 
 constexpr const char* about_exit_codes =
-    "\nData goes to stdout, messages to stderr. `drape --help` says what each exit code means.\nExit codes: ";
+    "\nData goes to stdout, messages to stderr. `drape --help` explains the exit codes.\nExit codes: ";
+
+/// What CLI11 prints, in lines that a terminal shows whole.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    HelpFormatter() { column_width(26); }
+
+    std::string make_description(const CLI::App* app) const override {
+        return wrapped(app->get_description(), help_columns) + "\n";
+    }
+    std::string make_subcommand(const CLI::App* command) const override {
+        std::ostringstream line;
+        CLI::detail::format_help(line, command->get_name(), beside(command->get_description()), column_width_);
+        return line.str();
+    }
+    std::string make_option_desc(const CLI::Option* option) const override { return beside(option->get_description()); }
+
+  private:
+    std::string beside(const std::string& text) const { return wrapped(text, help_columns - column_width_); }
+};
 
 OptionText text_of(const CLI::Option& option) {
     OptionText text;
@@ -57,10 +77,11 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 
 Program::Program(std::vector<std::string> arguments)
     : arguments_(std::move(arguments)),
-      app_(std::make_unique<CLI::App>(
-          "drape: cloth simulation on the GPU (Vulkan compute); scene file in, PNG sequence out.", "drape")) {
+      app_(std::make_unique<CLI::App>("drape: cloth simulation by Vulkan compute; scene file in, PNG sequence out.",
+                                      "drape")) {
     app_->set_version_flag("-V,--version", std::string("drape ") + program_version());
     app_->require_subcommand(1);
+    app_->formatter(std::make_shared<HelpFormatter>());  // of the commands too, which inherit it
     app_->footer(examples + exit_code_table());
     added_.push_back({app_.get(), {"", app_->get_description(), examples + exit_code_table(), {}, true}});
 }
@@ -72,12 +93,13 @@ CLI::App& Program::add(const std::string& name, const char* summary, const char*
     const std::size_t space = name.find(' ');
     CLI::App* parent = space == std::string::npos ? app_.get() : app_->get_subcommand(name.substr(0, space));
     CLI::App* command = parent->add_subcommand(name.substr(space + 1), summary);
-    command->footer(std::string(details) + about_exit_codes + exit_code_list(98) + ".\n");
+    const std::string text = reflowed(details, help_columns);
+    command->footer(text + about_exit_codes + exit_code_list(help_columns - 1) + ".\n");
     if (run)
         command->callback([this, run] { run_ = run; });
     else
         command->require_subcommand(1);
-    added_.push_back({command, {name, summary, details, {}, !run}});
+    added_.push_back({command, {name, summary, text, {}, !run}});
     return *command;
 }
 

@@ -39,6 +39,18 @@ TEST(Export, FormatsTogetherAreWhatEachIsAlone) {
     EXPECT_EQ(lasting_manifest(folder.out(all))["files"].size(), alone.size());
 }
 
+TEST(Export, TakesOneWordSoThatTheSceneMayFollow) {
+    const SceneFolder folder(small_scene(2));
+    const Outcome outcome = drape({"simulate", "-q", "-o", folder.out(), "--export", "obj,ply", folder.scene()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(without_manifest(everything_below(folder.out())).size(), 4u);
+    const Outcome twice =
+        drape({"simulate", "-q", "-o", folder.out("twice"), "--export", "obj", "--export", "ply", folder.scene()});
+    EXPECT_EQ(twice.code, 0) << twice.err;
+    EXPECT_EQ(without_manifest(everything_below(folder.out("twice"))),
+              without_manifest(everything_below(folder.out())));
+}
+
 TEST(Export, BesidePicturesChangesNeitherAndResumes) {
     const SceneFolder folder(small_scene(4));
     const std::vector<std::string> both{"render", folder.scene(), "-o",     folder.out("both"),

@@ -47,34 +47,30 @@ std::string set_errors(const std::string& text, std::vector<double>& errors) {
 }
 
 void add_user_scene_options(CLI::App& command, bench::AccuracyRequest& request) {
-    add_optional_file(command, "SCENE",
-                      "Scene file to be measured against its own refined runs; without one the\n"
-                      "benchmark's reference problems are",
-                      request.scene);
+    add_optional_file(
+        command, "SCENE",
+        "Scene file to be measured against its own refined runs; without one the benchmark's reference problems are",
+        request.scene);
     add_override_option(command, request.overrides);
     add_option(command, "--frames", "N", "Of SCENE: at most N frames after the first; default: all",
                whole(1, [&request](std::uint32_t value) { request.frames = value; }));
     add_option(command, "--error", "METRES,...",
-               "Of SCENE: RMS position errors whose cheapest setting is wanted; default:\n"
-               "0.1,0.01,0.001,0.0001",
+               "Of SCENE: RMS position errors whose cheapest setting is wanted; default: 0.1,0.01,0.001,0.0001",
                [&request](const std::string& text) { return set_errors(text, request.errors); });
     add_option(command, "--reference-substeps", "N",
-               "Of SCENE: substeps per frame of the finest reference, at most, and at least 16;\n"
-               "default: 1280",
+               "Of SCENE: substeps per frame of the finest reference, at most, and at least 16; default: 1280",
                whole(16, [&request](std::uint32_t value) { request.reference_substeps = value; }));
 }
 
 void add_options(CLI::App& command, bench::AccuracyRequest& request) {
     add_user_scene_options(command, request);
     add_option(command, "--folder", "DIR",
-               "Where finished cases and references are kept: the same command goes on from\n"
-               "there, and only what has changed is measured again; of SCENE also accuracy.json,\n"
-               "accuracy.csv and the plots; default: bench",
+               "Where finished cases and references are kept: the same command goes on from there, and only what has "
+               "changed is measured again; of SCENE also accuracy.json, accuracy.csv and the plots; default: bench",
                request.folder);
     add_case_options(
         command,
-        {"PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20;\n"
-         "default: all",
+        {"PROBLEM/N/METHOD/SUBSTEPS or .../SUBSTEPSxITERATIONS, as in swing/64/relax/20; default: all",
          "A few small cases of every problem: under 3 minutes", "Write results, orders, limits and ratios as JSON",
          "Write a row per case", "Write plots of error against time, passes, substeps and N"},
         request);
@@ -100,10 +96,11 @@ positions are compared until the two finest references part. At the end stands t
 error.
 
 Examples:
-  drape bench accuracy scenes/flag.json --frames 30 --error 1e-3 --folder out/flag_accuracy
+  drape bench accuracy scenes/flag.json --frames 30 --error 1e-3 \
+      --folder out/flag_accuracy
   drape bench accuracy --short --svg out/plots
   drape bench accuracy --filter '^(swing|drum)/(64|128)/' --json out/swing.json
-  drape bench accuracy --budget 120 --json out/accuracy.json --csv out/accuracy.csv --svg out/plots
+  drape bench accuracy --budget 120 --json accuracy.json --csv accuracy.csv
 )text",
                                     [=] { return measure(*request); });
     add_options(command, *request);

@@ -52,13 +52,14 @@ program, device or option starts anew.
 
 Examples:
   drape bench auto --count 20
-  drape bench auto --generator a --seed 7 --tolerance 0.002 --reference -o out/auto
+  drape bench auto --generator a --seed 7 --tolerance 0.002 --reference \
+      -o out/auto
   drape bench auto --first 17 --count 1            scene 17 again
 )text",
                     [=] { return run(*request); });
     add_option(command, "--generator", "a|b",
-               "Where scenes come from: a, such as auto is tuned on, or b, written apart and never\n"
-               "used for tuning; default: b",
+               "Where scenes come from: a, such as auto is tuned on, or b, written apart and never used for tuning; "
+               "default: b",
                request->generator);
     add_option(command, "--count", "N", "How many scenes; default: 100",
                whole(1, [=](std::uint32_t value) { request->count = value; }));

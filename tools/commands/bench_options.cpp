@@ -25,14 +25,13 @@ void add_bench_options(CLI::App& command, bench::BenchRequest& request) {
 
 void add_case_options(CLI::App& command, const CaseWords& words, bench::SelectedCases& request) {
     add_option(command, "--filter", "REGEX",
-               std::string("Only cases whose name contains this regular\nexpression; names are ") + words.names,
+               std::string("Only cases whose name contains this regular expression; names are ") + words.names,
                request.filter);
     add_flag(command, "--short", words.is_short, request.is_short);
-    add_option(command, "--budget", "MINUTES",
-               "Start no case that would end later than after so\n"
-               "many minutes, the important cases first; default:\n"
-               "no limit",
-               [&request](const std::string& text) { return set_minutes(text, request); });
+    add_option(
+        command, "--budget", "MINUTES",
+        "Start no case that would end later than after so many minutes, the important cases first; default: no limit",
+        [&request](const std::string& text) { return set_minutes(text, request); });
     add_option(command, "--json", "FILE", words.json, request.json);
     add_option(command, "--csv", "FILE", words.csv, request.csv);
     add_option(command, "--svg", "DIR", words.svg, request.svg);

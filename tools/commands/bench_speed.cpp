@@ -47,12 +47,10 @@ Examples:
     add_option(command, "--scenes", "DIR", "Where the shipped scenes are, for skips; default:\nscenes",
                request->scenes);
     add_case_options(command,
-                     {"METHOD/N, METHOD/N/COUNT\n"
-                      "cloths or colliders, picture/..., skip/...,\n"
-                      "start/...; default: all",
-                      "Sheets of at most 256x256 and shorter rounds:\nunder 2 minutes on an idle machine",
+                     {"METHOD/N, METHOD/N/COUNT cloths or colliders, picture/..., skip/..., start/...; default: all",
+                      "Sheets of at most 256x256 and shorter rounds: under 2 minutes on an idle machine",
                       "Write times, ratios and scaling as JSON", "Write a row per case and time",
-                      "Write plots of time against particles, cloths and\ncolliders"},
+                      "Write plots of time against particles, cloths and colliders"},
                      *request);
 }
 

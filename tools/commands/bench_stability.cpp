@@ -68,9 +68,9 @@ Examples:
     add_option(command, "-o,--folder", "DIR", "Where finished cases are kept; default: bench_stability",
                request->folder);
     add_case_options(command,
-                     {"single/EXTREME/METHOD,\nsingle/EXTREME/METHOD/SCHEDULE, pair/ONE +\nOTHER/METHOD, mix/..., "
-                      "random/..., soak/METHOD;\ndefault: all",
-                      "No pairs, one schedule, few mixes and random\nscenes: under 4 minutes on an idle machine",
+                     {"single/EXTREME/METHOD, single/EXTREME/METHOD/SCHEDULE, pair/ONE + OTHER/METHOD, mix/..., "
+                      "random/..., soak/METHOD; default: all",
+                      "No pairs, one schedule, few mixes and random scenes: under 4 minutes on an idle machine",
                       "Write verdicts, numbers and overrides as JSON", "Write a row per case",
                       "Write a map of extremes by extremes per method"},
                      *request);

@@ -77,7 +77,7 @@ Examples:
                                     details.c_str(), [=] { return run(options->name, options->output); });
     add_required_file(command, "TEMPLATE", "Which one, of those below", options->name);
     add_option(command, "-o,--output", "FILE",
-               "The file, which must not be there yet, or - for\nstdout; default: TEMPLATE.json", options->output);
+               "The file, which must not be there yet, or - for stdout; default: TEMPLATE.json", options->output);
 }
 
 }  // namespace drape::cli

@@ -14,11 +14,12 @@ its "status" says.
 Examples:
   drape render scenes/cloth_on_sphere.json -o out/sphere
   drape render scenes/flag.json -o out/flag -s 60 -e 120 -j 10 --size 640x360
-  drape render scenes/flag.json -o out/calm --set '/wind/velocity=[1,0,0]' --set /solver/substeps=40
-  drape render scenes/flag.json -o out/flag --resume          after an interruption
+  drape render scenes/flag.json -o out/calm --set '/wind/velocity=[1,0,0]'
+  drape render scenes/flag.json -o out/flag --resume    after an interruption
   drape render scenes/flag.json -o out/stretch --view stretch --view-range 5
   ffmpeg -framerate 60 -i out/flag/frame_%04d.png -pix_fmt yuv420p flag.mp4
-  drape render scenes/flag.json -o - | ffmpeg -i - -colorspace bt709 -color_primaries bt709 -color_trc bt709 flag.mp4
+  drape render scenes/flag.json -o - | ffmpeg -i - -colorspace bt709 \
+      -color_primaries bt709 -color_trc bt709 flag.mp4
 )text",
                                     run);
     add_run_options(command, *request);

@@ -48,7 +48,7 @@ Examples:
                                     [=] { return run(*options); });
     add_required_file(command, "DIR", "Folder of a finished run", options->folder);
     add_optional_file(command, "OTHER", "Another, to stand beside it", options->other);
-    add_option(command, "-o,--output", "FILE", "The page, or - for stdout; default:\nDIR/report.html", options->output);
+    add_option(command, "-o,--output", "FILE", "The page, or - for stdout; default: DIR/report.html", options->output);
     add_option(command, "--frames", "N", "Pictures in the page, at most; default: 60",
                whole(1, [=](std::uint32_t value) { options->report.frames = value; }));
     add_option(command, "--width", "PIXELS", "Width of its pictures, at most; default: 480",

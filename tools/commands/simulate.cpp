@@ -17,7 +17,8 @@ Examples:
   drape simulate scenes/hanging_sheet.json -o out/hang
   drape simulate scenes/flag.json -o out/flag -s 60 -j 2 -q
   drape simulate scenes/flag.json -o out/flag --export pc2,usda
-  python3 -c "import numpy; print(numpy.load('out/hang/positions.npz')['velocities'].shape)"
+  python3 -c "import numpy; run = numpy.load('out/hang/positions.npz'); \
+      print(run['velocities'].shape)"
 )text",
                                     run);
     add_run_options(command, *request);

@@ -168,7 +168,8 @@ SPEC is JSON, with // comments:
    "set": {"/time/frames": 401},
    "vary": {"/wind/velocity/0": {"uniform": [2, 8]},
             "/cloths/0/stiffness/bend": {"log_uniform": [1e-6, 1e-4]},
-            "/cloths/0/areal_density": {"normal": [0.2, 0.05], "within": [0.1, 0.4]},
+            "/cloths/0/areal_density": {"normal": [0.2, 0.05],
+                                        "within": [0.1, 0.4]},
             "/wind/gust/seed": {"integer": [0, 1000000]},
             "/cloths/0/fabric": {"choice": ["cotton", "silk"]},
             "/cloths/0/damping": {"grid": [0.1, 0.2, 0.4]}}}
@@ -181,11 +182,11 @@ DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
 results.csv, a line per run, failed ones too: exit code 9 when there is one.
 
 Examples:
-  drape sweep spec.json -o out/sweep                 all cores; a process per run
-  drape sweep spec.json -o out/sweep --resume        after an interruption
-  drape sweep spec.json -o out/data --dataset        layout of flag_simple
-  drape sweep spec.json -o out/sweep --index 17      one run, on any machine
-  drape sweep spec.json -o out/sweep --collect       results.csv of what is there
+  drape sweep spec.json -o out/sweep              all cores; a process per run
+  drape sweep spec.json -o out/sweep --resume     after an interruption
+  drape sweep spec.json -o out/data --dataset     layout of flag_simple
+  drape sweep spec.json -o out/sweep --index 17   one run, on any machine
+  drape sweep spec.json -o out/sweep --collect    results.csv of what is there
 )text";
 
 }  // namespace
@@ -196,15 +197,15 @@ void add_sweep(Program& program) {
                                     [=] { return run(*options); });
     add_required_file(command, "SPEC", "What changes from run to run, as below", options->spec);
     add_option(command, "-o,--output", "DIR", "Folder for all runs, made when missing", options->output);
-    add_option(command, "--index", "I,...", "Only these runs, here, one after the other:\n7, 0-99 or 1,5,9-12",
+    add_option(command, "--index", "I,...", "Only these runs, here, one after the other: 7, 0-99 or 1,5,9-12",
                options->indices);
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core",
                whole(1, [=](std::uint32_t value) { options->jobs = value; }));
     add_format_option(command, "What each run writes; default: npz", options->formats);
     add_flag(command, "--dataset",
-             "The layout of MeshGraphNets' flag_simple instead:\ndataset/meta.json and a trajectory per run",
+             "The layout of MeshGraphNets' flag_simple instead: dataset/meta.json and a trajectory per run",
              options->dataset);
-    add_flag(command, "--resume", "Go on with a sweep: runs with a record are kept,\nfailed ones too", options->resume);
+    add_flag(command, "--resume", "Go on with a sweep: runs with a record are kept, failed ones too", options->resume);
     add_flag(command, "--collect", "Run nothing: results.csv of the records", options->collect);
     add_flag(command, "--list", "Print every run's values", options->list);
     add_flag(command, "--count", "Print the number of runs", options->count);

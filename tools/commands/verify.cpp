@@ -60,8 +60,7 @@ Examples:
     add_option(command, "--stretch", "STRAIN", "Largest RMS strain of a cloth's stretch springs in any frame",
                not_negative(request.stretch));
     add_option(command, "--stretch-error", "ERROR",
-               "Largest RMS stretch error likewise; default: the scene's\n"
-               "tolerance, where it has one, or method auto's",
+               "Largest RMS stretch error likewise; default: the scene's tolerance, where it has one, or method auto's",
                not_negative(request.stretch_error));
     add_option(command, "--penetration", "METRES", "Largest depth of a particle in the zone that contact keeps free",
                not_negative(request.penetration));

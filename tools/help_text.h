@@ -1,0 +1,18 @@
+// Help texts in lines that a terminal of 80 columns shows whole.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace drape::cli {
+
+constexpr std::size_t help_columns = 80;
+
+/// Words in lines of at most `columns` characters; a longer word stands alone. Where a line has a column of two spaces
+/// or more, as in "npy   an array", what follows is indented to it.
+std::string wrapped(std::string_view text, std::size_t columns);
+
+/// The details of a command: paragraphs wrapped, lines that begin with a space (lists, examples) as they stand.
+std::string reflowed(std::string_view text, std::size_t columns);
+
+}  // namespace drape::cli
