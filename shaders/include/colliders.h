@@ -83,7 +83,9 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     precise vec3 starts = weighted - beyond_one;  // where each term alone is 1
     float u = starts.x > starts.y ? starts.x : starts.y;
     u = starts.z > u ? starts.z : u;
-    for (int step = 0; step < 24; ++step) {
+    // A bound that compilers do not know: lavapipe unrolls 24 rounds, and then all of them run, for every particle.
+    int most = smallest > 0.0f ? 24 : 0;
+    for (int step = 0; step < most; ++step) {
         precise vec3 shifted = beyond_one + vec3(u, u, u);
         precise vec3 terms = weighted / shifted;
         precise float value = ordered_dot(terms, terms) - 1.0f;
@@ -244,7 +246,9 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     CONTACTS(kind_plane, 0, planes_end)
     CONTACTS(kind_sphere, planes_end, spheres_end)
     CONTACTS(kind_box, spheres_end, boxes_end)
-    CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
+    if (boxes_end < ellipsoids_end) {  // else the loop within it keeps lavapipe from leaving this one out
+        CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
+    }
     CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     return Contact(displacement, deepest);
 }
