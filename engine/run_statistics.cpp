@@ -48,6 +48,12 @@ std::optional<double> energy(const FrameValues& values) {
     return found == values.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::string penetration_text(double metres) {
+    const double millimetres = 1000 * metres;
+    if (millimetres == 0) return "no penetration";
+    return millimetres < 0.001 ? "penetration below 0.001 mm" : fmt::format("penetration {:.3g} mm", millimetres);
+}
+
 }  // namespace
 
 FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame) {
@@ -117,9 +123,9 @@ std::string RunStatistics::note(std::uint32_t frame) const {
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (values.contains("asleep")) parts.push_back("asleep");
-    if (const auto drift = energy_drift(values)) parts.push_back(fmt::format("energy {:+.3g} J", *drift));
-    if (const auto depth = worst(values, "/penetration_m"))
-        parts.push_back(fmt::format("{:.3g} mm deep", 1000 * *depth));
+    if (const auto drift = energy_drift(values))
+        parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, frames_.begin()->first));
+    if (const auto depth = worst(values, "/penetration_m")) parts.push_back(penetration_text(*depth));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 

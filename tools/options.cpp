@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "output/frame_writer.h"
 
@@ -163,7 +164,24 @@ void add_word_list(CLI::App& command, const char* name, const std::string& help,
 }
 
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
-    command.add_option("SCENE", paths, "Scene files")->required()->type_name("");
+    command.add_option("SCENE", paths, "Scene files, or folders of them")->required()->type_name("");
+}
+
+std::vector<std::string> scene_files(const std::vector<std::string>& paths) {
+    std::vector<std::string> files;
+    for (const std::string& path : paths) {
+        std::error_code error;
+        if (!std::filesystem::is_directory(path, error)) {
+            files.push_back(path);
+            continue;
+        }
+        const std::size_t before = files.size();
+        for (const auto& entry : std::filesystem::directory_iterator(path, error))
+            if (entry.path().extension() == ".json" && entry.is_regular_file(error)) files.push_back(entry.path());
+        if (files.size() == before) throw UsageError(fmt::format("no .json file in {}", path));
+        std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    }
+    return files;
 }
 
 void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path) {
@@ -175,9 +193,10 @@ void add_optional_file(CLI::App& command, const char* name, const std::string& h
 }
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
-    CLI::Option* option = command.add_option("--set", overrides,
-                                             "Replace a value of the scene, as in /solver/substeps=40 or "
-                                             "/wind/velocity=[1,0,0]; repeatable, applied in order");
+    CLI::Option* option =
+        command.add_option("--set", overrides,
+                           "Replace a value of the scene, as in /solver/substeps=40 or "
+                           "/wind/velocity=[1,0,0]; - in place of an index appends; repeatable, applied in order");
     option->allow_extra_args(false)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     option->type_name("/POINTER=VALUE")->check(check_override, "");
 }

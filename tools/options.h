@@ -36,8 +36,10 @@ SetText not_negative(std::optional<double>& value);
 
 /// Any number of words by their place on the command line.
 void add_word_list(CLI::App& command, const char* name, const std::string& help, std::vector<std::string>& words);
-/// SCENE..., at least one
+/// SCENE..., at least one, or folders of them
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
+/// The same without folders: instead of one the .json files in it, by name. Throws UsageError where there are none.
+std::vector<std::string> scene_files(const std::vector<std::string>& paths);
 /// A file, or a word, by its place on the command line.
 void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
 /// The same, or none; `help` says what happens then.

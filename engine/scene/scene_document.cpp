@@ -10,6 +10,8 @@
 #include <optional>
 #include <sstream>
 
+#include "scene/scene_node.h"
+
 namespace drape {
 namespace {
 
@@ -78,6 +80,14 @@ std::optional<Json::ArrayIndex> parse_index(const std::string& token) {
     return index;
 }
 
+/// An empty array or object at a place of the text.
+Json::Value made(Json::ValueType type, std::size_t offset) {
+    Json::Value value(type);
+    value.setOffsetStart(static_cast<std::ptrdiff_t>(offset));
+    value.setOffsetLimit(static_cast<std::ptrdiff_t>(offset));
+    return value;
+}
+
 std::string unescaped_token(std::string token) {
     for (std::size_t i = token.find('~'); i != std::string::npos; i = token.find('~', i + 1)) {
         if (i + 1 == token.size()) break;
@@ -99,13 +109,17 @@ void SceneDocument::parse(std::string_view text) {
     if (const auto fault = find_text_fault(text)) return fail(fault->offset, "", fault->message);
     std::string report;
     try {
-        const std::string finite = with_finite_numbers(text);
-        if (strict_reader()->parse(finite.data(), finite.data() + finite.size(), &root_, &report)) return;
+        std::string readable = with_finite_numbers(text);
+        trailing_commas_ = drape::trailing_commas(text);
+        for (const std::size_t comma : trailing_commas_) readable[comma] = ' ';
+        if (strict_reader()->parse(readable.data(), readable.data() + readable.size(), &root_, &report)) return;
     } catch (const Json::Exception& exception) {
         return fail(0, "", exception.what());
     }
     for (const SyntaxError& error : split_report(report)) fail(lines_.offset_of(error.place), "", error.message);
     if (errors_.empty()) fail(0, "", "expected a JSON document");
+    for (std::size_t i = 0; i < std::min(trailing_commas_.size(), ErrorList::most); ++i)
+        fail(trailing_commas_[i], "", comma_message);
 }
 
 void SceneDocument::fail(std::size_t offset, std::string pointer, std::string message) {
@@ -168,6 +182,20 @@ void SceneDocument::apply_override(const std::string& override_text) {
     target->setOffsetLimit(static_cast<std::ptrdiff_t>(begin + 1 + word.size()));
 }
 
+/// By its index; "-" or the number of elements: a new one behind the last.
+Json::Value* SceneDocument::find_element(Json::Value& array, const std::string& token, const std::string& pointer,
+                                         std::size_t offset) {
+    const auto index = token == "-" ? array.size() : parse_index(token);
+    if (!index || *index > array.size()) {
+        fail(offset, pointer,
+             fmt::format("expected an index into the {} elements of {}, or - for a new one, got \"{}\"", array.size(),
+                         pointer.substr(0, pointer.rfind('/')), token));
+        return nullptr;
+    }
+    if (*index == array.size()) array.append(made(Json::objectValue, offset));
+    return &array[*index];
+}
+
 Json::Value* SceneDocument::find_target(const std::string& pointer, std::size_t offset) {
     Json::Value* value = &root_;
     for (std::size_t begin = 1; begin <= pointer.size();) {
@@ -175,22 +203,13 @@ Json::Value* SceneDocument::find_target(const std::string& pointer, std::size_t 
         const std::string token = unescaped_token(pointer.substr(begin, end - begin));
         const std::string parent = pointer.substr(0, begin - 1);
         if (value->isArray()) {
-            const auto index = parse_index(token);
-            if (!index || *index >= value->size()) {
-                fail(offset, pointer.substr(0, end),
-                     fmt::format("expected an index into the {} elements of {}, got \"{}\"", value->size(), parent,
-                                 token));
-                return nullptr;
-            }
-            value = &(*value)[*index];
+            value = find_element(*value, token, pointer.substr(0, end), offset);
+            if (value == nullptr) return nullptr;
         } else if (value->isObject()) {
             const bool is_new = !value->isMember(token);
             value = &(*value)[token];
-            if (is_new) {
-                *value = Json::Value(Json::objectValue);
-                value->setOffsetStart(static_cast<std::ptrdiff_t>(offset));
-                value->setOffsetLimit(static_cast<std::ptrdiff_t>(offset));
-            }
+            const bool is_array = std::string_view(pointer).substr(end).starts_with("/-");
+            if (is_new) *value = made(is_array ? Json::arrayValue : Json::objectValue, offset);
         } else {
             fail(offset, pointer.substr(0, end),
                  fmt::format("expected {} to be an object or an array", parent.empty() ? "the scene" : parent));

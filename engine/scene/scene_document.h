@@ -30,7 +30,11 @@ class SceneDocument {
     /// Applies `/json/pointer=value`. Call only while there are no errors.
     void apply_override(const std::string& override_text);
 
+    /// What keeps the text from being read.
     const std::vector<PlacedError>& errors() const { return errors_; }
+    /// Commas too many, which keep nothing from being read but are errors.
+    const std::vector<std::size_t>& trailing_commas() const { return trailing_commas_; }
+    static constexpr const char* comma_message = "expected no comma after the last member";
     const Json::Value& root() const { return root_; }
 
     PlacedError place(std::size_t offset, std::string pointer, std::string message) const;
@@ -49,12 +53,15 @@ class SceneDocument {
     void parse(std::string_view text);
     void fail(std::size_t offset, std::string pointer, std::string message);
     Json::Value* find_target(const std::string& pointer, std::size_t offset);
+    Json::Value* find_element(Json::Value& array, const std::string& token, const std::string& pointer,
+                              std::size_t offset);
 
     std::string text_;
     LineTable lines_;  ///< of the file alone
     std::vector<Source> sources_;
     Json::Value root_;
     std::vector<PlacedError> errors_;
+    std::vector<std::size_t> trailing_commas_;
     std::map<const Json::Value*, std::map<std::string, std::size_t>> keys_;  ///< filled as asked for
 };
 

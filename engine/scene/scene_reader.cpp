@@ -68,6 +68,8 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
         return result;
     }
     SceneReport report{document, {}, {}};
+    for (const std::size_t comma : document.trailing_commas())
+        report.errors.add(document, comma, "", SceneDocument::comma_message);
     SceneDescription scene;
     read_scene_object(SceneNode(report, document.root()), scene);
     result.errors = report.errors.told();

@@ -250,6 +250,22 @@ std::string with_finite_numbers(std::string_view text) {
     return finite;
 }
 
+std::vector<std::size_t> trailing_commas(std::string_view text) {
+    std::vector<std::size_t> commas;
+    std::optional<std::size_t> comma;
+    char before = '[';  // as long as there is nothing, a comma ends no member
+    TokenScanner scanner(text);
+    while (const auto token = scanner.next()) {
+        const char c = token->kind == TokenKind::other ? text[token->begin] : '"';
+        if (c == ' ' || c == '\t' || c == '\n' || c == '\r') continue;
+        if (comma && (c == '}' || c == ']')) commas.push_back(*comma);
+        comma.reset();
+        if (c == ',' && before != ',' && before != '[' && before != '{') comma = token->begin;
+        before = c;
+    }
+    return commas;
+}
+
 std::map<std::string, std::size_t> key_offsets(std::string_view object) {
     std::map<std::string, std::size_t> offsets;
     int depth = 0;

@@ -51,6 +51,9 @@ std::optional<TextFault> find_text_fault(std::string_view text);
 /// Expects a text without fault.
 std::string with_finite_numbers(std::string_view text);
 
+/// The commas that stand after the last member of an object or an array, where JSON has none.
+std::vector<std::size_t> trailing_commas(std::string_view text);
+
 /// Text to quote in a message: cut after whole characters to at most `most` bytes.
 std::string shortened(std::string_view text, std::size_t most = 40);
 

@@ -158,5 +158,20 @@ TEST(Check, SpeaksJson) {
     EXPECT_EQ(report[1]["errors"][1]["pointer"], "/time");
 }
 
+TEST(Check, TakesAFolderForTheScenesInIt) {
+    const SceneFolder folder(small_scene(4));
+    write_text(folder / "bad.json", "{}");
+    write_text(folder / "notes.txt", "no scene");
+    std::filesystem::create_directory(folder / "empty");
+    const Outcome outcome = drape({"check", "."}, {.folder = folder.path()});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.out, "./scene.json: ok\n");
+    EXPECT_THAT(outcome.err, testing::StartsWith("./bad.json:1:1: "));
+    const Outcome empty = drape({"check", "scene.json", "empty"}, {.folder = folder.path()});
+    EXPECT_EQ(empty.code, 2);
+    EXPECT_THAT(empty.err, HasSubstr("no .json file in empty"));
+    EXPECT_THAT(empty.out, IsEmpty());
+}
+
 }  // namespace
 }  // namespace drape

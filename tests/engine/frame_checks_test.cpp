@@ -72,10 +72,14 @@ TEST(RunStatisticsTest, TheWorstIsTheLargestOfAnyClothAndFrame) {
     add(0, 0.01, 0.03);
     add(1, 0.05, 0.02);
     add(2, 0.01, 0.01);
+    add(3, 0, 0);
+    add(4, 0, 5e-7);
     EXPECT_EQ(run.worst_of_run("/stretch_error_rms"), 0.05);
     EXPECT_THAT(run.note(0), HasSubstr("stretch error 3 % RMS"));
     EXPECT_THAT(run.note(1), HasSubstr("stretch error 5 % RMS"));
-    EXPECT_THAT(run.note(1), HasSubstr("50 mm deep"));
+    EXPECT_THAT(run.note(1), HasSubstr("penetration 50 mm"));
+    EXPECT_THAT(run.note(3), HasSubstr("no penetration"));
+    EXPECT_THAT(run.note(4), HasSubstr("penetration below 0.001 mm"));
     EXPECT_EQ(run.frames()[1].values.at("penetration_m"), 0.05);
 }
 

@@ -56,17 +56,33 @@ TEST(SceneOverride, MakesMissingMembers) {
     EXPECT_EQ(scene_with({"/solver/substeps=7"}, R"({"cloths": [{}]})").solver.substeps, 7u);
 }
 
+TEST(SceneOverride, AppendsToArrays) {
+    const SceneDescription before = scene_with({});
+    const std::size_t count = before.cloths[0].pins.size();
+    for (const std::string& at : Texts{"-", std::to_string(count)}) {
+        const SceneDescription scene = scene_with({"/cloths/0/pins/" + at + R"(={"at": [2, 1]})"});
+        ASSERT_EQ(scene.cloths[0].pins.size(), count + 1);
+        EXPECT_NE(scene.cloths[0].pins.back(), before.cloths[0].pins.back());
+    }
+    const SceneDescription made =
+        scene_with({"/colliders/spheres/-/radius=2", "/colliders/spheres/-/radius=3"}, R"({"cloths": [{}]})");
+    ASSERT_EQ(made.colliders.size(), 2u);
+    EXPECT_NE(made.colliders[0], made.colliders[1]);
+    EXPECT_EQ(errors_with({"/colliders/spheres/-=7"}, R"({"cloths": [{}]})"),
+              Texts{"--set '/colliders/spheres/-=7': /colliders/spheres/0: expected an object, got 7"});
+}
+
 TEST(SceneOverride, ErrorsSayWhichOverride) {
     EXPECT_EQ(errors_with({"/cloths/0/grid/0=1"}),
               Texts{"--set '/cloths/0/grid/0=1': /cloths/0/grid/0: expected an integer from 2 to 16384, got 1"});
     EXPECT_EQ(errors_with({"/time=[1"}), Texts{"--set '/time=[1': /time: expected an object, got \"[1\""});
     EXPECT_EQ(errors_with({"/tiem/frames=3"}),
               Texts{"--set '/tiem/frames=3': /tiem: expected \"time\", got the unknown key \"tiem\""});
-    EXPECT_EQ(errors_with({"/cloths/0/pins/4={}"}),
-              Texts{"--set '/cloths/0/pins/4={}': /cloths/0/pins/4: expected an index into the 4 elements of "
-                    "/cloths/0/pins, got \"4\""});
+    EXPECT_EQ(errors_with({"/cloths/0/pins/5={}"}),
+              Texts{"--set '/cloths/0/pins/5={}': /cloths/0/pins/5: expected an index into the 4 elements of "
+                    "/cloths/0/pins, or - for a new one, got \"5\""});
     EXPECT_EQ(errors_with({"/cloths/01={}"}), Texts{"--set '/cloths/01={}': /cloths/01: expected an index "
-                                                    "into the 2 elements of /cloths, got \"01\""});
+                                                    "into the 2 elements of /cloths, or - for a new one, got \"01\""});
     EXPECT_EQ(errors_with({"/name/x=1"}),
               Texts{"--set '/name/x=1': /name/x: expected /name to be an object or an array"});
     EXPECT_EQ(errors_with({"time=1"}), Texts{"--set 'time=1': expected /json/pointer=value"});

@@ -35,7 +35,7 @@ std::vector<Compromise> known_compromises(const SceneResult& result) {
 ExitCode check(const Options& options) {
     ExitCode code = ExitCode::ok;
     Json::Value report(Json::arrayValue);
-    for (const std::string& path : options.paths) {
+    for (const std::string& path : scene_files(options.paths)) {
         const SceneResult result = read_scene(path, options.overrides);
         if (!result.scene) code = result.unreadable || code == ExitCode::io ? ExitCode::io : ExitCode::scene;
         Json::Value row(Json::objectValue);
@@ -73,6 +73,7 @@ Errors read file:line:column: /json/pointer: message.
 
 Examples:
   drape check scenes/*.json
+  drape check scenes             every .json file in the folder
   drape check my.json --set /solver/substeps=40 --json
 )text",
                                     [=] { return check(*options); });

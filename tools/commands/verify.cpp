@@ -23,7 +23,7 @@ ExitCode run(Options options) {
     options.request.validate = !options.no_validation;
     std::vector<verify::Report> reports;
     ExitCode code = ExitCode::ok;
-    for (const std::string& path : options.paths) {
+    for (const std::string& path : scene_files(options.paths)) {
         verify::Report report = verify::verify_scene(path, options.request);
         if (report.stopped || stop_requested()) return report_stop(path + " and what came after it were not judged");
         if (!options.json && !(options.quiet && report.met())) print_data(verify::report_text(report));
