@@ -1,4 +1,4 @@
-// A collider's surface or the backdrop. SHADOWED: under the first light's shadow map.
+// A collider's surface. SHADOWED: under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED
@@ -8,7 +8,7 @@
 #include "include/shading.h"
 #include "include/raster_lights.h"
 
-layout(constant_id = 0) const int collider_kind = kind_backdrop;
+layout(constant_id = 0) const int collider_kind = kind_plane;
 layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 surface_normal;
 layout(location = 2) in vec2 on_plane;
@@ -26,10 +26,6 @@ float grid_lines() {
 }
 
 void main() {
-    if (collider_kind == kind_backdrop) {
-        color = vec4(backdrop(gl_FragCoord.y), 1.0);
-        return;
-    }
     vec3 to_eye = frame[0].eye.xyz - world;
     vec3 normal = dot(surface_normal, to_eye) < 0.0 && collider_kind == kind_plane ? -surface_normal : surface_normal;
     vec3 diffuse = albedo.xyz;

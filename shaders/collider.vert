@@ -1,4 +1,4 @@
-// Colliders as their true shapes, one instance each, and the backdrop as one large triangle at the far end.
+// Colliders as their true shapes, one instance each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/collider_types.h"
@@ -18,8 +18,4 @@ void main() {
     on_plane = mesh.position.xz;
     albedo = vec4(collider.color.xyz, collider.shape.y);
     gl_Position = clip_position(world);
-    if (collider_kind == kind_backdrop) {
-        vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
-        gl_Position = vec4(corner, 0.99999994, 1.0);  // the last depth before the cleared 1
-    }
 }

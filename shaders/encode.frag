@@ -1,11 +1,14 @@
-// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. Ordered dither
+// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. The backdrop shows
+// where samples are left uncovered, and is drawn here alone: as a triangle it costs as much as the ground. Ordered dither
 // (Bayer's 8 x 8 matrix) of one level in place of rounding: without it soft gradients show bands.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/raster_types.h"
+#include "include/raster_frame.h"
 #include "include/tone.h"
 
 layout(constant_id = 0) const bool is_toned = true;
-layout(set = 0, binding = 0, rgba16f) uniform readonly image2D light;
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
 layout(location = 0) out vec4 color;
 
 /// Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
@@ -23,7 +26,8 @@ vec3 srgb(vec3 linear) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 radiance = imageLoad(light, pixel).xyz;
+    vec4 drawn = imageLoad(light, pixel);  // w: the share of its samples that something covers
+    vec3 radiance = drawn.xyz + (1.0 - drawn.w) * backdrop(gl_FragCoord.y);
     if (is_toned) radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
     color = vec4(min(floor(levels + threshold(uvec2(pixel))), 255.0) / 255.0, 1.0);

@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// What may hide most first: planes last, then the backdrop.
+/// What may hide most first: planes last.
 constexpr auto drawing_order = [] {
     std::array<int, glsl::collider_kind_count> kinds{};
     for (int kind = 0; kind < glsl::collider_kind_count; ++kind)
@@ -77,8 +77,6 @@ std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders)
         draws.push_back({kind, vertex_count, first, count, kind != glsl::kind_plane});
         first += count;
     }
-    draws.push_back({glsl::kind_backdrop, static_cast<std::uint32_t>(glsl::mesh_vertex_count(glsl::kind_backdrop)),
-                     first, 1, false});
     return draws;
 }
 
@@ -93,7 +91,6 @@ std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collide
                                     : instance(collider_pose(collider, time),
                                                vec4(shape_geometry(collider.shape).size, 0), collider.color));
         }
-    instances.push_back({});  // the backdrop has no pose
     return instances;
 }
 

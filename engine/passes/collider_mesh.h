@@ -16,14 +16,13 @@ glsl::vec4 linear_color(const Vec3& srgb);
 
 /// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/collider_types.h).
 struct ColliderDraw {
-    int kind = glsl::kind_backdrop;
+    int kind = glsl::kind_plane;
     std::uint32_t vertex_count = 0;
     std::uint32_t first_instance = 0, instance_count = 0;
     bool casts_shadow = false;
 };
 
-/// Kinds that the scene has, then the backdrop, which always is there: last, so that what is hidden behind
-/// everything else is not shaded.
+/// Kinds that the scene has, what may hide most first.
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders);
 
 /// How planes, which have no end, are drawn: as a square around the point below `center`.

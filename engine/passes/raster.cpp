@@ -17,7 +17,8 @@ using graph::Handle;
 
 /// Newest handles of what a frame's passes write one after the other.
 struct RasterPass::Targets {
-    Handle frame, colliders;
+    Handle frame;
+    Handle colliders;                          ///< invalid where no body is drawn
     Handle heat_colors;                        ///< invalid where the view is no heat map
     Handle color, light, multisampled, depth;  ///< multisampled: invalid at one sample
     Handle shadow_map, shadow_depth;           ///< invalid without a shadow
@@ -178,7 +179,6 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0))) {
         shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
         state.constants = {shadow_state.constants[0], {"light_count", lights}};
-        state.depth_write = range.kind != glsl::kind_backdrop;
         // What has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that there the
         // outer side turns the other way.
         state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
@@ -204,10 +204,9 @@ std::vector<Collider> RasterPass::drawn_bodies(double time) const {
 
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     Targets targets;
-    const std::size_t instance_count = draws_.back().range.first_instance + draws_.back().range.instance_count;
     targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
-    targets.colliders =
-        graph.buffer<glsl::ColliderInstance>(colliders_name, instance_count, graph::Lifetime::host_input);
+    if (const std::size_t count = drawn_bodies(0).size(); count > 0)
+        targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
@@ -243,7 +242,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
         {"shadow", "shadow", "shadow"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::vertex_read);
-            setup.read(targets.colliders, Access::vertex_read);
+            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.indices, Access::index_read);
@@ -279,7 +278,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::vertex_read);
             setup.read(targets.frame, Access::fragment_read);
-            setup.read(targets.colliders, Access::vertex_read);
+            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
             if (casts_shadow()) setup.read(targets.shadow_map, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
             for (const RasterCloth& cloth : cloths) {
@@ -290,6 +289,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
                 if (scale_ && cloth.spring_shares.valid()) setup.read(cloth.spring_shares, Access::vertex_read);
             }
             Handle& drawn = samples_ > 1 ? targets.multisampled : targets.light;
+            attachments->clear = {0, 0, 0, 0};
             attachments->color = drawn = setup.write(drawn, Access::color_write);
             attachments->depth = setup.write(targets.depth, Access::depth_write);
             if (samples_ > 1) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
@@ -334,12 +334,13 @@ void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
     graph.add_pass(
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::fragment_read);
             setup.read(targets.light, Access::fragment_read);
             attachments->color = targets.color = setup.write(targets.color, Access::color_write);
         },
-        [this, attachments, light = targets.light](graph::PassContext& context) {
+        [this, attachments, frame = targets.frame, light = targets.light](graph::PassContext& context) {
             begin_rendering(context, *attachments);
-            const graph::Binding bound[] = {{"light", light}};
+            const graph::Binding bound[] = {{"frame", frame}, {"light", light}};
             context.bind(*encoding_, bound);
             draw_whole_picture(context);
             vkCmdEndRendering(context.commands());
@@ -365,7 +366,7 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     };
     const std::vector<glsl::ColliderInstance> instances = collider_instances(drawn_bodies(time), plane_extent_, time);
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
-    write(colliders_name, std::as_bytes(std::span(instances)));
+    if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
     if (!scale_) return;
     const auto colors = heat_colors(*scale_->map);
     write(heat_colors_name, std::as_bytes(std::span(colors)));

@@ -1,5 +1,7 @@
 #include "passes/raster_recording.h"
 
+#include <algorithm>
+
 #include "vulkan/api.h"
 
 namespace drape {
@@ -21,7 +23,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     const vulkan::Image& target = context.image(attachments.color);
     const bool resolved = attachments.resolve.valid();
     VkRenderingAttachmentInfo color = attachment(context, attachments.color, !resolved);
-    color.clearValue.color = {{1.0f, 1.0f, 1.0f, 1.0f}};
+    std::ranges::copy(attachments.clear, color.clearValue.color.float32);
     if (resolved) {
         color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
         color.resolveImageView = context.image(attachments.resolve).view();

@@ -1,6 +1,7 @@
 // The Vulkan commands of the raster passes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,11 +17,11 @@ struct RasterAttachments {
     graph::Handle color;
     graph::Handle depth = {};  ///< invalid: none
     graph::Handle resolve;     ///< invalid: none
+    std::array<float, 4> clear{1, 1, 1, 1};
 };
 
-/// Begins dynamic rendering over the whole attachments, viewport and scissor set; colour and depth are
-/// cleared to 1 (the far end), and the depth is forgotten at the end, like the samples when they are
-/// resolved.
+/// Begins dynamic rendering over the whole attachments, viewport and scissor set; depth is cleared to 1 (the far end)
+/// and forgotten at the end, like the samples when they are resolved.
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments);
 
 void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count);

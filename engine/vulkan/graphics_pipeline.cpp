@@ -35,7 +35,7 @@ struct FixedFunctions {
         rasterization.lineWidth = 1.0f;
         multisample.rasterizationSamples = state.samples;
         depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED;
-        depth.depthWriteEnable = depth.depthTestEnable && state.depth_write;
+        depth.depthWriteEnable = depth.depthTestEnable;
         depth.depthCompareOp = VK_COMPARE_OP_LESS;
         attachment.colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;

@@ -86,7 +86,6 @@ struct GraphicsState {
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
-    bool depth_write = true;
 };
 
 /// Triangle list, no vertex buffers, dynamic viewport and scissor, dynamic rendering, depth LESS.

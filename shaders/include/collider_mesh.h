@@ -2,7 +2,7 @@
 #ifndef DRAPE_COLLIDER_MESH_H
 #define DRAPE_COLLIDER_MESH_H
 
-layout(constant_id = 0) const int collider_kind = kind_backdrop;
+layout(constant_id = 0) const int collider_kind = kind_plane;
 layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstance colliders[]; };
 
 struct MeshVertex {

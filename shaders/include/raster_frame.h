@@ -4,6 +4,9 @@
 
 layout(set = 0, binding = 0, std430) readonly buffer Frame { FrameConstants frame[]; };
 
+/// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top.
+vec3 backdrop(float pixel_y) { return frame[0].background.xyz * (0.8 + 0.2 * pixel_y / frame[0].background.w); }
+
 vec4 clip_position(vec3 world) {
     vec4 point = vec4(world, 1.0);
     return vec4(dot(frame[0].clip_from_world[0], point), dot(frame[0].clip_from_world[1], point),

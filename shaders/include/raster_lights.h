@@ -5,9 +5,6 @@
 
 layout(constant_id = 2) const int light_count = 2;
 
-/// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top.
-vec3 backdrop(float pixel_y) { return frame[0].background.xyz * (0.8 + 0.2 * pixel_y / frame[0].background.w); }
-
 #ifdef SHADOWED
 layout(set = 0, binding = 3, r32f) uniform readonly image2D shadow_map;
 

@@ -15,8 +15,6 @@ const int kind_box = 2;
 const int kind_ellipsoid = 3;
 const int kind_capsule = 4;
 const int collider_kind_count = 5;
-/// Drawn with the colliders, so that the ground can fade into it by one function.
-const int kind_backdrop = collider_kind_count;
 
 /// A collider at the end of one substep. The rotation's rows are world from local, their w is the centre; `change` is
 /// this pose minus the pose one substep earlier (computed in double on the host, so a collider at rest has exact zeros
@@ -42,7 +40,6 @@ const int sphere_rows = 48;
 
 /// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad.
 SHARED int mesh_vertex_count(int kind) {
-    if (kind == kind_backdrop) return 3;
     if (kind == kind_plane) return 6;
     if (kind == kind_box) return 36;
     return 6 * sphere_columns * sphere_rows;
