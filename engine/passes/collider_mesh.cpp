@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "scene/collider_pose.h"
 
@@ -67,14 +69,45 @@ glsl::vec4 linear_color(const Vec3& srgb) {
     return vec4(linear, 1);
 }
 
-std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders) {
+std::uint32_t round_columns(double radius) {
+    constexpr double allowed = 0.1, most = glsl::most_round_columns;
+    const double needed = radius > allowed ? std::numbers::pi / std::acos(1 - allowed / radius) : 0;
+    return static_cast<std::uint32_t>(std::clamp(4 * std::ceil(needed / 4), 12.0, most));
+}
+
+double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height) {
+    const ShapeGeometry shape = shape_geometry(collider.shape);
+    const Vec3& size = shape.size;
+    double radius = 0;
+    switch (collider.kind()) {
+        case glsl::kind_sphere:
+            radius = size[0];
+            break;
+        case glsl::kind_ellipsoid:
+            radius = std::ranges::max(size);
+            break;
+        case glsl::kind_capsule:
+            radius = std::max(size[1], size[2]);
+            break;
+        default:
+            return 0;
+    }
+    const Vec3 center = collider_pose(collider, time).center, eye = camera.position;
+    const double nearest = std::hypot(center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]) - shape.reach;
+    const double pixels =
+        0.5 * height / std::tan(0.5 * camera.fov * std::numbers::pi / 180);  // of what is as far as long
+    return nearest > 0 ? radius / nearest * pixels : std::numeric_limits<double>::infinity();
+}
+
+std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns) {
     std::vector<ColliderDraw> draws;
     std::uint32_t first = 0;
     for (const int kind : drawing_order) {
         const auto count = static_cast<std::uint32_t>(std::ranges::count(colliders, kind, &Collider::kind));
         if (count == 0) continue;
-        const auto vertex_count = static_cast<std::uint32_t>(glsl::mesh_vertex_count(kind));
-        draws.push_back({kind, vertex_count, first, count, kind != glsl::kind_plane});
+        const std::uint32_t around = columns[static_cast<std::size_t>(kind)];
+        const auto vertex_count = static_cast<std::uint32_t>(glsl::mesh_vertex_count(kind, static_cast<int>(around)));
+        draws.push_back({kind, around, vertex_count, first, count, kind != glsl::kind_plane});
         first += count;
     }
     return draws;

@@ -17,13 +17,25 @@ glsl::vec4 linear_color(const Vec3& srgb);
 /// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/collider_types.h).
 struct ColliderDraw {
     int kind = glsl::kind_plane;
+    std::uint32_t round_columns = glsl::most_round_columns;
     std::uint32_t vertex_count = 0;
     std::uint32_t first_instance = 0, instance_count = 0;
     bool casts_shadow = false;
 };
 
+/// Segments around the round mesh of each kind (shaders/shared/collider_types.h).
+using RoundColumns = std::array<std::uint32_t, glsl::collider_kind_count>;
+
+/// As few segments as keep the outline of a circle of `radius` pixels within a tenth of a pixel: radius (1 - cos(pi/n))
+/// is how far they cut into it. A multiple of 4, at least 12, at most most_round_columns.
+std::uint32_t round_columns(double radius);
+
+/// Pixels, a bound: of a sphere, or of an ellipsoid's or capsule's largest circle, at `time` (s), as seen from the
+/// camera in a picture of so many rows. 0 for a shape that is not round.
+double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height);
+
 /// Kinds that the scene has, what may hide most first.
-std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders);
+std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns);
 
 /// How planes, which have no end, are drawn: as a square around the point below `center`.
 struct PlaneExtent {

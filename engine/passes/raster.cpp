@@ -37,7 +37,7 @@ std::string shadow_skip_reason(const SceneDescription& scene, const RasterOption
     if (scene.lights.empty()) return "the scene has no light";
     if (!(scene.lights[0].intensity > 0)) return "the first light has no intensity";
     const auto casts = [](const ColliderDraw& draw) { return draw.casts_shadow; };
-    if (scene.cloths.empty() && std::ranges::none_of(collider_draws(scene.colliders), casts))
+    if (scene.cloths.empty() && std::ranges::none_of(collider_draws(scene.colliders, {}), casts))
         return "the scene has nothing that casts one";
     return {};
 }
@@ -176,9 +176,11 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     state.vertex = {"collider.vert"};
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
     shadow_state.vertex = {"shadow_collider.vert"};
-    for (const ColliderDraw& range : collider_draws(drawn_bodies(0))) {
-        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
-        state.constants = {shadow_state.constants[0], {"light_count", lights}};
+    for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
+        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
+                                  {"round_columns", range.round_columns}};
+        state.constants = shadow_state.constants;
+        state.constants.push_back({"light_count", lights});
         // What has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that there the
         // outer side turns the other way.
         state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
@@ -200,6 +202,20 @@ std::vector<Collider> RasterPass::drawn_bodies(double time) const {
     std::vector<Collider> bodies = colliders_;
     for (const Fixture& fixture : fixtures_) bodies.push_back(posed(fixture, time));
     return bodies;
+}
+
+/// For the largest bodies of each kind, looked for at so many moments.
+RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
+    constexpr int moments = 64;
+    const Camera camera = picture_camera(scene, width_, height_);
+    const double end = scene.time.frame_count / scene.time.fps;
+    RoundColumns columns{};
+    for (int moment = 0; moment <= moments; ++moment)
+        for (const double time = end * moment / moments; const Collider& body : drawn_bodies(time)) {
+            std::uint32_t& most = columns[static_cast<std::size_t>(body.kind())];
+            most = std::max(most, round_columns(radius_in_pixels(body, time, camera, height_)));
+        }
+    return columns;
 }
 
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {

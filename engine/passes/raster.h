@@ -105,6 +105,7 @@ class RasterPass {
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
+    RoundColumns columns_in_picture(const SceneDescription& scene) const;
     /// The scene's colliders and then its fixtures, at `time` (s).
     std::vector<Collider> drawn_bodies(double time) const;
 

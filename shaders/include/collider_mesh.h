@@ -3,6 +3,8 @@
 #define DRAPE_COLLIDER_MESH_H
 
 layout(constant_id = 0) const int collider_kind = kind_plane;
+layout(constant_id = 1) const int round_columns = most_round_columns;
+const int round_rows = round_columns / 2;
 layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstance colliders[]; };
 
 struct MeshVertex {
@@ -19,14 +21,14 @@ ivec2 quad_corner(int vertex) {
 /// counter-clockwise, though rows are counted downwards.
 ivec2 round_corner(int vertex) {
     int quad = vertex / 6;
-    return ivec2(quad % sphere_columns, quad / sphere_columns) + quad_corner(vertex % 6).yx;
+    return ivec2(quad % round_columns, quad / round_columns) + quad_corner(vertex % 6).yx;
 }
 
 MeshVertex ellipsoid_vertex(vec3 radii, int vertex) {
     ivec2 corner = round_corner(vertex);
     const float pi = 3.14159265358979;
-    float polar = pi * float(corner.y) / float(sphere_rows);
-    float azimuth = 2.0 * pi * float(corner.x) / float(sphere_columns);
+    float polar = pi * float(corner.y) / float(round_rows);
+    float azimuth = 2.0 * pi * float(corner.x) / float(round_columns);
     vec3 unit = vec3(sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth));
     return MeshVertex(unit * radii, unit / radii);
 }
@@ -55,10 +57,10 @@ MeshVertex capsule_vertex(vec3 size, int vertex) {
     ivec2 corner = round_corner(vertex);
     const float pi = 3.14159265358979;
     float touching = acos(clamp((size.y - size.z) / max(2.0 * size.x, 1.0e-20), -1.0, 1.0));
-    bool upper = corner.y <= sphere_rows / 2;
-    float polar = upper ? touching * float(corner.y) / float(sphere_rows / 2)
-                        : pi - (pi - touching) * float(sphere_rows - corner.y) / float(sphere_rows / 2 - 1);
-    float azimuth = 2.0 * pi * float(corner.x) / float(sphere_columns);
+    bool upper = corner.y <= round_rows / 2;
+    float polar = upper ? touching * float(corner.y) / float(round_rows / 2)
+                        : pi - (pi - touching) * float(round_rows - corner.y) / float(round_rows / 2 - 1);
+    float azimuth = 2.0 * pi * float(corner.x) / float(round_columns);
     vec3 unit = vec3(sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth));
     vec3 center = vec3(0.0, upper ? size.x : -size.x, 0.0);
     return MeshVertex(center + unit * (upper ? size.z : size.y), unit);

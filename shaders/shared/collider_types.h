@@ -34,15 +34,14 @@ struct ColliderInstance {
     vec4 color;
 };
 
-/// A round mesh: segments around and from pole to pole.
-const int sphere_columns = 96;
-const int sphere_rows = 48;
+/// Most segments around a round mesh; from pole to pole it has half as many as around.
+const int most_round_columns = 96;
 
 /// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad.
-SHARED int mesh_vertex_count(int kind) {
+SHARED int mesh_vertex_count(int kind, int round_columns) {
     if (kind == kind_plane) return 6;
     if (kind == kind_box) return 36;
-    return 6 * sphere_columns * sphere_rows;
+    return 6 * round_columns * (round_columns / 2);
 }
 
 #ifdef __cplusplus

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "passes/collider_mesh.h"
 #include "passes/fixtures.h"
 #include "raster_picture.h"
 
@@ -114,6 +116,34 @@ TEST(FixtureTest, PinnedEdgesHangOnPolesAndRailsAndCornersOnPoles) {
     EXPECT_NEAR(std::get<Sphere>(hook.shape).center[0], 0.25, 1e-12);
     scene.image.fixtures = false;
     EXPECT_TRUE(fixtures(scene).empty());
+}
+
+TEST(RoundMesh, HasNoMoreSegmentsThanItsOutlineShows) {
+    const auto cuts = [](double radius, std::uint32_t columns) {
+        return radius * (1 - std::cos(std::numbers::pi / columns));
+    };
+    for (double radius = 0.01; radius < 1e4; radius *= 1.3) {
+        const std::uint32_t columns = round_columns(radius);
+        ASSERT_TRUE(columns % 4 == 0 && columns >= 12 && columns <= 96) << columns;
+        if (columns < 96) EXPECT_LE(cuts(radius, columns), 0.1 + 1e-9) << radius;
+        if (columns > 12) EXPECT_GT(cuts(radius, columns - 4), 0.1) << radius;
+    }
+    EXPECT_EQ(round_columns(std::numeric_limits<double>::infinity()), 96u);
+}
+
+TEST(RoundMesh, RadiusInPixelsBoundsWhatThePictureShows) {
+    const Camera camera{{0, 0, 5}, {0, 0, 0}, 40};
+    const auto seen = [&](double radius, double z) {
+        return 0.5 * height - project(camera, width, height, {0, radius, z}).y;
+    };
+    Collider ball{.shape = Sphere{{0, 0, 0}, 0.4}};
+    EXPECT_GE(radius_in_pixels(ball, 0, camera, height), seen(0.4, 0));
+    EXPECT_LE(radius_in_pixels(ball, 0, camera, height), 1.2 * seen(0.4, 0));
+    ball.path.keys = {{0, {0, 0, 0}, {}}, {1, {0, 0, 4}, {}}};
+    EXPECT_GE(radius_in_pixels(ball, 1, camera, height), seen(0.4, 4));
+    ball.path.keys[1].translate = {0, 0, 4.7};  // the eye is inside
+    EXPECT_EQ(radius_in_pixels(ball, 1, camera, height), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(radius_in_pixels({.shape = Box{{0, 0, 0}, {1, 1, 1}}}, 0, camera, height), 0);
 }
 
 using FixturePicture = Raster;
