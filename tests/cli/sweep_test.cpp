@@ -72,6 +72,17 @@ TEST_F(Sweep, RunsAllCountsFailuresAndOneAloneHasEqualBytes) {
     EXPECT_NE(file("out/runs/0000/positions.npz"), file("out/runs/0001/positions.npz"));
 }
 
+TEST_F(Sweep, RecordsHaveValuesOfTheirTypesAndTheTablePlainWords) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "set": {"/time/frames": 2},
+        "vary": {"/cloths/0/damping": {"grid": [0.5]}, "/cloths/0/fabric": {"grid": ["silk"]}}})");
+    EXPECT_EQ(sweep({"-q"}).code, 0);
+    Json::Value record;
+    std::istringstream(file("out/jobs/0000.json")) >> record;
+    EXPECT_EQ(record["parameters"]["/cloths/0/damping"], Json::Value(0.5));
+    EXPECT_EQ(record["parameters"]["/cloths/0/fabric"], Json::Value("silk"));
+    EXPECT_THAT(results()[1], HasSubstr("0,done,0,,0.5,silk,"));
+}
+
 TEST_F(Sweep, GoesOnWhereItWasAndSaysWhatIsMissing) {
     EXPECT_EQ(sweep({"--index", "1,2-3"}).code, 0);
     const Outcome collected = sweep({"--collect"});

@@ -77,6 +77,9 @@ std::string csv_field(const std::string& text) {
     return field + "\"";
 }
 
+/// A value as a table has it: words without the quotes of JSON.
+std::string plain(const std::string& json) { return json.starts_with('"') ? parsed(json, "a value").asString() : json; }
+
 }  // namespace
 
 std::string JobRecord::status() const {
@@ -151,7 +154,8 @@ void SweepFolder::write(JobRecord record, bool dataset) const {
     json["message"] = record.message;
     json["seconds"] = record.seconds;
     json["parameters"] = Json::Value(Json::objectValue);
-    for (const auto& [pointer, value] : spec_.parameters_of(record.index)) json["parameters"][pointer] = value;
+    for (const auto& [pointer, value] : spec_.parameters_of(record.index))
+        json["parameters"][pointer] = parsed(value, manifest);
     json["values"] = Json::Value(Json::objectValue);
     for (const auto& [name, value] : record.values) json["values"][name] = value;
     write_file(path_ / "jobs" / (number(record.index) + ".json"), json_text(json));
@@ -183,7 +187,7 @@ Tally SweepFolder::collect(bool dataset) const {
     csv += ",seconds\n";
     for (const JobRecord& job : records) {
         csv += fmt::format("{},{},{},{}", job.index, job.status(), job.exit_code, csv_field(job.message));
-        for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_field(value);
+        for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_field(plain(value));
         for (const auto& [name, unused] : names) {
             const auto value = job.values.find(name);
             csv += value == job.values.end() ? "," : fmt::format(",{}", value->second);
