@@ -17,7 +17,8 @@ Examples:
   drape render scenes/flag.json -o out/calm --set '/wind/velocity=[1,0,0]'
   drape render scenes/flag.json -o out/flag --resume    after an interruption
   drape render scenes/flag.json -o out/stretch --view stretch --view-range 5
-  ffmpeg -framerate 60 -i out/flag/frame_%04d.png -pix_fmt yuv420p flag.mp4
+  ffmpeg -framerate 60 -pattern_type glob -i 'out/flag/frame_*.png' \
+      -vf 'pad=2*ceil(iw/2):2*ceil(ih/2)' -pix_fmt yuv420p flag.mp4
   drape render scenes/flag.json -o - | ffmpeg -i - -colorspace bt709 \
       -color_primaries bt709 -color_trc bt709 flag.mp4
 )text",
