@@ -388,6 +388,7 @@ RunSummary run_scene(const RunRequest& request) {
                            summary, failure, earlier_validation, device};
         summary.complete = run_missing(run, from, range);
         if (const auto warning = missed_limits(simulation.facts(), sink.statistics())) warn(*warning);
+        manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);
     }

@@ -45,6 +45,7 @@ constexpr std::string_view flag =
     "appearance": {"front": [0.80, 0.50, 0.12], "back": [0.72, 0.07, 0.10], "pattern": "checker"}
   }],
   "colliders": {"planes": [{"normal": [0, 1, 0], "offset": 0}]},
+  "solver": {"tolerance_motion": 0.1},            // m/s of error that a fluttering flag may have; asking for less costs
   "camera": {"position": [0.7, 1.7, 3.0], "target": [-0.02, 1.45, 0.1], "fov": 34}
 }
 )json";

@@ -230,6 +230,8 @@ std::string manifest_json(const Manifest& manifest) {
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);
+    json["warnings"] = Json::Value(Json::arrayValue);
+    for (const std::string& warning : manifest.warnings) json["warnings"].append(warning);
     json["files"] = files_json(manifest.files);
     json["statistics"] = statistics_json(manifest.statistics);
     json["run"] = run_json(manifest);

@@ -111,6 +111,7 @@ struct Manifest {
     Validation validation;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
+    std::vector<std::string> warnings;  // as they were told, compromises among them
     std::optional<SelfCollision> self_collision;
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;

@@ -155,6 +155,9 @@ TEST_F(Compare, SaysWhatItCannotRead) {
     }
     EXPECT_EQ(run("a.npy", "a.png").code, 2);
     EXPECT_EQ(run(".", "a.png").code, 2);
+    const Outcome absent = run(".", "absent");
+    EXPECT_EQ(absent.code, 1);
+    EXPECT_THAT(absent.err, HasSubstr("absent' does not exist"));
     EXPECT_EQ(run("a.npy", "a.npy", {"--max", "-1"}).code, 2);
 }
 

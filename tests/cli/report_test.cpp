@@ -25,7 +25,8 @@ for folder in folders:
     manifest = json.load(open(folder + "/manifest.json"))
     for value in (manifest["status"], manifest["run_key"], manifest["scene"]["hash"], manifest["device"]["name"],
                   manifest["solver"]["method"], str(manifest["frames"]["count"]), manifest["run"]["created"],
-                  "%.3f" % manifest["run"]["frame_ms"]["median"], *manifest["run"]["stage_median_ms"]):
+                  "%.3f" % manifest["run"]["frame_ms"]["median"], *manifest["run"]["stage_median_ms"],
+                  *manifest["warnings"], manifest.get("self_collision", {}).get("certificate", "")):
         assert value in text, value
 for element in page.iter():
     for name in ("src", "href"):
@@ -43,7 +44,10 @@ TEST(Report, OfARunAndOfTwoSideBySide) {
     const SceneFolder folder(small_scene(9));
     const auto run = [&](std::vector<std::string> arguments) { return drape(arguments, {.folder = folder.path()}); };
     ASSERT_EQ(run({"render", "scene.json", "-o", "out", "-q"}).code, 0);
-    ASSERT_EQ(run({"simulate", "scene.json", "-o", "calm<&>", "-q", "--set", "/solver/substeps=8"}).code, 0);
+    ASSERT_EQ(run({"simulate", "scene.json", "-o", "calm<&>", "-q", "--set", "/solver/substeps=8", "-e", "99", "--set",
+                   "/cloths/0/self_collision=true"})
+                  .code,
+              0);
     const Outcome made = run({"report", "out"});
     EXPECT_EQ(made.code, 0) << made.err;
     const Outcome page = read_page("out/report.html", {"out"}, folder);
@@ -55,7 +59,9 @@ TEST(Report, OfARunAndOfTwoSideBySide) {
     const Outcome both = read_page("both.html", {"out", "calm<&>"}, folder);
     EXPECT_EQ(both.code, 0) << both.err;
     EXPECT_THAT(both.out, AllOf(HasSubstr("4 pictures; "), HasSubstr("A kinetic; "), HasSubstr("B kinetic; ")));
-    EXPECT_THAT(read_text(folder / "both.html"), HasSubstr("This run drew no pictures."));
+    EXPECT_THAT(read_text(folder / "both.html"),
+                AllOf(HasSubstr("This run drew no pictures."), HasSubstr("--end 99 is clamped"),
+                      HasSubstr("no crossing in any substep")));
     EXPECT_EQ(run({"report", "out", "-o", "-"}).out, read_text(folder / "out/report.html"));
 }
 

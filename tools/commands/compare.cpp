@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -43,6 +45,11 @@ ExitCode compare_profiles(const std::string& before, const std::string& after) {
 ExitCode run(const Options& options) {
     const fs::path before = options.before, after = options.after;
     std::error_code ignored;
+    for (const fs::path& path : {before, after}) {
+        if (fs::exists(path, ignored)) continue;
+        print_error(fmt::format("'{}' does not exist", path.string()));
+        return ExitCode::io;
+    }
     const bool folder = fs::is_directory(before, ignored);
     if (folder != fs::is_directory(after, ignored)) throw UsageError("a folder is compared with a folder");
     if (!folder && before.extension() != after.extension())

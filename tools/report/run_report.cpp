@@ -88,14 +88,12 @@ std::string status(const RunFolder& run) {
         html += fmt::format("<p class=\"bad\">{}</p>\n", xml_text(manifest["failure"].asString()));
     std::string items;
     for (const Json::Value& warning : manifest["warnings"]) items += "<li>" + xml_text(value_text(warning)) + "</li>\n";
-    for (const Json::Value& each : manifest["compromises"])
-        items +=
-            fmt::format("<li>{}: {}</li>\n", xml_text(each["what"].asString()), xml_text(each["reason"].asString()));
     const auto messages = manifest["validation"]["messages"].asUInt64();
     if (messages > 0) items += fmt::format("<li class=\"bad\">{} validation messages</li>\n", messages);
     html += items.empty() ? "<p>No warnings.</p>\n" : "<ul>\n" + items + "</ul>\n";
-    if (manifest.isMember("certificate"))
-        html += "<h2>Certificate</h2>\n<pre>" + xml_text(json_text(manifest["certificate"])) + "</pre>\n";
+    if (const Json::Value& contact = manifest["self_collision"]; !contact.isNull())
+        html += fmt::format("<h2>Certificate</h2>\n<p class=\"{}\">{}</p>\n",
+                            contact["proved"].asBool() ? "good" : "bad", xml_text(contact["certificate"].asString()));
     return html;
 }
 
