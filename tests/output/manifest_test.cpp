@@ -28,6 +28,7 @@ Manifest example() {
     manifest.solver = {"line", "buffers", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
     manifest.validation = {true, 0};
     manifest.skipped = {{"collision", "the scene has no collider"}};
+    manifest.warnings = {"the scene ends at frame 239: --end 300 is clamped"};
     manifest.compromises = {{"flag/stiffness", "80 of 100 N/m", 23}, {"flag/bending", "none", 0}};
     manifest.files = {{"frame_0000.png", 12345678901, "00ff"}, {"frame_0002.png", 1, "11ff"}};
     manifest.statistics = {{0, {{"kinetic_energy", 0.0}, {"max_stretch", 1.0625}}},
@@ -89,7 +90,8 @@ constexpr const char* golden = R"json({
     {"frame": 2, "kinetic_energy": 1e-300, "max_stretch": 0.1}
   ],
   "status": "done",
-  "validation": {"enabled": true, "messages": 0}
+  "validation": {"enabled": true, "messages": 0},
+  "warnings": ["the scene ends at frame 239: --end 300 is clamped"]
 }
 )json";
 
