@@ -57,6 +57,27 @@ TEST(SolverChoiceTest, TheCheapestThatReachesComesFirst) {
     EXPECT_NE(choice.candidates.front().method, SolverMethod::relax);  // it damps what it does not resolve
 }
 
+TEST(SolverChoiceTest, WindAndContactCostASubstepTheSameByEveryMethod) {
+    const auto substep_ms = [](const SceneDescription& scene, SolverMethod method) {
+        const SolverChoice choice = choose_solver(scene, DeviceKind::cpu);
+        const SolverCandidate& candidate = of(choice, method);
+        return candidate.predicted_ms / candidate.substeps;
+    };
+    const SceneDescription calm = automatic(20);
+    SceneDescription windy = calm, met = calm, met_by_four = calm;
+    windy.wind.velocity = {5, 0, 0};
+    met.colliders = {{.shape = Sphere{{9, 9, 9}, 0.1}}};
+    met_by_four.colliders.resize(4, met.colliders[0]);
+    const auto more = [&](const SceneDescription& scene, SolverMethod method) {
+        return substep_ms(scene, method) - substep_ms(calm, method);
+    };
+    for (const SceneDescription* scene : {&windy, &met, &met_by_four}) {
+        EXPECT_GT(more(*scene, SolverMethod::explicit_steps), substep_ms(calm, SolverMethod::explicit_steps) / 2);
+        EXPECT_NEAR(more(*scene, SolverMethod::line), more(*scene, SolverMethod::explicit_steps), 1e-9);
+    }
+    EXPECT_GT(more(met_by_four, SolverMethod::line), more(met, SolverMethod::line));
+}
+
 TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
     const auto substeps = [](std::uint32_t links, double tolerance, SolverMethod method) {
         return double(of(choose_solver(automatic(links, tolerance), DeviceKind::cpu), method).substeps);
