@@ -21,10 +21,7 @@ struct Axis {
 
 /// Steps of 1, 2 or 5 times a power of ten, about five of them.
 Axis axis(double low, double high, double begin, double end) {
-    if (!(high > low)) {
-        const double margin = low == 0 ? 1 : std::abs(low) / 2;
-        high = low + margin, low -= margin;
-    }
+    if (!(high > low)) high = low + 1;
     const double rough = (high - low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
     const double share = rough / power, step = power * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
     return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step, begin, end};
@@ -75,15 +72,13 @@ std::string curve_group(const Curve& curve, const Axis& x, const Axis& y, double
 }  // namespace
 
 std::string svg_text(const CurvePlot& plot) {
-    std::array<double, 2> low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+    std::array<double, 2> low{}, high{plot.x_last, 0};
     for (const Curve& curve : plot.curves)
         for (const std::array<double, 2>& point : curve.points)
             for (std::size_t k = 0; k < 2 && drawable(point); ++k) {
                 low[k] = std::min(low[k], point[k]);
                 high[k] = std::max(high[k], point[k]);
             }
-    for (std::size_t k = 0; k < 2; ++k)
-        if (!(low[k] <= high[k])) low[k] = 0, high[k] = 1;
     const Axis x = axis(low[0], high[0], left, right), y = axis(low[1], high[1], bottom, top);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" role=\"img\" font-family=\"sans-serif\" "

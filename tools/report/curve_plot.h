@@ -17,9 +17,10 @@ struct Curve {
 struct CurvePlot {
     std::string title, x_label, y_label;  ///< labels with units
     std::vector<Curve> curves;
+    double x_last = 0;  ///< the axis reaches there at least, so that plots beside each other agree
 };
 
-/// A picture of 560 x 300 units; every curve has a group of its own with its name as title.
+/// A picture of 560 x 300 units, zero in it; every curve has a group of its own with its name as title.
 std::string svg_text(const CurvePlot& plot);
 
 }  // namespace drape::report

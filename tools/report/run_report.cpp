@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <map>
 
 #include "output/json_text.h"
 #include "output/xml_text.h"
@@ -26,25 +28,32 @@ h1 { font-size: 1.5rem; margin: .2rem 0 .8rem; } h2 { font-size: 1.1rem; margin:
 figcaption { font-size: .75rem; color: #5a6068; } svg { width: 100%; height: auto; }
 table { border-collapse: collapse; } td, th { text-align: left; padding: .15rem .9rem .15rem 0; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: 600; }
-.player input { width: 70%; vertical-align: middle; } .good { color: #08703f; } .bad { color: #b3261e; font-weight: 600; }
+.player input { width: 55%; vertical-align: middle; } .good { color: #08703f; } .bad { color: #b3261e; font-weight: 600; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .2rem 0; }
 )css";
 
 constexpr const char* script = R"js(
-for (const player of document.querySelectorAll('.player')) {
+const players = document.querySelectorAll('.player');
+let timer = 0;
+// Two players go together.
+const showAll = at => players.forEach(one => one.show(Math.min(at, one.querySelector('input').max)));
+const stop = () => {
+  clearInterval(timer);
+  timer = 0;
+  players.forEach(one => one.querySelector('button').textContent = 'Play');
+};
+for (const player of players) {
   const frames = [...document.querySelectorAll('#' + player.dataset.frames + ' img')];
   const shown = player.querySelector('img'), slider = player.querySelector('input');
   const button = player.querySelector('button'), label = player.querySelector('output');
-  let timer = 0;
-  const show = at => { slider.value = at; shown.src = frames[at].src; label.textContent = frames[at].alt; };
-  const stop = () => { clearInterval(timer); timer = 0; button.textContent = 'Play'; };
-  slider.oninput = () => { stop(); show(+slider.value); };
+  player.show = at => { slider.value = at; shown.src = frames[at].src; label.textContent = frames[at].alt; };
+  slider.oninput = () => { stop(); showAll(+slider.value); };
   button.onclick = () => {
     if (timer) return stop();
-    button.textContent = 'Stop';
-    timer = setInterval(() => show((+slider.value + 1) % frames.length), 1000 * player.dataset.seconds);
+    players.forEach(one => one.querySelector('button').textContent = 'Stop');
+    timer = setInterval(() => showAll((+slider.value + 1) % frames.length), 1000 * player.dataset.seconds);
   };
-  show(0);
+  player.show(0);
 }
 )js";
 
@@ -63,20 +72,64 @@ std::string title_of(const RunFolder& run) {
     return name.empty() ? run.path.string() : name;
 }
 
-/// What is said of a run in a table: where it stands in the manifest is its name.
-std::string settings(const RunFolder& run) {
-    const Json::Value& manifest = run.manifest;
-    std::string html = "<table>\n" + row("folder", run.path.string());
-    for (const char* name : {"program_version", "run_key"}) html += row(name, value_text(manifest[name]));
+/// What a run was asked for and chose: where it stands in the manifest is its name.
+std::map<std::string, std::string> settings_of(const RunFolder& run) {
+    std::map<std::string, std::string> values{{"program_version", value_text(run.manifest["program_version"])}};
     for (const char* group : {"scene", "device", "frames", "picture", "solver", "validation"})
         for (const std::string& name :
-             manifest.isMember(group) ? manifest[group].getMemberNames() : Json::Value::Members{})
-            html += row(fmt::format("{}.{}", group, name), value_text(manifest[group][name]));
+             run.manifest.isMember(group) ? run.manifest[group].getMemberNames() : Json::Value::Members{})
+            values[fmt::format("{}.{}", group, name)] = value_text(run.manifest[group][name]);
+    return values;
+}
+
+std::string settings(const RunFolder& run) {
+    const Json::Value& manifest = run.manifest;
+    std::string html = "<table>\n" + row("folder", run.path.string()) + row("run_key", value_text(manifest["run_key"]));
+    for (const auto& [name, value] : settings_of(run)) html += row(name, value);
     html += row("created", value_text(manifest["run"]["created"]));
     std::string command;
     for (const Json::Value& word : manifest["run"]["command_line"])
         command += (command.empty() ? "" : " ") + word.asString();
     return html + row("command line", command) + "</table>\n";
+}
+
+/// The settings of two runs that are not the same.
+std::string differences(const RunFolder& a, const RunFolder& b) {
+    const std::map<std::string, std::string> settings_a = settings_of(a), settings_b = settings_of(b);
+    std::map<std::string, std::array<std::string, 2>> both;
+    for (const auto& [name, value] : settings_a) both[name][0] = value;
+    for (const auto& [name, value] : settings_b) both[name][1] = value;
+    std::string rows;
+    for (const auto& [name, values] : both)
+        if (values[0] != values[1])
+            rows += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td></tr>\n", xml_text(name), xml_text(values[0]),
+                                xml_text(values[1]));
+    return "<section>\n<h2>Settings that differ</h2>\n" +
+           (rows.empty() ? "<p>None.</p>\n"
+                         : "<table>\n<tr><th></th><th>A</th><th>B</th></tr>\n" + rows + "</table>\n") +
+           "</section>\n";
+}
+
+/// A line on all cuts of a cloth.
+std::string cuts(const Json::Value& list) {
+    struct Sum {
+        Json::Int64 first, last;
+        Json::UInt64 springs, triangles;
+    };
+    std::map<std::string, Sum> sums;
+    for (const Json::Value& cut : list) {
+        const Json::Int64 frame = cut["frame"].asInt64();
+        Sum& sum = sums.try_emplace(cut["cloth"].asString(), Sum{frame, frame, 0, 0}).first->second;
+        sum.first = std::min(sum.first, frame);
+        sum.last = std::max(sum.last, frame);
+        sum.springs += cut["springs"].asUInt64();
+        sum.triangles += cut["triangles"].asUInt64();
+    }
+    std::string html;
+    for (const auto& [cloth, sum] : sums)
+        html += fmt::format("<p>Cloth '{}' was cut in frames {} to {}: {} springs and {} triangles.</p>\n",
+                            xml_text(cloth), sum.first, sum.last, sum.springs, sum.triangles);
+    return html;
 }
 
 std::string status(const RunFolder& run) {
@@ -91,6 +144,7 @@ std::string status(const RunFolder& run) {
     const auto messages = manifest["validation"]["messages"].asUInt64();
     if (messages > 0) items += fmt::format("<li class=\"bad\">{} validation messages</li>\n", messages);
     html += items.empty() ? "<p>No warnings.</p>\n" : "<ul>\n" + items + "</ul>\n";
+    html += cuts(manifest["cuts"]);
     if (const Json::Value& contact = manifest["self_collision"]; !contact.isNull())
         html += fmt::format("<h2>Certificate</h2>\n<p class=\"{}\">{}</p>\n",
                             contact["proved"].asBool() ? "good" : "bad", xml_text(contact["certificate"].asString()));
@@ -188,10 +242,19 @@ const std::vector<Plot>& plots() {
     return table;
 }
 
+/// When the last frame of any run is.
+double last_time(const std::vector<RunFolder>& runs) {
+    double last = 0;
+    for (const RunFolder& run : runs)
+        last = std::max(
+            last, run.manifest["frames"]["end"].asDouble() / std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3));
+    return last;
+}
+
 std::string plot_section(const std::vector<RunFolder>& runs) {
     std::string html = "<section>\n<h2>Over time</h2>\n<div class=\"plots\">\n";
     for (const Plot& plot : plots()) {
-        CurvePlot drawing{plot.title, "s", plot.unit, {}};
+        CurvePlot drawing{plot.title, "s", plot.unit, {}, last_time(runs)};
         for (std::size_t i = 0; i < runs.size(); ++i)
             for (std::size_t k = 0; k < plot.lines.size(); ++k) {
                 const std::string run = runs.size() == 1 ? "" : i == 0 ? "A " : "B ";
@@ -222,13 +285,14 @@ std::string section(const std::string& title, const std::vector<RunFolder>& runs
 
 std::string report_html(const std::vector<RunFolder>& runs, const ReportOptions& options) {
     std::string title = title_of(runs.front());
-    if (runs.size() > 1) title += " and " + title_of(runs[1]);
+    if (runs.size() > 1 && title_of(runs[1]) != title) title += " and " + title_of(runs[1]);
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
         "<meta name=\"viewport\" content=\"width=device-width\"/>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
         "<h1>{0}</h1>\n",
         xml_text(title), style);
     html += section("Result", runs, [](const RunFolder& run, std::size_t) { return status(run); });
+    if (runs.size() > 1) html += differences(runs[0], runs[1]);
     html += section("Pictures", runs, [&](const RunFolder& run, std::size_t id) { return pictures(run, id, options); });
     html += plot_section(runs);
     html += section("Times", runs, [](const RunFolder& run, std::size_t) { return times(run); });
