@@ -11,14 +11,20 @@
 namespace drape::graph {
 namespace {
 
-std::string in_quotes(const std::string& text) {
+/// Below each other: side by side they would make the picture wide.
+std::string in_quotes(const std::vector<std::string>& lines, const char* line_end = "\\n") {
     std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
+    for (const std::string& line : lines) {
+        if (&line != &lines.front()) out += line_end;
+        for (const char c : line) {
+            if (c == '"' || c == '\\') out += '\\';
+            out += c;
+        }
     }
     return out + "\"";
 }
+
+std::string in_quotes(const std::string& text) { return in_quotes(std::vector{text}); }
 
 /// Boxes are passes (one per folded place), arrows the resources that flow between them, ellipses what
 /// enters from and leaves to other frames or the host; dashed arrows lead back into a repeated block.
@@ -104,24 +110,29 @@ class DotWriter {
         for (const bool back : {false, true}) {
             const std::set<std::string>& list = back ? names.back : names.forward;
             if (list.empty()) continue;
-            std::string label;
-            for (const std::string& name : list) label += label.empty() ? name : ", " + name;
-            text_ += fmt::format("  {} -> {} [label={}{}];\n", edge.first, edge.second, in_quotes(label),
+            text_ += fmt::format("  {} -> {} [label={}{}];\n", edge.first, edge.second,
+                                 in_quotes(std::vector(list.begin(), list.end())),
                                  back ? ", style=dashed, constraint=false" : "");
         }
     }
 
+    void write_note(const char* name, const char* colour, std::vector<std::string> lines) {
+        if (lines.empty()) return;
+        lines.insert(lines.begin(), std::string(name) + ":");
+        lines.emplace_back();  // what ends in \l stands at the left
+        text_ += fmt::format("  {} [style=dashed, color={}, label={}];\n", name, colour, in_quotes(lines, "\\l"));
+    }
+
     void write_skipped() {
-        std::size_t index = 0;
+        std::vector<std::string> skipped, compromises;
         for (const SkippedGroup& group : group_skipped(graph_, plan_)) {
             const std::string times = group.count > 1 ? fmt::format(" x {}", group.count) : "";
-            text_ += fmt::format("  skipped{} [style=dashed, color=gray, label={}, tooltip={}];\n", index++,
-                                 in_quotes(group.what + times + ": " + group.reason), in_quotes(group.reason));
+            skipped.push_back(group.what + times + ": " + group.reason);
         }
-        index = 0;
         for (const Compromised& compromise : graph_.compromises())
-            text_ += fmt::format("  compromise{} [style=dashed, color=orange, label={}];\n", index++,
-                                 in_quotes(compromise.what + ": " + compromise.reason));
+            compromises.push_back(compromise.what + ": " + compromise.reason);
+        write_note("skipped", "gray", std::move(skipped));
+        write_note("compromises", "orange", std::move(compromises));
     }
 
     const Graph& graph_;

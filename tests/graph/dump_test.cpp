@@ -82,6 +82,8 @@ TEST_F(Dumping, DotFoldsAndQuotes) {
     EXPECT_EQ(count(text, "pass2 -> pass0 [label=\"banner/position\", style=dashed"), 1u) << text;
     EXPECT_EQ(count(text, "wind \\\"gust\\\""), 1u) << text;
     EXPECT_EQ(count(text, "half of it"), 1u) << text;
+    EXPECT_EQ(count(text, "  skipped ["), 1u) << "one note, below each other: " << text;
+    EXPECT_EQ(count(text, "\\l"), 5u) << text;
     EXPECT_EQ(count(text, "{"), count(text, "}"));
 }
 
