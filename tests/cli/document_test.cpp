@@ -1,11 +1,15 @@
 // What the documents promise a reader who follows them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <json/json.h>
 
 #include <filesystem>
+#include <set>
+#include <sstream>
 
 #include "output/temporary_folder.h"
 #include "program.h"
+#include "scenes.h"
 
 namespace drape {
 namespace {
@@ -40,6 +44,42 @@ TEST(FirstScene, EveryStepsSceneIsGoodAndRendersToItsEnd) {
         EXPECT_EQ(render.code, 0) << render.err;
         EXPECT_TRUE(std::filesystem::exists(folder / "out/manifest.json"));
     }
+}
+
+/// The names of all members, without the cloth that a statistic is of.
+void collect_names(const Json::Value& value, std::set<std::string>& names) {
+    if (value.isObject()) {
+        for (const std::string& name : value.getMemberNames()) {
+            names.insert(name.substr(name.rfind('/') + 1));
+            if (name != "stage_median_ms") collect_names(value[name], names);
+        }
+    } else if (value.isArray()) {
+        for (const Json::Value& element : value) collect_names(element, names);
+    }
+}
+
+TEST(Manifest, EveryKeyIsDocumented) {
+    const SceneFolder folder(small_scene(4));
+    const std::string cutter =
+        R"(/cutters=[{"triangle": [[-9, 1.2, -9], [9, 1.2, -9], [0, 1.2, 9]], "active": [0, 1], "path": [{"t": 0}, {"t": 1, "translate": [0, 0.1, 0]}]}])";
+    const std::vector<std::vector<std::string>> runs = {
+        {"render", "--set", cutter},
+        {"render", "--view", "stretch", "--set", "/cloths/0/self_collision=true"},
+        {"simulate", "--set", "/solver/method=auto", "-e", "9"},
+        {"simulate", "--set", "/solver/tolerance=1e-9"}};
+    std::set<std::string> names;
+    for (std::vector<std::string> run : runs) {
+        run.insert(run.end(), {folder.scene(), "-o", folder.out(std::to_string(names.size())), "-q"});
+        const Outcome outcome = drape(run);
+        EXPECT_TRUE(outcome.code == 0 || outcome.code == 8) << outcome.err;
+        Json::Value manifest;
+        std::istringstream(read_text(std::filesystem::path(run.end()[-2]) / "manifest.json")) >> manifest;
+        collect_names(manifest, names);
+    }
+    for (const char* expected : {"triangles", "proved", "choice", "strain_range", "bound", "penetration_m"})
+        EXPECT_TRUE(names.contains(expected)) << expected;
+    const std::string document = read_text(repository / "engine/docs/manifest.md");
+    for (const std::string& name : names) EXPECT_THAT(document, testing::HasSubstr("`" + name + "`"));
 }
 
 }  // namespace

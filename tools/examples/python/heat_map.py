@@ -10,6 +10,8 @@ import sys
 import drape
 import numpy as np
 
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
 try:
     scene = drape.load(sys.argv[1], {"/time/frames": int(sys.argv[2])} if len(sys.argv) > 2 else {})
 except drape.Error as error:
