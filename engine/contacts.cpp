@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cloth/frame_inputs.h"
+#include "scene/contact_shape.h"
 
 namespace drape {
 
@@ -19,7 +20,7 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
     std::vector<float> nearest(touched.size(), reach);
     for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
         const int kind = scene.colliders[number].kind();
-        const glsl::ColliderRecord record = collider_record(scene.colliders[number], time, time);
+        const glsl::ColliderRecord record = collider_record(contact_shape(shape, scene.colliders[number]), time, time);
         const glsl::vec3 radii{record.shape.x, record.shape.y, record.shape.z};
         for (std::size_t particle = 0; particle < touched.size(); ++particle) {
             if (xyzw[4 * particle + 3] == 0) continue;

@@ -1,8 +1,9 @@
 // Moves every particle out of every collider, with friction; specialised to the kinds that the scene has. HISTORY: what
-// is touched is at once as fast as it is left, and the cloth goes on in backward Euler substeps (include/bdf2.h).
+// is touched is at once as fast as it is left, and the cloth goes on in backward Euler substeps (include/bdf2.h). LED: on
+// from what the edges of boxes left (box_edges.comp).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HISTORY BUFFERED
+#pragma variants HISTORY LED BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/colliders.h"
@@ -19,6 +20,9 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
 layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
 #endif
+#ifdef LED
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
+#endif
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -28,6 +32,11 @@ void main() {
     vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     bool touched = false;
+#ifdef LED
+    vec4 led = LOAD(lifted, texel);
+    displacement = led.xyz;
+    touched = led.w > 0.0f;
+#endif
     // Out of one collider may be into another: repeat until nothing is touched any more.
     for (int round = 0; round < round_count; ++round) {
         Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,

@@ -30,10 +30,16 @@ struct ClothModel : ClothGeometry {
 
     double substep_length;  ///< s
     bool collides;          ///< with colliders of the scene
+    /// m, of an edge of the cloth at most: where it can meet that of a box (shaders/box_edges.comp). 0: the scene has
+    /// no box, the cloth's contact is of particles, or its thickness keeps everything clear.
+    float edge_reach = 0;
+    std::size_t collider_list = 0;  ///< of SimulationModel::kept_colliders: what its particles are kept from
     MethodPlan plan;
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
     glsl::ResidualPush residual;    ///< of the check between iterations
+    /// `collision` with the reach of edges for the thickness.
+    glsl::CollisionPush box_edges() const;
 
     /// Of every particle at the start, 0 where pinned: row by row.
     std::vector<glsl::vec4> start_displacement() const;

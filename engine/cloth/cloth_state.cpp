@@ -68,6 +68,7 @@ FieldExtent size_list(Context) { return {glsl::iteration_size_count}; }
 FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
 std::vector<std::byte> start_excess(Context c) { return bytes_of(c.cloth.start_excess()); }
+std::vector<std::byte> cell_bits(Context c) { return bytes_of(c.topology.grid().cells()); }
 std::vector<std::byte> reference(Context c) { return bytes_of(std::vector{statistics_reference(c.cloth)}); }
 
 std::size_t draw_list_room(Context c, std::size_t count) {
@@ -145,13 +146,13 @@ const std::vector<FieldRow>& rows() {
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
+        {Field::lifted, "lifted", stored, vector, frame, [](Context c) { return c.cloth.edge_reach > 0; }, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
          [](Context c) { return bytes_of(c.topology.spring_shares()); }},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles,
          [](Context c) { return bytes_of(mass_shares(c.cloth)); }},
-        {Field::cells, "cells", image, integer, constant, masked, cells,
-         [](Context c) { return bytes_of(c.topology.grid().cells()); }},
+        {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
         {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},

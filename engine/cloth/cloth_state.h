@@ -35,6 +35,7 @@ enum class Field : std::uint8_t {
     statistics_reference,      ///< what the statistics measure from
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     wind_force,                ///< N
+    lifted,                    ///< displacement after the edges of boxes, m; w: 1 where they touched
     normal,                    ///< unit normal of the front
     spring_share,              ///< share per direction, by first particle
     mass_share,                ///< 1 = an inner particle's

@@ -29,7 +29,7 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
         component(push.half_stiffness, direction) =
             std::isfinite(stiffness) ? static_cast<float>(0.5 * stiffness) : 0.0f;
     }
-    push.collider_first = first_collider(model.scene, model.scene.solver.substeps - 1);
+    push.collider_first = first_collider(model, cloth, model.scene.solver.substeps - 1);
     push.grid = cloth.grid.size();
     return push;
 }

@@ -94,11 +94,13 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
 
 std::size_t collider_record_count(const SimulationModel& model) {
     const std::vector<Collider>& colliders = model.scene.colliders;
-    return colliders.size() * (any_moves(colliders) ? model.most_substeps() : 1);
+    return model.kept_colliders.size() * colliders.size() * (any_moves(colliders) ? model.most_substeps() : 1);
 }
 
-int first_collider(const SceneDescription& scene, std::uint32_t substep) {
-    return any_moves(scene.colliders) ? static_cast<int>(scene.colliders.size() * substep) : 0;
+int first_collider(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep) {
+    const std::vector<Collider>& colliders = model.scene.colliders;
+    const std::size_t lists = any_moves(colliders) ? model.kept_colliders.size() * substep : 0;
+    return static_cast<int>(colliders.size() * (lists + cloth.collider_list));
 }
 
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders) {
@@ -121,8 +123,8 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
             inputs.wind.push_back(row({wind[0], wind[1], wind[2]}, 0, 0));
         }
         if (substep == 0 || any_moves(scene.colliders))
-            for (const Collider& collider : scene.colliders)
-                inputs.colliders.push_back(collider_record(collider, start, end));
+            for (const std::vector<Collider>& list : model.kept_colliders)
+                for (const Collider& collider : list) inputs.colliders.push_back(collider_record(collider, start, end));
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
                 inputs.pins[cloth].push_back(pin_motion(pin, start, end));

@@ -14,10 +14,11 @@ namespace drape {
 /// Motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
 RigidTransform pin_transform(const DynamicPin& pin, double time);
 
-/// Collider records that a frame has room for: all of them once, or per substep when any is key-framed.
+/// Collider records that a frame has room for: those of every list (SimulationModel::kept_colliders) once, or per
+/// substep when any is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);
-/// The first of them in a substep.
-int first_collider(const SceneDescription& scene, std::uint32_t substep);
+/// The first of a cloth's in a substep.
+int first_collider(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep);
 /// Colliders of each kind and those before it: where the kind ends in the sorted list.
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
@@ -26,7 +27,7 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
 
 struct FrameInputs {
     std::vector<glsl::vec4> wind;                    ///< per substep, m/s; empty without wind
-    std::vector<glsl::ColliderRecord> colliders;     ///< in the scene's order
+    std::vector<glsl::ColliderRecord> colliders;     ///< per substep, list by list, in the scene's order
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 

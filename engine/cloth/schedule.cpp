@@ -42,15 +42,25 @@ class Substep {
                                   last && substep_ + 1 == solver.substeps, 1, conditional});
             const bool per_iteration = solver.collide == CollideWhen::iteration;
             if (!model_.scene.colliders.empty() && (per_iteration || last))
-                add(StepKind::collide, iteration).conditional = conditional && per_iteration;
+                collide(iteration, last && !collides_again()).conditional = conditional && per_iteration;
             if (model_.adaptive() && !last) add(StepKind::check, iteration).conditional = conditional;
         }
     }
     /// Ends a substep: tethers, and once more the contacts that they may have pulled particles into.
     void add_tethers() {
-        if (cloth_.tethers.empty()) return;
-        add(StepKind::tether);
-        if (!model_.scene.colliders.empty()) add(StepKind::collide, model_.scene.solver.iterations);
+        if (!cloth_.tethers.empty()) add(StepKind::tether);
+        if (!model_.scene.colliders.empty() && collides_again()) collide(model_.scene.solver.iterations, true);
+    }
+    /// After the iterations: behind tethers, and where the device may skip the last iteration, in which the edges of
+    /// boxes would be met.
+    bool collides_again() const { return !cloth_.tethers.empty() || (cloth_.edge_reach > 0 && model_.adaptive()); }
+    /// `ends`: nothing moves the particles any more in this substep.
+    Step& collide(std::uint32_t iteration, bool ends) {
+        const bool edges = ends && cloth_.edge_reach > 0;
+        if (edges) add(StepKind::box_edges, iteration);
+        Step& step = add(StepKind::collide, iteration);
+        step.after_edges = edges;
+        return step;
     }
 
     const SimulationModel& model_;

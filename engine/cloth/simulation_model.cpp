@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cloth/substep_control.h"
+#include "scene/contact_shape.h"
 #include "shared/collider_types.h"
 
 namespace drape {
@@ -19,6 +20,7 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
     scene.solver = choice.settings;
     add_cloths(cloths_meet(scene) ? start_crossings(scene) : std::vector<StartCrossing>{});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
+    add_colliders();
 }
 
 SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t substeps)
@@ -30,6 +32,17 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       windy(run.windy) {
     scene.solver.substeps = substeps;
     add_cloths(run.self_contact ? run.self_contact->crossed : std::vector<StartCrossing>{});
+    add_colliders();
+}
+
+void SimulationModel::add_colliders() {
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
+        std::vector<Collider> kept;
+        for (const Collider& collider : scene.colliders) kept.push_back(contact_shape(scene.cloths[cloth], collider));
+        const auto list = std::ranges::find(kept_colliders, kept);
+        cloths[cloth].collider_list = static_cast<std::size_t>(list - kept_colliders.begin());
+        if (list == kept_colliders.end()) kept_colliders.push_back(std::move(kept));
+    }
 }
 
 void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {

@@ -20,6 +20,9 @@ struct SimulationModel {
     ModelOptions options;
     std::vector<ClothModel> cloths;
     std::optional<SelfContact> self_contact;  ///< nothing: no cloth meets itself or another
+    /// What contact keeps particles from (scene/contact_shape.h): the scene's colliders, once for all cloths that it
+    /// grows them alike for.
+    std::vector<std::vector<Collider>> kept_colliders;
     bool windy;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }
@@ -47,6 +50,7 @@ struct SimulationModel {
 
   private:
     void add_cloths(const std::vector<StartCrossing>& crossed);
+    void add_colliders();
 };
 
 }  // namespace drape

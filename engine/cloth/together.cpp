@@ -35,6 +35,7 @@ bool in_images(StepKind kind) {
         case StepKind::twist:
         case StepKind::spring:
         case StepKind::line:
+        case StepKind::box_edges:
         case StepKind::collide:
             return true;
         default:
@@ -53,7 +54,8 @@ bool same_constants(const StepConstants& one, const StepConstants& other) {
 
 bool same_place(const Step& one, const Step& other) {
     return one.kind == other.kind && one.substep == other.substep && one.iteration == other.iteration &&
-           one.last == other.last && one.count == other.count && one.conditional == other.conditional;
+           one.last == other.last && one.count == other.count && one.conditional == other.conditional &&
+           one.after_edges == other.after_edges;
 }
 
 bool same_step(const Step& one, const Step& other) {

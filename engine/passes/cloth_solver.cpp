@@ -9,6 +9,7 @@
 #include "cloth/together.h"
 #include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
+#include "passes/box_edge_pass.h"
 #include "passes/check_pass.h"
 #include "passes/collision_pass.h"
 #include "passes/cut_pass.h"
@@ -280,6 +281,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_nested(graph, pipelines_, state, step);
         case StepKind::tether:
             return add_tether(graph, pipelines_, state, step);
+        case StepKind::box_edges:
+            return add_box_edges(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::collide:
             return add_collision(graph, pipelines_, state, inputs_, *run_, step);
         case StepKind::check:
@@ -288,6 +291,24 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_self_gather(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::self_return:
             return add_self_return(graph, pipelines_, state, cloths_.front(), step);
+        case StepKind::self_common:
+        case StepKind::self_boxes:
+        case StepKind::self_blocks:
+        case StepKind::self_cells:
+        case StepKind::self_near:
+        case StepKind::self_pairs:
+        case StepKind::self_contact:
+        case StepKind::self_push:
+        case StepKind::self_room:
+        case StepKind::self_move:
+            return add_contact_step(graph, state, step);
+        case StepKind::advance:
+            return add_advance(graph, pipelines_, state);
+    }
+}
+
+void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const Step& step) {
+    switch (step.kind) {
         case StepKind::self_common:
             return add_self_common(graph, pipelines_, state, step);
         case StepKind::self_boxes:
@@ -308,8 +329,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_self_room(graph, pipelines_, state, step);
         case StepKind::self_move:
             return add_self_move(graph, pipelines_, state, step);
-        case StepKind::advance:
-            return add_advance(graph, pipelines_, state);
+        default:
+            return;
     }
 }
 

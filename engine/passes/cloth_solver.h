@@ -121,6 +121,8 @@ class ClothSolver {
                                              std::size_t cloth) const;
     std::vector<Step> steps() const;
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
+    /// One of contact between the cloths.
+    void add_contact_step(graph::Graph& graph, ClothState& state, const Step& step);
 
     const SimulationModel& model_;
     const SimulationModel* run_;  ///< of the graph being built

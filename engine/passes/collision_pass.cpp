@@ -10,9 +10,11 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     constants.push_back({"round_count", model.collision_rounds()});
     const bool history = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("collision.comp", {{"history", history}, {"buffered", state.buffered}}), constants);
+        vulkan::variant_name("collision.comp",
+                             {{"history", history}, {"led", step.after_edges}, {"buffered", state.buffered}}),
+        constants);
     glsl::CollisionPush push = state.model->collision;
-    push.first = first_collider(model.scene, step.substep);
+    push.first = first_collider(model, *state.model, step.substep);
     const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());
     graph.add_pass(
         state.step_name("collision", step),
@@ -23,6 +25,7 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                 update_in_place(setup, state[Field::displacement_before], "displacement_before");
                 update_in_place(setup, state[Field::line_control], "control");
             }
+            if (step.after_edges) setup.read(state[Field::lifted], graph::Access::compute_read, "lifted");
             setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
             dispatch.declare(setup);
         },

@@ -5,24 +5,11 @@
 #include "cloth/step_change.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/triangles_around.h"
 
 namespace drape {
 
 using namespace glsl;
-
-namespace {
-
-/// Calls visit(cell, which) for the existing triangles around a particle, in the shaders' order.
-template <class Visit>
-void for_triangles_around(const Grid& grid, ivec2 particle, const Visit& visit) {
-    for (int k = 0; k < triangles_around_particle; ++k) {
-        const ivec4 around = triangle_around(k);
-        const ivec2 cell{particle.x + around.x, particle.y + around.y};
-        if (grid.cell(cell.x, cell.y) & static_cast<std::uint32_t>(around.z)) visit(cell, around.z);
-    }
-}
-
-}  // namespace
 
 TwinCloth::TwinCloth(const SimulationModel& model, std::size_t cloth) : topology(model.cloths[cloth]) {
     const FieldContext about{model, model.cloths[cloth], topology, {.drawing = true, .statistics = true}};
@@ -141,8 +128,10 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
             return nested(model, state, step);
         case StepKind::tether:
             return tether(state);
+        case StepKind::box_edges:
+            return box_edges(model, state, inputs, step.substep);
         case StepKind::collide:
-            return collide(model, state, inputs, step.substep);
+            return collide(model, state, inputs, step);
         case StepKind::check:
             return check(model, state, step);
         case StepKind::advance:
@@ -238,35 +227,6 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
             state.move_to(second, moved_by(moved_second, result.correction, weight_second));
             if (!tensions.empty()) tensions[first] = result.tension;
         }
-}
-
-void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
-    const CollisionPush& push = model.collision;
-    const auto first = static_cast<std::size_t>(first_collider(model_->scene, substep));
-    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
-        if (state[Field::position][i].w == 0.0f) continue;
-        const vec3 start = xyz(state[Field::position][i]);
-        vec3 displacement = xyz(state[Field::displacement][i]);
-        bool touched = false;
-        for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
-            float deepest = 0.0f;
-            for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
-                const Contact contact =
-                    collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k], start,
-                                     displacement, push.contact.x, push.contact.y, push.contact.w);
-                displacement = contact.displacement;
-                deepest = contact.depth > deepest ? contact.depth : deepest;
-            }
-            touched = touched || deepest > 0.0f;
-            if (!(deepest > push.contact.z)) break;
-        }
-        if (touched && model.plan.second_order) {
-            state[Field::displacement_before][i] = texel(displacement);
-            uint& hold = state.integers(Field::line_control)[control_hold];
-            hold = std::max(hold, line_hold_contact);
-        }
-        state.move_to(i, displacement);
-    }
 }
 
 void Twin::tether(TwinCloth& state) {

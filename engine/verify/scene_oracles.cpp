@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "scene/contact_shape.h"
 #include "scene/motion.h"
 #include "scene/oracle_kinds.h"
 #include "scene/start_crossings.h"
@@ -234,23 +235,25 @@ double size_of(const Box& box) { return *std::ranges::min_element(box.half_exten
 double size_of(const Capsule& capsule) { return std::min(capsule.radii[0], capsule.radii[1]); }
 double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
 
-/// Deepest particle below a collider's surface and the cloth's thickness on top of it, in units of the
-/// collider's size (radius, least half extent; a plane's is 1 m).
+/// Deepest particle below the surface that contact keeps (scene/contact_shape.h) and the cloth's thickness on top of
+/// it, in units of the collider's size (radius, least half extent; a plane's is 1 m).
 double deepest(const SceneRun& run, const Collider& collider) {
     const double size = std::visit([](const auto& shape) { return size_of(shape); }, collider.shape);
-    const double reach = shape_geometry(collider.shape).reach;
     double depth = -std::numeric_limits<double>::infinity();
-    for (std::size_t frame = 1; frame < run.frames.size(); ++frame)
-        for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
-            const double thickness = run.scene.cloths[cloth].thickness, time = run.time(frame);
-            const Vec3 center = collider_pose(collider, time).center;
+    for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
+        const Collider kept = contact_shape(run.scene.cloths[cloth], collider);
+        const double thickness = run.scene.cloths[cloth].thickness, reach = shape_geometry(kept.shape).reach;
+        for (std::size_t frame = 1; frame < run.frames.size(); ++frame) {
+            const double time = run.time(frame);
+            const Vec3 center = collider_pose(kept, time).center;
             for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
                 const Vec3 x = run.at(frame, cloth, particle);
                 if (norm(minus(x, center)) > reach + thickness) continue;  // told without the costly distance
-                depth = std::max(depth, (thickness - surface_distance(collider, time, x)) / size);
+                depth = std::max(depth, (thickness - surface_distance(kept, time, x)) / size);
             }
         }
+    }
     return depth;
 }
 

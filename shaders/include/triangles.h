@@ -22,6 +22,15 @@ SHARED ivec2 triangle_corner(int which, int corner) {
     return ivec2(corner == 2 ? 0 : 1, corner == 0 ? 0 : 1);
 }
 
+/// Which corner a particle is that lies at `offset` from the triangle's cell.
+SHARED int corner_of_triangle(int which, ivec2 offset) {
+    for (int corner = 0; corner < 2; ++corner) {
+        ivec2 at = triangle_corner(which, corner);
+        if (at.x == offset.x && at.y == offset.y) return corner;
+    }
+    return 2;
+}
+
 SHARED bool cell_inside(ivec2 cell, ivec2 grid) {
     return cell.x >= 0 && cell.y >= 0 && cell.x < grid.x - 1 && cell.y < grid.y - 1;
 }

@@ -35,6 +35,7 @@ Depths drop(const std::vector<Collider>& colliders, const std::function<void(Sce
     Cloth& cloth = scene.cloths[0];
     cloth.placement = {{-0.8, 0.9, -0.8}, {1, 0, 0}, {0, 0, 1}};
     cloth.thickness = 0;
+    cloth.contact = ContactOf::particles;
     cloth.damping = 0.5;
     if (change) change(scene);
     const SimulationModel model(scene);
@@ -160,11 +161,13 @@ struct Leaving {
     std::vector<double> speed, depth;
 };
 
-Leaving leave(const Collider& collider, SolverMethod method, std::uint32_t frames) {
+Leaving leave(const Collider& collider, SolverMethod method, std::uint32_t frames,
+              ContactOf contact = ContactOf::particles) {
     SceneDescription scene = test::sheet(17, 17, 1, 1, 20);
     scene.time.frame_count = frames + 1;
     scene.gravity = {0, 0, 0};
     scene.solver.method = method;
+    scene.cloths[0].contact = contact;
     scene.cloths[0].placement = {{-0.5, 0.1, -0.5}, {1, 0, 0}, {0, 0, 1}};
     scene.cloths[0].stiffness.stretch = 200;
     scene.cloths[0].stiffness.shear = 20;
@@ -203,19 +206,24 @@ TEST(ContactTest, NoKindOfColliderThrowsWhatStartsInIt) {
         const char* name;
         Collider collider;
         double speed;  ///< m/s; that of springs which contact stretches over an edge is their own
+        double drawn;  ///< likewise where all that is drawn stays out, so that an edge stretches more of them
     };
-    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 0.2},
-                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 0.2},
-                          {"box below the middle", {Box{{0, 0, 0}, {0.3, 0.2, 0.3}}}, 2},
-                          {"ellipsoid", {Ellipsoid{{0, 0, 0}, {0.3, 0.2, 0.25}}}, 1},
-                          {"capsule", {Capsule{{-0.2, 0, 0}, {0.2, 0, 0}, {0.2, 0.2}}}, 1}};
-    for (const auto& [name, collider, speed] : cases) {
+    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 0.2, 0.2},
+                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 0.2, 0.2},
+                          {"box below the middle", {Box{{0, 0, 0}, {0.3, 0.2, 0.3}}}, 2, 5},
+                          {"ellipsoid", {Ellipsoid{{0, 0, 0}, {0.3, 0.2, 0.25}}}, 1, 1},
+                          {"capsule", {Capsule{{-0.2, 0, 0}, {0.2, 0, 0}, {0.2, 0.2}}}, 1, 1}};
+    for (const auto& [name, collider, speed, drawn] : cases) {
         const Leaving seen = leave(collider, SolverMethod::line, 75);
         std::printf("[ measured ] %s: at most %.2f m/s, %.1e m deep after 1.25 s\n", name, std::ranges::max(seen.speed),
                     seen.depth.back());
         EXPECT_GT(seen.depth.front(), 0.09) << name;
         EXPECT_LE(std::ranges::max(seen.speed), speed) << name;
         EXPECT_LE(seen.depth.back(), 1e-6) << name;
+        const Leaving surface = leave(collider, SolverMethod::line, 75, ContactOf::surface);
+        std::printf("[ measured ] %s: all that is drawn at most %.2f m/s\n", name, std::ranges::max(surface.speed));
+        EXPECT_LE(std::ranges::max(surface.speed), drawn) << name;
+        EXPECT_LE(surface.depth.back(), 1e-6) << name;
     }
 }
 

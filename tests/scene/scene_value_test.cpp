@@ -51,6 +51,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.damping, 0.1);
     EXPECT_EQ(cloth.friction, 0.35);
     EXPECT_EQ(cloth.thickness, 0.004);
+    EXPECT_EQ(cloth.contact, ContactOf::particles);
     EXPECT_EQ(cloth.self_collision, (SelfCollision{0.006, 0.25}));
     EXPECT_EQ(cloth.velocity, (Vec3{1, 2, 3}));
     ASSERT_EQ(cloth.holes.size(), 1u);

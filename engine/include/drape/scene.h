@@ -131,6 +131,11 @@ struct SelfCollision {
     bool operator==(const SelfCollision&) const = default;
 };
 
+/// What contact keeps out of colliders: all that is drawn of a cloth, or only its particles.
+enum class ContactOf { surface, particles };
+inline constexpr Spelling<ContactOf> contact_spellings[] = {{"surface", ContactOf::surface},
+                                                            {"particles", ContactOf::particles}};
+
 struct Cloth {
     std::string name;
     std::array<std::uint32_t, 2> grid{2, 2};  ///< particles: columns, rows
@@ -138,9 +143,10 @@ struct Cloth {
     Placement placement;
     double areal_density = 0.2;  ///< kg/m^2
     Stiffness stiffness;
-    double damping = 0.0;                         ///< 1/s
-    double friction = 0.3;                        ///< Coulomb coefficient of the cloth's own side
-    double thickness = 0.005;                     ///< m, distance kept from colliders
+    double damping = 0.0;      ///< 1/s
+    double friction = 0.3;     ///< Coulomb coefficient of the cloth's own side
+    double thickness = 0.005;  ///< m, distance kept from colliders
+    ContactOf contact = ContactOf::surface;
     std::optional<SelfCollision> self_collision;  ///< nothing: the cloth passes through itself
     Vec3 velocity{0, 0, 0};                       ///< m/s
     std::vector<IndexBox> holes;                  ///< boxes of particle indices whose inner cells are missing

@@ -1,0 +1,29 @@
+#include "passes/box_edge_pass.h"
+
+namespace drape {
+
+void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+                   const SimulationModel& model, const Step& step) {
+    // The boxes are between the two ends.
+    std::vector<vulkan::SpecializationConstant> ends = collider_constants(model.scene);
+    std::erase_if(ends, [](const auto& each) { return each.name != "spheres_end" && each.name != "boxes_end"; });
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("box_edges.comp", {{"masked", state.masked()}, {"buffered", state.buffered}}), ends);
+    glsl::CollisionPush push = state.model->box_edges();
+    push.first = first_collider(model, *state.model, step.substep);
+    graph.add_pass(
+        state.step_name("box edges", step),
+        [&](graph::PassSetup& setup) {
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
+            state[Field::lifted] = setup.write(state[Field::lifted], graph::Access::compute_write, "lifted");
+            setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
+            if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
+        },
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
+                             static_cast<std::uint32_t>(push.grid.y), count);
+        });
+}
+
+}  // namespace drape

@@ -1,0 +1,103 @@
+// The twin's passes of contact with colliders.
+#include <algorithm>
+
+#include "cloth/texels.h"
+#include "reference/kernels.h"
+#include "reference/triangles_around.h"
+#include "reference/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+namespace {
+
+/// What the triangles around a particle ask of it, and how it then moves.
+struct BoxEdges {
+    const ClothModel& model;
+    const TwinCloth& state;
+    CollisionPush push;
+
+    std::size_t place(ivec2 texel) const {
+        return model.grid.particle(static_cast<std::uint32_t>(texel.x), static_cast<std::uint32_t>(texel.y));
+    }
+
+    CutCorner corner_at(ivec2 texel, const ColliderRecord& collider) const {
+        const vec4 start = state[Field::position][place(texel)];
+        const vec3 moved = xyz(state[Field::displacement][place(texel)]);
+        return {local_point(collider, moved_position(xyz(start), moved)), moved, start.w};
+    }
+
+    vec3 taken(ivec2 texel, const CutCorner& own, const ColliderRecord& collider) const {
+        vec3 taken{0, 0, 0};
+        for_triangles_around(state.topology.grid(), texel, [&](ivec2 cell, int which) {
+            const int corner = corner_of_triangle(which, {texel.x - cell.x, texel.y - cell.y});
+            const auto other = [&](int step) {
+                const ivec2 offset = triangle_corner(which, (corner + step) % 3);
+                return corner_at({cell.x + offset.x, cell.y + offset.y}, collider);
+            };
+            taken = with_triangle(taken, own, other(1), other(2), collider, push.contact.w);
+        });
+        return taken;
+    }
+};
+
+}  // namespace
+
+void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
+    const BoxEdges edges{model, state, model.box_edges()};
+    const std::vector<drape::Collider>& colliders = model_->scene.colliders;
+    const auto first = static_cast<std::size_t>(first_collider(*model_, model, substep));
+    for (int y = 0; y < edges.push.grid.y; ++y)
+        for (int x = 0; x < edges.push.grid.x; ++x) {
+            const std::size_t i = edges.place({x, y});
+            const vec4 start = state[Field::position][i];
+            vec3 moved = xyz(state[Field::displacement][i]);
+            bool touched = false;
+            for (std::size_t k = 0; k < colliders.size(); ++k) {
+                const ColliderRecord& collider = inputs.colliders[first + k];
+                if (colliders[k].kind() != kind_box) continue;
+                const vec3 local = local_point(collider, moved_position(xyz(start), moved));
+                if (start.w == 0.0f || !near_box_edge(local, xyz(collider.shape), edges.push.contact.x)) continue;
+                const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider);
+                moved = taken_displacement(moved, taken, local, collider, edges.push.contact.y);
+                touched = touched || ordered_dot(taken, taken) > 0.0f;
+            }
+            state[Field::lifted][i] = texel(moved, touched ? 1.0f : 0.0f);
+        }
+}
+
+void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+    const CollisionPush& push = model.collision;
+    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        if (state[Field::position][i].w == 0.0f) continue;
+        const vec3 start = xyz(state[Field::position][i]);
+        vec3 displacement = xyz(state[Field::displacement][i]);
+        bool touched = false;
+        if (step.after_edges) {
+            displacement = xyz(state[Field::lifted][i]);
+            touched = state[Field::lifted][i].w > 0.0f;
+        }
+        for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
+            float deepest = 0.0f;
+            for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
+                const Contact contact =
+                    collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k], start,
+                                     displacement, push.contact.x, push.contact.y, push.contact.w);
+                displacement = contact.displacement;
+                deepest = contact.depth > deepest ? contact.depth : deepest;
+            }
+            touched = touched || deepest > 0.0f;
+            if (!(deepest > push.contact.z)) break;
+        }
+        if (touched && model.plan.second_order) {
+            state[Field::displacement_before][i] = texel(displacement);
+            uint& hold = state.integers(Field::line_control)[control_hold];
+            hold = std::max(hold, line_hold_contact);
+        }
+        state.move_to(i, displacement);
+    }
+}
+
+}  // namespace drape

@@ -1,0 +1,50 @@
+#include "scene/contact_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+
+namespace {
+
+/// What a ball's radius lacks to keep triangles out.
+double lift(double radius, double covering) { return std::hypot(radius, covering) - radius; }
+
+double grown(double radius, double by, double thickness) { return radius + std::max(0.0, by - thickness); }
+
+struct Grow {
+    double covering, thickness;
+
+    void operator()(Plane&) const {}
+    void operator()(Box&) const {}
+    void operator()(Sphere& sphere) const {
+        sphere.radius = grown(sphere.radius, lift(sphere.radius, covering), thickness);
+    }
+    void operator()(Capsule& capsule) const {
+        for (double& radius : capsule.radii) radius = grown(radius, lift(radius, covering), thickness);
+    }
+    void operator()(Ellipsoid& ellipsoid) const {
+        const double smallest = *std::ranges::min_element(ellipsoid.radii);
+        const double share = lift(smallest, covering) / smallest;
+        for (double& radius : ellipsoid.radii) radius = grown(radius, share * radius, thickness);
+    }
+};
+
+}  // namespace
+
+double covering_radius(const Cloth& cloth) {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, cloth.placement.scale[axis]);
+        squared += spacing * spacing;
+    }
+    return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
+}
+
+Collider contact_shape(const Cloth& cloth, const Collider& collider) {
+    Collider kept = collider;
+    if (cloth.contact == ContactOf::surface) std::visit(Grow{covering_radius(cloth), cloth.thickness}, kept.shape);
+    return kept;
+}
+
+}  // namespace drape

@@ -1,0 +1,161 @@
+// What is drawn between particles against the edges and corners of a box: contact that moves particles leaves these
+// alone (colliders.h). An edge of the cloth and an edge of the box, or a triangle and a corner, that have passed each
+// other are led apart along the one direction in which that is the least (separating axes), by shares that the weights
+// of the touching point in its triangle give. Particle by particle: each takes from every triangle around it the most
+// that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
+#ifndef DRAPE_BOX_EDGES_H
+#define DRAPE_BOX_EDGES_H
+
+#include "include/colliders.h"
+
+/// A corner of a triangle.
+struct CutCorner {
+    vec3 local;         // m, in the box's frame, now
+    vec3 displacement;  // m, world frame
+    float weight;       // relative inverse mass
+};
+
+/// Least way out along one direction.
+struct BoxCut {
+    vec3 normal;  // local, outward, unit length
+    float depth;  // m; not > 0: outside
+    vec3 shares;  // weights of the corners at the touching point
+};
+
+SHARED BoxCut no_cut() { return BoxCut(vec3(0.0f, 1.0f, 0.0f), 0.0f, vec3(1.0f, 0.0f, 0.0f)); }
+
+SHARED float smaller_of(float a, float b) { return a < b ? a : b; }
+SHARED float larger_of(float a, float b) { return a > b ? a : b; }
+
+/// m: by how much what spans from `low` to `high` along an axis reaches past either of two faces.
+SHARED float past_faces(float low, float high, float half_extent) {
+    precise float up = half_extent - low;
+    precise float down = half_extent + high;
+    return smaller_of(up, down);
+}
+
+/// The same of a triangle and all faces: not > 0 where one of them separates it from the box.
+SHARED float past_all_faces(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
+    float x = past_faces(smaller_of(a.x, smaller_of(b.x, c.x)), larger_of(a.x, larger_of(b.x, c.x)), half_extents.x);
+    float y = past_faces(smaller_of(a.y, smaller_of(b.y, c.y)), larger_of(a.y, larger_of(b.y, c.y)), half_extents.y);
+    float z = past_faces(smaller_of(a.z, smaller_of(b.z, c.z)), larger_of(a.z, larger_of(b.z, c.z)), half_extents.z);
+    return smaller_of(x, smaller_of(y, z));
+}
+
+/// m: by how much a particle is inside, 0 outside: contact of particles moves it as far.
+SHARED float inside_faces(vec3 a, vec3 half_extents) {
+    float depth = past_all_faces(a, a, a, half_extents);
+    return depth > 0.0f ? depth : 0.0f;
+}
+
+/// An edge of the cloth past an edge of the box, seen along the latter: `from` and `along` of the cloth's, half extents
+/// across. xy: direction, z: depth, negative outside, w: share of the far end.
+SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
+    precise float squared = along.x * along.x + along.y * along.y;
+    if (!(squared > 0.0f)) return vec4(0.0f, 0.0f, 3.0e38f, 0.0f);  // seen as a point: others judge
+    precise float side = along.x * from.y - along.y * from.x;
+    precise float reach = half_extents.x * abs(along.y) + half_extents.y * abs(along.x);
+    float length = sqrt(squared);
+    precise float depth = (reach - abs(side)) / length;
+    float turn = side < 0.0f ? -1.0f : 1.0f;
+    precise vec2 normal = vec2(-along.y * turn / length, along.x * turn / length);
+    precise vec2 to_edge = vec2((normal.x < 0.0f ? -half_extents.x : half_extents.x) - from.x,
+                                (normal.y < 0.0f ? -half_extents.y : half_extents.y) - from.y);
+    precise float share = (to_edge.x * along.x + to_edge.y * along.y) / squared;
+    share = share < 0.0f ? 0.0f : share > 1.0f ? 1.0f : share;
+    return vec4(normal.x, normal.y, depth, share);
+}
+
+/// An edge of the cloth in a box, by the box's edges alone: where an end of it is as far inside, contact of particles
+/// leads it out.
+SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
+    float known = larger_of(inside_faces(a, half_extents), inside_faces(b, half_extents));
+    precise vec3 along = b - a;
+    vec4 x = past_box_edge(vec2(a.y, a.z), vec2(along.y, along.z), vec2(half_extents.y, half_extents.z));
+    vec4 y = past_box_edge(vec2(a.z, a.x), vec2(along.z, along.x), vec2(half_extents.z, half_extents.x));
+    vec4 z = past_box_edge(vec2(a.x, a.y), vec2(along.x, along.y), vec2(half_extents.x, half_extents.y));
+    float depth = smaller_of(x.z, smaller_of(y.z, z.z));
+    if (!(depth > known) || !(past_all_faces(a, b, b, half_extents) > 0.0f)) return no_cut();
+    vec3 normal = x.z <= depth ? vec3(0.0f, x.x, x.y) : y.z <= depth ? vec3(y.y, 0.0f, y.x) : vec3(z.x, z.y, 0.0f);
+    float share = x.z <= depth ? x.w : y.z <= depth ? y.w : z.w;
+    precise float rest = 1.0f - share;
+    return BoxCut(normal, depth, vec3(rest, share, 0.0f));
+}
+
+/// How far beside a triangle, in its weights, a corner that is past its plane counts as under it. At an edge between
+/// two triangles over a corner it else falls through between them: contact leads that edge aside, and the corner under
+/// one.
+const float corner_margin = 0.2f;
+
+SHARED float not_below_zero(float x) { return x > 0.0f ? x : 0.0f; }
+
+/// A corner of the box through a triangle.
+SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
+    float least = past_all_faces(a, b, c, half_extents);
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    vec3 area = ordered_cross(ab, ac);
+    float squared = ordered_dot(area, area);
+    if (!(squared > 0.0f) || !(least > 0.0f)) return no_cut();
+    float turn = ordered_dot(area, a) < 0.0f ? -1.0f : 1.0f;
+    precise vec3 normal = area * (turn / sqrt(squared));
+    vec3 corner =
+        vec3(normal.x < 0.0f ? -half_extents.x : half_extents.x, normal.y < 0.0f ? -half_extents.y : half_extents.y,
+             normal.z < 0.0f ? -half_extents.z : half_extents.z);
+    precise vec3 to_corner = corner - a;
+    float depth = ordered_dot(to_corner, normal);
+    if (!(depth > 0.0f) || !(depth < least)) return no_cut();
+    precise float of_b = ordered_dot(ordered_cross(to_corner, ac), area) / squared;
+    precise float of_c = ordered_dot(ordered_cross(ab, to_corner), area) / squared;
+    precise float of_a = 1.0f - of_b - of_c;
+    if (of_a < -corner_margin || of_b < -corner_margin || of_c < -corner_margin) return no_cut();
+    vec3 inside = vec3(not_below_zero(of_a), not_below_zero(of_b), not_below_zero(of_c));
+    precise vec3 shares = inside / (inside.x + inside.y + inside.z);
+    return BoxCut(normal, depth, shares);
+}
+
+/// What a cut asks of the triangle's first corner beyond what it has `taken` already (m, local).
+SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                     float recovery) {
+    precise float mobility = a.weight * cut.shares.x * cut.shares.x + b.weight * cut.shares.y * cut.shares.y +
+                             c.weight * cut.shares.z * cut.shares.z;
+    if (!(cut.depth > 0.0f) || !(mobility > 0.0f)) return taken;
+    // As for a particle (collider_contact): what was past it when the substep began comes back slowly.
+    precise vec3 touching = a.local * cut.shares.x + b.local * cut.shares.y + c.local * cut.shares.z;
+    precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
+    precise vec3 relative = motion - surface_displacement(collider, touching);
+    precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
+    precise float depth = cut.depth - kept_depth(before, recovery);
+    precise float asked = depth * a.weight * cut.shares.x / mobility - ordered_dot(taken, cut.normal);
+    if (!(asked > 0.0f)) return taken;
+    precise vec3 sum = taken + cut.normal * asked;
+    return sum;
+}
+
+/// Likewise all that a triangle asks of its first corner.
+SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider, float recovery) {
+    vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    taken = with_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
+    taken = with_cut(taken, edge_in_box(a.local, c.local, half_extents), a, c, b, collider, recovery);
+    return with_cut(taken, corner_in_triangle(a.local, b.local, c.local, half_extents), a, b, c, collider, recovery);
+}
+
+/// Whether an edge of the cloth shorter than `reach` that ends at a particle can meet an edge of the box.
+SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
+    precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
+    int along = (beyond.x > -reach ? 1 : 0) + (beyond.y > -reach ? 1 : 0) + (beyond.z > -reach ? 1 : 0);
+    return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
+}
+
+/// Displacement of a particle that has `taken` (m, local) from a box, with friction.
+SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 local, ColliderRecord collider, float friction) {
+    float squared = ordered_dot(taken, taken);
+    if (!(squared > 0.0f)) return displacement;
+    float depth = sqrt(squared);
+    precise vec3 normal = taken / depth;
+    precise float pair_friction = friction * collider.shape.w;
+    return contact_displacement(displacement, surface_displacement(collider, local), world_direction(collider, normal),
+                                depth, pair_friction);
+}
+
+#endif

@@ -1,0 +1,82 @@
+// Cloth drawn over the edges and corners of boxes equals its twin bit for bit (lavapipe), by every method.
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::compare;
+using test::frame_count;
+
+/// Coarse cells fall on a standing and a turning box, whose edges their particles straddle.
+SceneDescription over_boxes(SolverMethod method) {
+    SceneDescription scene = test::sheet(19, 16, 0.9, 0.75, test::substep_count);
+    scene.time.frame_count = frame_count + 1;
+    scene.solver.method = method;
+    const MotionPath path{{{0, {0, 0, 0}, {0, 0, 0}}, {0.3, {0.05, 0.1, 0}, {20, 90, 10}}}};
+    scene.colliders = {{Box{{0.2, -0.15, 0}, {0.12, 0.1, 0.2}}, 0.3, {10, 20, 30}, path},
+                       {Box{{-0.25, -0.15, 0.02}, {0.1, 0.12, 0.13}}, 0.5},
+                       {Sphere{{0, -0.3, 0.3}, 0.1}},
+                       {Plane{{0, 1, 0}, -0.2}}};
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.45, 0.0, -0.375}, {1, 0, 0}, {0, 0, 1}};
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.thickness = 0.002;
+    cloth.velocity = {0, -1.5, 0};
+    cloth.pins = {test::pin_box(9, 7, 9, 7)};  // between the boxes
+    return scene;
+}
+
+std::vector<glsl::vec4> end_of(const SceneDescription& scene) {
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= frame_count; ++frame) twin.run_frame(frame);
+    return twin.cloth(0)[Field::position];
+}
+
+TEST(TwinBoxEdgeTest, EveryMethod) {
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
+        SceneDescription scene = over_boxes(method);
+        compare(scene);
+        std::vector<glsl::vec4> met = end_of(scene);
+        scene.cloths[0].contact = ContactOf::particles;
+        std::string where;
+        EXPECT_FALSE(test::same_bits(met, end_of(scene), where)) << "no edge was met";
+    }
+}
+
+TEST(TwinBoxEdgeTest, HolesTethersAndIterationsThatTheDeviceEnds) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    scene.cloths[0].holes = {{{3, 5}, {6, 9}}, {{14, 0}, {16, 4}}};
+    scene.solver.tethers = true;
+    compare(scene);
+    scene.solver.tethers = false;
+    scene.solver.method = SolverMethod::relax;
+    scene.solver.iterations = 3;
+    scene.solver.tolerance = 0.02;
+    compare(scene);
+}
+
+TEST(TwinBoxEdgeTest, ClothsTogetherAndAgainstEachOther) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.placement.origin[1] = 0.06;
+    scene.cloths.push_back(second);
+    compare(scene);
+    for (Cloth& cloth : scene.cloths) cloth.self_collision = SelfCollision{};
+    scene.cloths[1].grid = {17, 17};
+    scene.cloths[1].thickness = 0.01;
+    compare(scene);
+}
+
+TEST(TwinBoxEdgeTest, ThicknessThatCoversACellNeedsNoEdges) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    scene.cloths[0].thickness = 0.05;
+    const SimulationModel model(scene);
+    EXPECT_EQ(model.cloths[0].edge_reach, 0);
+    EXPECT_TRUE(
+        std::ranges::none_of(frame_steps(model), [](const Step& step) { return step.kind == StepKind::box_edges; }));
+}
+
+}  // namespace
+}  // namespace drape

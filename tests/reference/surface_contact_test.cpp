@@ -1,0 +1,206 @@
+// What is drawn of a cloth stays out of every collider kind: its triangles, densely sampled in double precision.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "reference/twin.h"
+#include "scene/contact_shape.h"
+#include "support/drawn_depth.h"
+#include "support/sheet_state.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+using Change = std::function<void(SceneDescription&)>;
+
+struct Drawn {
+    double deepest = -1e300, last = -1e300;  ///< m, of all frames looked at, of the last one
+    std::size_t points = 0;                  ///< of the frame in which most of it was near
+    double top = 0;                          ///< m, of the highest particle at the end
+    double kinetic = 0;                      ///< J at the end
+};
+
+/// Drops a horizontal sheet of coarse cells onto a collider, without thickness, and looks at every fifteenth frame.
+Drawn drop(const Collider& collider, ContactOf contact, const Change& change = {}) {
+    SceneDescription scene = test::sheet(33, 33, 1.6, 1.6, 20);
+    scene.solver.method = SolverMethod::line;
+    scene.time.frame_count = 91;
+    scene.colliders = {collider};
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.8, 0.9, -0.8}, {1, 0, 0}, {0, 0, 1}};
+    cloth.stiffness = {false, 4000, 60, 1e-5};
+    cloth.thickness = 0;
+    cloth.damping = 1;
+    cloth.contact = contact;
+    if (change) change(scene);
+    const SimulationModel model(scene);
+    Twin twin(model);
+    Drawn drawn;
+    for (std::uint32_t frame = 1; frame < scene.time.frame_count; ++frame) {
+        twin.run_frame(frame);
+        if (frame % 15 != 0) continue;
+        std::vector<Vec3> at;
+        for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i)
+            at.push_back(test::position_of(twin.cloth(0), i));
+        const test::DrawnDepth one = test::drawn_depth(model.cloths[0].grid, at, collider, frame / 60.0);
+        drawn.deepest = std::max(drawn.deepest, one.deepest);
+        drawn.points = std::max(drawn.points, one.points);
+        drawn.last = one.deepest;
+        drawn.top = -1e300;
+        for (const Vec3& point : at) drawn.top = std::max(drawn.top, point[1]);
+    }
+    drawn.kinetic = test::energy_of(model, 0, twin.cloth(0)).kinetic;
+    return drawn;
+}
+
+/// `size`: the collider's.
+void expect_outside(const char* what, const Collider& collider, double size, const Change& change = {}) {
+    const Drawn before = drop(collider, ContactOf::particles, change);
+    const Drawn after = drop(collider, ContactOf::surface, change);
+    std::printf(
+        "[ measured ] %s: drawn %.2e of the size deep by particles, %.2e by surface (at the end %.2e, %.2e; %zu points "
+        "a frame); top %.1e m higher; moves with %.1e, %.1e J\n",
+        what, before.deepest / size, after.deepest / size, before.last / size, after.last / size, after.points,
+        after.top - before.top, before.kinetic, after.kinetic);
+    EXPECT_GE(after.points, 10000u) << what << ": the cloth must reach the collider";
+    EXPECT_LE(after.deepest, 1e-3 * size) << what;
+    EXPECT_GT(before.deepest, 1e-3 * size) << what << ": nothing to keep out";
+}
+
+const MotionPath moving{
+    {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0.2, 0.1, -0.1}, {30, 200, -40}}, {2, {0, 0.2, 0.1}, {0, 360, 0}}}};
+
+Collider with_path(Collider collider) {
+    collider.path = moving;
+    return collider;
+}
+
+TEST(SurfaceContactTest, Sphere) {
+    const Collider ball{Sphere{{0, 0.3, 0}, 0.5}};
+    expect_outside("sphere", ball, 0.5);
+    expect_outside("moving sphere", with_path(ball), 0.5);
+    expect_outside("small sphere", Collider{Sphere{{0.01, 0.6, 0.02}, 0.1}}, 0.1, [](SceneDescription& scene) {
+        scene.cloths[0].size = {0.8, 0.8};
+        scene.cloths[0].placement.origin = {-0.4, 0.8, -0.4};
+    });
+}
+
+TEST(SurfaceContactTest, Capsule) {
+    const Collider tapered{Capsule{{-0.4, 0.2, 0}, {0.35, 0.4, 0.1}, {0.35, 0.2}}, 0.3, {20, 30, 40}};
+    expect_outside("tapered capsule", tapered, 0.2);
+    expect_outside("moving, tapered capsule", with_path(tapered), 0.2);
+}
+
+TEST(SurfaceContactTest, Ellipsoid) {
+    const Collider ellipsoid{Ellipsoid{{0, 0.3, 0}, {0.6, 0.4, 0.3}}, 0.3, {20, 30, 40}};
+    expect_outside("ellipsoid", ellipsoid, 0.3);
+    expect_outside("moving ellipsoid", with_path(ellipsoid), 0.3);
+    expect_outside("flat ellipsoid", Collider{Ellipsoid{{0, 0.3, 0}, {0.5, 0.1, 0.5}}}, 0.1);
+}
+
+TEST(SurfaceContactTest, Box) {
+    const Collider box{Box{{0, 0.3, 0}, {0.4, 0.3, 0.3}}, 0.3, {10, 25, 15}};
+    expect_outside("box", box, 0.3);
+    expect_outside("moving box", with_path(box), 0.3);
+}
+
+/// A triangle of a cell, stretched and sheared as far as that is allowed for.
+std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
+    const double x = cloth.size[0] / (cloth.grid[0] - 1), y = cloth.size[1] / (cloth.grid[1] - 1);
+    std::uniform_real_distribution<double> unit(-1, 1), stretch(0.9, 1 + contact_stretch), angle(0.2, 2.9);
+    const auto direction = [&] {
+        for (;;) {
+            const Vec3 v{unit(random), unit(random), unit(random)};
+            const double length = exact::norm(v);
+            if (length > 0.1 && length < 1) return Vec3{v[0] / length, v[1] / length, v[2] / length};
+        }
+    };
+    const Vec3 u = direction(), w = direction();
+    Vec3 across;
+    for (std::size_t k = 0; k < 3; ++k) across[k] = w[k] - dot(w, u) * u[k];
+    const double length = exact::norm(across), longest = (1 + contact_stretch) * std::hypot(x, y);
+    double dx, dy, bend;
+    do {
+        dx = x * stretch(random);
+        dy = y * stretch(random);
+        bend = angle(random);
+    } while (dx * dx + dy * dy - 2 * dx * dy * std::cos(bend) > longest * longest);
+    std::array<Vec3, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[1][k] = dx * u[k];
+        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * across[k] / length);
+    }
+    return corners;
+}
+
+/// The deepest point of triangles that are moved along a line until their corners are just outside of what contact
+/// keeps particles from, m.
+double deepest_between_corners(const Cloth& cloth, const Collider& collider, int count) {
+    const ColliderShape kept = contact_shape(cloth, collider).shape;
+    const auto distance = [](const ColliderShape& shape, const Vec3& at) {
+        return std::visit([&](const auto& each) { return exact::shape_distance(each, at); }, shape);
+    };
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    double deepest = -1e300;
+    for (int n = 0; n < count; ++n) {
+        const std::array<Vec3, 3> triangle = any_triangle(cloth, random);
+        const Vec3 from{unit(random), unit(random), unit(random)};
+        const auto at = [&](double t) {
+            std::array<Vec3, 3> moved = triangle;
+            for (Vec3& corner : moved)
+                for (std::size_t k = 0; k < 3; ++k) corner[k] += t * from[k] - (triangle[1][k] + triangle[2][k]) / 3;
+            return moved;
+        };
+        double inside = 0, outside = 4 / exact::norm(from);
+        for (int step = 0; step < 30; ++step) {
+            const double middle = 0.5 * (inside + outside);
+            const bool out = std::ranges::all_of(at(middle), [&](const Vec3& x) { return distance(kept, x) >= 0; });
+            (out ? outside : inside) = middle;
+        }
+        test::for_points_of(at(outside), 6,
+                            [&](const Vec3& x) { deepest = std::max(deepest, -distance(collider.shape, x)); });
+    }
+    return deepest;
+}
+
+TEST(SurfaceContactTest, NoTriangleOfACellReachesInWhileItsCornersAreOutsideOfWhatIsKept) {
+    Cloth cloth;
+    cloth.thickness = 0;
+    const std::pair<const char*, ColliderShape> shapes[] = {
+        {"ball", Sphere{{}, 0.3}},
+        {"ball smaller than a cell", Sphere{{}, 0.03}},
+        {"tapered capsule", Capsule{{0, -0.3, 0}, {0, 0.3, 0}, {0.2, 0.08}}},
+        {"ellipsoid", Ellipsoid{{}, {0.5, 0.3, 0.2}}},
+        {"flat ellipsoid", Ellipsoid{{}, {0.4, 0.08, 0.4}}},
+        {"needle", Ellipsoid{{}, {0.5, 0.06, 0.05}}}};
+    for (const auto& [name, shape] : shapes)
+        for (const std::array<double, 2> size : {std::array{1.0, 1.0}, {1.5, 0.5}}) {
+            cloth.grid = {17, 17};
+            cloth.size = size;
+            const double deepest = deepest_between_corners(cloth, Collider{shape}, 400);
+            std::printf("[ measured ] %s, cells %.3f x %.3f m: deepest point of 400 triangles %.1e m\n", name,
+                        size[0] / 16, size[1] / 16, deepest);
+            EXPECT_LE(deepest, 1e-9) << name;
+            EXPECT_GT(deepest, -0.1) << name << ": kept farther than it must be";
+        }
+}
+
+TEST(SurfaceContactTest, ThicknessThatIsEnoughChangesNothing) {
+    Cloth cloth;
+    cloth.grid = {65, 65};
+    cloth.thickness = 0.01;
+    for (const ColliderShape& shape : {ColliderShape{Sphere{{}, 0.3}}, ColliderShape{Capsule{}}, ColliderShape{Box{}},
+                                       ColliderShape{Plane{}}, ColliderShape{Ellipsoid{{}, {0.5, 0.3, 0.2}}}})
+        EXPECT_EQ(contact_shape(cloth, Collider{shape}), Collider{shape});
+    cloth.thickness = 0;
+    EXPECT_NE(contact_shape(cloth, Collider{Sphere{}}), Collider{Sphere{}});
+    cloth.contact = ContactOf::particles;
+    EXPECT_EQ(contact_shape(cloth, Collider{Sphere{}}), Collider{Sphere{}});
+}
+
+}  // namespace
+}  // namespace drape
