@@ -119,7 +119,7 @@ TEST(SceneErrors, AnOverrideIsCheckedLikeTheFile) {
               "--set '/cloths/0/areal_density=-1': /cloths/0/areal_density: expected a number > 0 (single "
               "precision), got -1\n");
     EXPECT_THAT(refusal("/cloths/3/damping=1"),
-                HasSubstr("expected an index into the 1 elements of /cloths, got \"3\""));
+                HasSubstr("expected an index into the 1 elements of /cloths, or - for a new one, got \"3\""));
     EXPECT_THAT(refusal("/gravity=NaN"), HasSubstr("/gravity: expected an array of 3 numbers, got \"NaN\""));
     EXPECT_THAT(refusal("/solver/substep=3"), HasSubstr("expected \"substeps\", got the unknown key \"substep\""));
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
