@@ -45,7 +45,7 @@ void main() {
         vec3 local = local_point(collider, moved_position(start.xyz, moved));
         vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
         vec3 taken = vec3(0.0f, 0.0f, 0.0f);
-        // A loop of no round for most: on the default device a branch skips nothing.
+        // No round for most: the default device then runs one under a mask, where a branch would run all.
         bool near = start.w != 0.0f && near_box_edge(local, half_extents, push.contact.x);
         int count = near ? triangles_around_particle : 0;
         for (int k = 0; k < count; ++k) {
