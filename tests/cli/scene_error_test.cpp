@@ -71,7 +71,8 @@ TEST(SceneErrorText, LetsNoControlCharacterReachTheTerminal) {
 }
 
 const BadScene bad_scenes[] = {
-    {"Malformed", "{\"cloths\": [{}]\n,}", {"2:2: Missing '}' or object member name"}},
+    {"Malformed", "{\"cloths\": [{}],\n 7: 1}", {"2:2: Missing '}' or object member name"}},
+    {"TrailingComma", "{\"cloths\": [{}]\n,}", {"2:1: expected no comma after the last member"}},
     {"UnknownKey",
      "{\"cloths\": [{}],\n \"gravty\": [0, 0, 0]}",
      {"2:2: /gravty: expected \"gravity\", got the unknown key \"gravty\""}},

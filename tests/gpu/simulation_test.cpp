@@ -181,7 +181,9 @@ TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
     moving.time = {.fps = 10, .frame_count = 4};
     Collider ball{Sphere{{-0.6, 1, 0.8}, 0.2}};
     ball.path.keys = {{0, {0, 0, 0}, {}}, {0.1, {0.4, 0, 0}, {}}, {0.2, {0.8, 0.2, 0}, {}}, {0.3, {1.2, 0, 0}, {}}};
-    moving.colliders = {ball};
+    // The larger one, at rest, decides on how many segments both are drawn with: the same in every scene here.
+    const Collider large{Sphere{{1.2, 1.6, -0.6}, 0.5}};
+    moving.colliders = {ball, large};
     Simulation simulation(moving, everything(), device());
     for (std::size_t number = 0; number < 4; ++number) {
         ASSERT_TRUE(simulation.step());
