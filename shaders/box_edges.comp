@@ -34,9 +34,26 @@ bool exists(ivec2 cell, int which) {
 #endif
 }
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+/// Which particles of a strip may meet an edge of a box: bit k is row k.
+uint near_rows(int column, int first, int count) {
+    uint rows = 0u;
+    float reach = push.contact.x;
+    for (int i = spheres_end; i < boxes_end; ++i) {
+        ColliderRecord collider = colliders[push.first + i];
+        vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+        for (int k = 0; k < count; ++k) {
+            vec4 start = LOAD(position, ivec2(column, first + k));
+            vec3 moved = LOAD(displacement, ivec2(column, first + k)).xyz;
+            vec3 local = local_point(collider, moved_position(start.xyz, moved));
+            bool near = start.w != 0.0f && near_box_edge(local, half_extents, reach);
+            rows |= near ? 1u << k : 0u;
+        }
+    }
+    return rows;
+}
+
+/// xyz: displacement of a particle after all boxes, w: 1 where one led it.
+vec4 led_by_boxes(ivec2 texel) {
     vec4 start = LOAD(position, texel);
     vec3 moved = LOAD(displacement, texel).xyz;
     bool touched = false;
@@ -45,9 +62,7 @@ void main() {
         vec3 local = local_point(collider, moved_position(start.xyz, moved));
         vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
         vec3 taken = vec3(0.0f, 0.0f, 0.0f);
-        // No round for most: the default device then runs one under a mask, where a branch would run all.
-        bool near = start.w != 0.0f && near_box_edge(local, half_extents, push.contact.x);
-        int count = near ? triangles_around_particle : 0;
+        int count = near_box_edge(local, half_extents, push.contact.x) ? triangles_around_particle : 0;
         for (int k = 0; k < count; ++k) {
             ivec4 around = triangle_around(k);
             ivec2 cell = texel + around.xy;
@@ -62,5 +77,21 @@ void main() {
         touched = touched || ordered_dot(taken, taken) > 0.0f;
         moved = led;
     }
-    STORE_VECTOR(lifted, texel, vec4(moved, touched ? 1.0f : 0.0f));
+    return vec4(moved, touched ? 1.0f : 0.0f);
+}
+
+void main() {
+    int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * box_edge_rows;
+    if (column >= push.grid.x || first >= push.grid.y) return;
+    int count = push.grid.y - first < box_edge_rows ? push.grid.y - first : box_edge_rows;
+    for (int k = 0; k < count; ++k) {
+        ivec2 texel = ivec2(column, first + k);
+        vec3 moved = LOAD(displacement, texel).xyz;
+        STORE_VECTOR(lifted, texel, vec4(moved, 0.0f));
+    }
+    // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
+    for (uint rows = near_rows(column, first, count); rows != 0u; rows &= rows - 1u) {
+        ivec2 texel = ivec2(column, first + findLSB(rows));
+        STORE_VECTOR(lifted, texel, led_by_boxes(texel));
+    }
 }

@@ -21,8 +21,8 @@ void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
             if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
         [&pipeline, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y), count);
+            const auto strips = static_cast<std::uint32_t>((push.grid.y - 1) / glsl::box_edge_rows + 1);
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), strips, count);
         });
 }
 
