@@ -1,10 +1,8 @@
 #include "cloth/cloth_model.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "scene/contact_shape.h"
-#include "shared/collider_types.h"
 
 namespace drape {
 
@@ -62,11 +60,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
                  grid.size(),
                  0,
                  0};
-    const bool box =
-        std::ranges::any_of(scene.colliders, [](const Collider& each) { return each.kind() == glsl::kind_box; });
-    const double covering = covering_radius(cloth);
-    if (box && cloth.contact == ContactOf::surface && cloth.thickness < covering)
-        edge_reach = static_cast<float>(2 * covering);
+    if (meets_box_edges(cloth, scene.colliders)) edge_reach = static_cast<float>(2 * covering_radius(cloth));
 }
 
 glsl::CollisionPush ClothModel::box_edges() const {

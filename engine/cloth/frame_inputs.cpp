@@ -33,18 +33,20 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
 
 }  // namespace
 
-glsl::ColliderRecord collider_record(const Collider& collider, double before, double now) {
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out) {
     const ColliderPose pose = collider_pose(collider, now);
     Vec3 size = shape_geometry(collider.shape).size;
     if (collider.kind() == glsl::kind_plane) size = rotate(pose.rotation, size);
-    glsl::ColliderRecord record{row(pose.rotation, 0, pose.center[0]),
-                                row(pose.rotation, 1, pose.center[1]),
-                                row(pose.rotation, 2, pose.center[2]),
-                                {},
-                                {},
-                                {},
-                                {static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2]),
-                                 static_cast<float>(std::sqrt(collider.friction))}};
+    glsl::ColliderRecord record{
+        row(pose.rotation, 0, pose.center[0]),
+        row(pose.rotation, 1, pose.center[1]),
+        row(pose.rotation, 2, pose.center[2]),
+        {},
+        {},
+        {},
+        {static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2]),
+         static_cast<float>(std::sqrt(collider.friction))},
+        {static_cast<float>(way_out[0]), static_cast<float>(way_out[1]), static_cast<float>(way_out[2]), 0}};
     if (collider.path.moves()) {
         const ColliderPose last = collider_pose(collider, before);
         ColliderPose change;
@@ -123,8 +125,10 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
             inputs.wind.push_back(row({wind[0], wind[1], wind[2]}, 0, 0));
         }
         if (substep == 0 || any_moves(scene.colliders))
-            for (const std::vector<Collider>& list : model.kept_colliders)
-                for (const Collider& collider : list) inputs.colliders.push_back(collider_record(collider, start, end));
+            for (const std::vector<KeptCollider>& list : model.kept_colliders)
+                for (const auto& [collider, way_out] : list)
+                    inputs.colliders.push_back(
+                        collider_record(collider, start, end, start < way_out.until ? way_out.normal : Vec3{}));
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
                 inputs.pins[cloth].push_back(pin_motion(pin, start, end));

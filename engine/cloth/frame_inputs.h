@@ -23,7 +23,7 @@ int first_collider(const SimulationModel& model, const ClothModel& cloth, std::u
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
 /// What the device knows of a collider at the time `now`, and of its motion since `before`, s.
-glsl::ColliderRecord collider_record(const Collider& collider, double before, double now);
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {});
 
 struct FrameInputs {
     std::vector<glsl::vec4> wind;                    ///< per substep, m/s; empty without wind

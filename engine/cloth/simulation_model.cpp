@@ -29,16 +29,20 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       asked_tolerance(run.asked_tolerance),
       choice(run.choice),
       options(run.options),
+      kept_colliders(run.kept_colliders),
       windy(run.windy) {
     scene.solver.substeps = substeps;
     add_cloths(run.self_contact ? run.self_contact->crossed : std::vector<StartCrossing>{});
-    add_colliders();
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
+        cloths[cloth].collider_list = run.cloths[cloth].collider_list;
 }
 
 void SimulationModel::add_colliders() {
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
-        std::vector<Collider> kept;
-        for (const Collider& collider : scene.colliders) kept.push_back(contact_shape(scene.cloths[cloth], collider));
+        const Cloth& shape = scene.cloths[cloth];
+        const std::vector<WayOut> out = ways_out(shape, scene.colliders, recovery_speed);
+        std::vector<KeptCollider> kept;
+        for (std::size_t k = 0; k < out.size(); ++k) kept.push_back({contact_shape(shape, scene.colliders[k]), out[k]});
         const auto list = std::ranges::find(kept_colliders, kept);
         cloths[cloth].collider_list = static_cast<std::size_t>(list - kept_colliders.begin());
         if (list == kept_colliders.end()) kept_colliders.push_back(std::move(kept));

@@ -5,8 +5,16 @@
 #include <vector>
 
 #include "cloth/self_contact.h"
+#include "scene/overlap.h"
 
 namespace drape {
+
+/// What contact keeps a cloth's particles from.
+struct KeptCollider {
+    Collider collider;
+    WayOut way_out;
+    bool operator==(const KeptCollider&) const = default;
+};
 
 struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
@@ -21,8 +29,8 @@ struct SimulationModel {
     std::vector<ClothModel> cloths;
     std::optional<SelfContact> self_contact;  ///< nothing: no cloth meets itself or another
     /// What contact keeps particles from (scene/contact_shape.h): the scene's colliders, once for all cloths that it
-    /// grows them alike for.
-    std::vector<std::vector<Collider>> kept_colliders;
+    /// grows them alike for and that leave them alike.
+    std::vector<std::vector<KeptCollider>> kept_colliders;
     bool windy;
     /// Rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }

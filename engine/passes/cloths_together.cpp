@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
 #include "cloth/together.h"
 #include "passes/cloth_solver.h"
@@ -21,17 +22,19 @@ std::string pins_name(const ClothState& whole, Field field) {
     return fmt::format("{}/{}", whole.name, row_of(field).name);
 }
 
-/// Alike, and where micro-steps go to and fro between two sets of images, together in each of them.
+/// Alike, of the same contact with colliders, which depends on where cloth is placed, and where micro-steps go to and
+/// fro between two sets of images, together in each of them.
 std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
-        std::map<std::pair<bool, bool>, std::vector<std::size_t>> parts;
+        std::map<std::tuple<std::size_t, float, bool, bool>, std::vector<std::size_t>> parts;
         for (const std::size_t index : alike) {
             const ClothModel& cloth = model.cloths[index];
             const bool turns = cloth.plan.spare_state;
-            parts[{turns && cloth.has_motion, turns && cloth.has_release}].push_back(index);
+            parts[{cloth.collider_list, cloth.edge_reach, turns && cloth.has_motion, turns && cloth.has_release}]
+                .push_back(index);
         }
-        for (auto& [pins, part] : parts) lists.push_back(std::move(part));
+        for (auto& [key, part] : parts) lists.push_back(std::move(part));
     }
     return lists;
 }

@@ -41,6 +41,12 @@ double covering_radius(const Cloth& cloth) {
     return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
 }
 
+bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
+    return cloth.contact == ContactOf::surface && cloth.thickness < covering_radius(cloth) &&
+           std::ranges::any_of(colliders,
+                               [](const Collider& each) { return std::holds_alternative<Box>(each.shape); });
+}
+
 Collider contact_shape(const Cloth& cloth, const Collider& collider) {
     Collider kept = collider;
     if (cloth.contact == ContactOf::surface) std::visit(Grow{covering_radius(cloth), cloth.thickness}, kept.shape);

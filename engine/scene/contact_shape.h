@@ -14,6 +14,10 @@ inline constexpr double contact_stretch = 0.2247;
 /// third one.
 double covering_radius(const Cloth& cloth);
 
+/// Whether edges of boxes may cut a cloth between its particles: one collider is a box, and the thickness does not keep
+/// it clear.
+bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders);
+
 /// The collider as contact keeps the cloth's particles from it, its thickness on top. Of `ContactOf::particles`, of
 /// planes and of boxes: itself. A triangle is outside a ball of radius R if its corners are at sqrt(R^2 + c^2) or
 /// farther from its centre, c being the covering radius, and a round collider is made of balls: a capsule's radii grow

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/start.h"
 #include "scene/surface_distance.h"
@@ -38,6 +40,38 @@ std::vector<Vec3> places(const Cloth& cloth) {
     return chosen;
 }
 
+/// m, along its shorter side: how deep particles must be to count.
+double counting_depth(const Cloth& cloth) {
+    return least_depth * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+}
+
+/// Unit normal of the plane through three of its corners; 0 where they are on a line.
+Vec3 start_normal(const Cloth& cloth) {
+    const Vec3 corner = start_place(cloth, 0, 0);
+    const Vec3 normal = cross(exact::minus(start_place(cloth, cloth.grid[0] - 1, 0), corner),
+                              exact::minus(start_place(cloth, 0, cloth.grid[1] - 1), corner));
+    const double size = exact::norm(normal);
+    return size > 0 ? Vec3{normal[0] / size, normal[1] / size, normal[2] / size} : Vec3{};
+}
+
+/// `inside`: the places of particles in the box, `normal` the cloth's, both in its frame.
+WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Box& box, double speed) {
+    WayOut best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3 && !inside.empty(); ++axis)
+        for (const double side : {1.0, -1.0}) {
+            double farthest = 0;
+            for (const Vec3& at : inside) farthest = std::max(farthest, box.half_extents[axis] - side * at[axis]);
+            const double along_cloth = std::sqrt(std::max(0.0, dot(normal, normal) - normal[axis] * normal[axis]));
+            if (const double cost = farthest * (1 + 2 * along_cloth); cost < least) {
+                least = cost;
+                best = {{}, 2 * farthest / speed};
+                best.normal[axis] = side;
+            }
+        }
+    return best;
+}
+
 StartOverlap overlap(const std::vector<Vec3>& places, const Collider& collider, double least) {
     const ColliderPose pose = collider_pose(collider, 0);
     const double reach = shape_geometry(collider.shape).reach;
@@ -61,12 +95,11 @@ std::vector<StartOverlap> start_overlaps(const SceneDescription& scene) {
     if (scene.colliders.empty()) return all;
     for (std::size_t index = 0; index < scene.cloths.size(); ++index) {
         const Cloth& cloth = scene.cloths[index];
-        const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
         const std::vector<Vec3> at = places(cloth);
         StartOverlap deepest;
         std::size_t count = 0;
         for (std::size_t collider = 0; collider < scene.colliders.size(); ++collider) {
-            StartOverlap one = overlap(at, scene.colliders[collider], least_depth * edge);
+            StartOverlap one = overlap(at, scene.colliders[collider], counting_depth(cloth));
             if (one.particles == 0) continue;
             ++count;
             one.cloth = index;
@@ -77,6 +110,24 @@ std::vector<StartOverlap> start_overlaps(const SceneDescription& scene) {
         if (count > 0) all.push_back(deepest);
     }
     return all;
+}
+
+std::vector<WayOut> ways_out(const Cloth& cloth, const std::vector<Collider>& colliders, double speed) {
+    std::vector<WayOut> ways(colliders.size());
+    std::vector<Vec3> at;
+    for (std::size_t k = 0; k < colliders.size(); ++k) {
+        const Box* box = std::get_if<Box>(&colliders[k].shape);
+        if (!box) continue;
+        if (at.empty()) at = places(cloth);
+        const ColliderPose pose = collider_pose(colliders[k], 0);
+        std::vector<Vec3> inside;
+        for (const Vec3& world : at)
+            if (const Vec3 local = exact::to_local(pose, world);
+                exact::shape_distance(*box, local) < -counting_depth(cloth))
+                inside.push_back(local);
+        ways[k] = way_out(inside, exact::to_local({pose.rotation, {}}, start_normal(cloth)), *box, speed);
+    }
+    return ways;
 }
 
 std::string overlap_text(const SceneDescription& scene, const StartOverlap& overlap) {

@@ -125,6 +125,9 @@ SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner
     precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
     precise vec3 relative = motion - surface_displacement(collider, touching);
     precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
+    // What leaves by one face is not led to another one.
+    vec3 way_out = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
+    if (before > recovery && has_way_out(collider) && ordered_dot(cut.normal, way_out) < 0.5f) return taken;
     precise float depth = cut.depth - kept_depth(before, recovery);
     precise float asked = depth * a.weight * cut.shares.x / mobility - ordered_dot(taken, cut.normal);
     if (!(asked > 0.0f)) return taken;

@@ -196,6 +196,20 @@ SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 wor
     return SurfacePoint(size, ordered_dot(from_foot, size));
 }
 
+/// Whether cloth started in a box, so that it leaves it by one face.
+SHARED bool has_way_out(ColliderRecord collider) {
+    return collider.way_out.x != 0.0f || collider.way_out.y != 0.0f || collider.way_out.z != 0.0f;
+}
+
+/// That face, for a point at `local`.
+SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
+    vec3 normal = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
+    vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    vec3 magnitude = vec3(abs(normal.x), abs(normal.y), abs(normal.z));
+    precise float distance = ordered_dot(local, normal) - ordered_dot(half_extents, magnitude);
+    return SurfacePoint(normal, distance);
+}
+
 /// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
 /// literal kind, so that each loop holds one shape's code alone. `depth` is by how much it is pushed.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
@@ -211,9 +225,14 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     // Where it began, carried along by the collider.
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
-    precise float before =
-        thickness - collider_surface(kind, collider, carried, local_point(collider, carried)).distance;
-    precise float depth = inside - kept_depth(before, recovery);
+    vec3 local_carried = local_point(collider, carried);
+    precise float before = thickness - collider_surface(kind, collider, carried, local_carried).distance;
+    if (kind == kind_box && before > recovery && has_way_out(collider)) {
+        found = way_out_surface(collider, local);
+        precise float way = thickness - way_out_surface(collider, local_carried).distance;
+        before = way;
+    }
+    precise float depth = thickness - found.distance - kept_depth(before, recovery);
     if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
     vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;

@@ -24,6 +24,8 @@ struct ColliderRecord {
     vec4 change_x, change_y, change_z;
     vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii; capsule, along its y:
                  // half length, radius at the lower end, at the upper. w: sqrt(friction)
+    vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in; 0:
+                   // by the nearest one
 };
 
 /// A collider as drawn.

@@ -64,9 +64,26 @@ TEST(TwinBoxEdgeTest, ClothsTogetherAndAgainstEachOther) {
     second.placement.origin[1] = 0.06;
     scene.cloths.push_back(second);
     compare(scene);
+    scene.cloths[1].placement.scale = {1.1, 1.3};  // its edges reach farther
+    compare(scene);
+    scene.cloths[1].placement.scale = {1, 1};
     for (Cloth& cloth : scene.cloths) cloth.self_collision = SelfCollision{};
     scene.cloths[1].grid = {17, 17};
     scene.cloths[1].thickness = 0.01;
+    compare(scene);
+}
+
+TEST(TwinBoxEdgeTest, ClothThatStartsInBoxes) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.velocity = {};
+    second.placement.origin[1] = -0.1;
+    scene.cloths[0].placement.origin[1] = 0.5;  // in none
+    scene.cloths.push_back(second);
+    EXPECT_NE(SimulationModel(scene).cloths[0].collider_list, SimulationModel(scene).cloths[1].collider_list);
+    compare(scene);
+    for (Cloth& cloth : scene.cloths) cloth.contact = ContactOf::particles;
     compare(scene);
 }
 

@@ -205,24 +205,25 @@ TEST(ContactTest, NoKindOfColliderThrowsWhatStartsInIt) {
     struct Case {
         const char* name;
         Collider collider;
-        double speed;  ///< m/s; that of springs which contact stretches over an edge is their own
-        double drawn;  ///< likewise where all that is drawn stays out, so that an edge stretches more of them
+        double speed;  ///< m/s
     };
-    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 0.2, 0.2},
-                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 0.2, 0.2},
-                          {"box below the middle", {Box{{0, 0, 0}, {0.3, 0.2, 0.3}}}, 2, 5},
-                          {"ellipsoid", {Ellipsoid{{0, 0, 0}, {0.3, 0.2, 0.25}}}, 1, 1},
-                          {"capsule", {Capsule{{-0.2, 0, 0}, {0.2, 0, 0}, {0.2, 0.2}}}, 1, 1}};
-    for (const auto& [name, collider, speed, drawn] : cases) {
+    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 0.2},
+                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 0.2},
+                          {"box below the middle", {Box{{0, 0, 0}, {0.3, 0.2, 0.3}}}, 0.6},
+                          {"narrow box", {Box{{0, 0, 0}, {0.05, 0.2, 0.3}}}, 0.8},
+                          {"box beside it", {Box{{0.5, 0, 0}, {0.3, 0.2, 0.3}}}, 0.6},
+                          {"ellipsoid", {Ellipsoid{{0, 0, 0}, {0.3, 0.2, 0.25}}}, 1},
+                          {"capsule", {Capsule{{-0.2, 0, 0}, {0.2, 0, 0}, {0.2, 0.2}}}, 1}};
+    for (const auto& [name, collider, speed] : cases) {
         const Leaving seen = leave(collider, SolverMethod::line, 75);
         std::printf("[ measured ] %s: at most %.2f m/s, %.1e m deep after 1.25 s\n", name, std::ranges::max(seen.speed),
                     seen.depth.back());
-        EXPECT_GT(seen.depth.front(), 0.09) << name;
+        EXPECT_GT(seen.depth.front(), 0.04) << name;
         EXPECT_LE(std::ranges::max(seen.speed), speed) << name;
         EXPECT_LE(seen.depth.back(), 1e-6) << name;
         const Leaving surface = leave(collider, SolverMethod::line, 75, ContactOf::surface);
         std::printf("[ measured ] %s: all that is drawn at most %.2f m/s\n", name, std::ranges::max(surface.speed));
-        EXPECT_LE(std::ranges::max(surface.speed), drawn) << name;
+        EXPECT_LE(std::ranges::max(surface.speed), speed) << name;
         EXPECT_LE(surface.depth.back(), 1e-6) << name;
     }
 }

@@ -52,6 +52,26 @@ TEST(OverlapTest, EveryKindOfCollider) {
            "0.05 m inside /colliders/capsules/0 (5 particles)");
 }
 
+TEST(OverlapTest, AClothLeavesABoxByOneFace) {
+    const auto way = [](const std::string& box, const std::vector<std::string>& overrides = {}) {
+        const SceneResult result = over("\"boxes\": [{" + box + "}]", overrides);
+        return ways_out(result.scene->cloths[0], result.scene->colliders, 0.1).at(0);
+    };
+    const auto expect = [](const WayOut& found, const Vec3& normal, double until) {
+        EXPECT_EQ(found.normal, normal);
+        EXPECT_NEAR(found.until, until, 1e-9);
+    };
+    const std::string middle = R"("center": [0, 0, 0], "half_extents": [0.3, 0.25, 0.3])";
+    expect(way(middle), {0, 1, 0}, 3);  // though most are nearer to a side
+    expect(way(middle, {"/cloths/0/placement/origin=[-0.5,-0.1,-0.5]"}), {0, -1, 0}, 3);
+    expect(way(middle + R"(, "rotate": [0, 0, 90])"), {1, 0, 0}, 4);  // its own x is up
+    expect(way(middle, {"/cloths/0/placement/origin=[-0.5,0.3,-0.5]"}), {0, 0, 0}, 0);
+    // An edge of the sheet is in it by 0.1 m: sideways counts three times.
+    expect(way(R"("center": [0.7, -0.02, 0], "half_extents": [0.3, 0.3, 0.3])"), {0, 1, 0}, 3.6);
+    expect(way(R"("center": [0.7, 0.1, 0], "half_extents": [0.3, 0.35, 0.3])"), {-1, 0, 0}, 2);
+    EXPECT_EQ(ways_out(over(ball).scene->cloths[0], over(ball).scene->colliders, 0.1), std::vector<WayOut>(1));
+}
+
 TEST(OverlapTest, IsSaidWhereTheClothIsPlaced) {
     EXPECT_THAT(warned(ball),
                 ElementsAre("over.json:3:16: /cloths/0/placement: cloth \"sheet\" starts up to 0.2 m inside "
