@@ -13,6 +13,8 @@ layout(set = 0, binding = 1, std430) buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Meetings { uint meetings[]; };
+layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
 
 /// The cloth of a block, which has none of another: those begin at even columns and rows.
 int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
@@ -23,14 +25,13 @@ bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
     return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]), push.margin);
 }
 
-
 void main() {
     ivec2 across = self_tree_size(push.grid, 1);
     int last = across.x * across.y - 1, begin = push.grid.x * push.grid.y;
     int index = min(int(gl_GlobalInvocationID.x), last);
     ivec2 own = ivec2(index % across.x, index / across.x), node = ivec2(0, 0);
     int owner = block_owner(own);
-    bool searches = gl_GlobalInvocationID.x <= uint(last) && record[0].search != 0u && owner >= 0;
+    bool searches = gl_GlobalInvocationID.x <= uint(last) && owner >= 0;
     precise float most = (cloths[max(owner, 0)].thickness + push.thickness) * 0.5f;
     int level = searches ? push.top : push.top + 1;
     int first = 0, visits = 0;  // first: box of the level
@@ -49,9 +50,8 @@ void main() {
             open = false;
             entered = false;
         }
-        for (int found = open && level == 1 ? 1 : 0; found > 0; --found) {
-            if (!meets(owner, box, node, boxes[place])) continue;
-            uint at = atomicAdd(record[0].block_count, 1u);
+        if (open && level == 1 && meets(owner, box, node, boxes[place])) {
+            uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
             if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
         }
         if (open && level > 1) {
@@ -71,4 +71,5 @@ void main() {
             node = ivec2(node.x >> 1, node.y >> 1);
         }
     }
+    dispatch(self_size_cells, reached);
 }

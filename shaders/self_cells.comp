@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/every.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -11,6 +12,8 @@ layout(set = 0, binding = 1, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Candidates { ivec2 candidates[]; };
 layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
 
 /// Cell k (0..3) of a block.
 ivec2 cell_of(int block, int k) {
@@ -32,32 +35,40 @@ Block block_of(int block) {
                  boxes[index_of(cell_of(block, 2))], boxes[index_of(cell_of(block, 3))]);
 }
 
-/// Bits of the cells of a block that one may come near.
-uint near(SelfBox box, Block other, float thickness) {
-    return (self_boxes_meet(box, other.box0, push, thickness, push.margin) ? 1u : 0u) |
-           (self_boxes_meet(box, other.box1, push, thickness, push.margin) ? 2u : 0u) |
-           (self_boxes_meet(box, other.box2, push, thickness, push.margin) ? 4u : 0u) |
-           (self_boxes_meet(box, other.box3, push, thickness, push.margin) ? 8u : 0u);
+/// Whether cell k of one block may come near cell l of another, and neither lies past an edge nor are they neighbours.
+bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
+    ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
+    bool may = inside(a) && inside(b) && !self_neighbours(a, b);
+    return may && self_boxes_meet(box, other_box, push, thickness, push.margin);
+}
+
+/// Bits of the cells of another block that cell k of one meets.
+uint near(Block one, SelfBox box, int k, Block other, float thickness) {
+    return (meet(one, box, k, other, other.box0, 0, thickness) ? 1u : 0u) |
+           (meet(one, box, k, other, other.box1, 1, thickness) ? 2u : 0u) |
+           (meet(one, box, k, other, other.box2, 2, thickness) ? 4u : 0u) |
+           (meet(one, box, k, other, other.box3, 3, thickness) ? 8u : 0u);
+}
+
+void judge(ivec2 pair) {
+    Block one = block_of(pair.x), other = block_of(pair.y);
+    float thickness = self_mean_thickness(cloth_at(one.at), cloth_at(other.at));
+    uint found = near(one, one.box0, 0, other, thickness) | (near(one, one.box1, 1, other, thickness) << 4) |
+                 (near(one, one.box2, 2, other, thickness) << 8) | (near(one, one.box3, 3, other, thickness) << 12);
+    uint count = uint(bitCount(found)), place = 0u;
+    if (count > 0u) place = place_after(atomicAdd(record[0].candidate_count, count), count);
+    for (;;) {
+        int k = max(findLSB(found), 0);
+        int a = index_of(one.at + ivec2((k >> 2) & 1, k >> 3)), b = index_of(other.at + ivec2(k & 1, (k >> 1) & 1));
+        if (found != 0u && place < uint(push.cell_room)) candidates[place] = ivec2(min(a, b), max(a, b));
+        ++place;
+        found &= max(found, 1u) - 1u;
+        if (found == 0u) break;
+    }
 }
 
 void main() {
-    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    int count = record[0].search != 0u ? self_listed(record[0].block_count, push.cell_room) : 0;
-    for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
-        ivec2 pair = blocks[i];
-        Block one = block_of(pair.x), other = block_of(pair.y);
-        float thickness = self_mean_thickness(cloth_at(one.at), cloth_at(other.at));
-        uint found = near(one.box0, other, thickness) | (near(one.box1, other, thickness) << 4) |
-                     (near(one.box2, other, thickness) << 8) | (near(one.box3, other, thickness) << 12);
-        for (; found != 0u; found &= found - 1u) {
-            int k = findLSB(found);
-            ivec2 a = one.at + ivec2((k >> 2) & 1, k >> 3), b = other.at + ivec2(k & 1, (k >> 1) & 1);
-            int first = index_of(a), second = index_of(b);
-            int listed = inside(a) && inside(b) && !self_neighbours(a, b) ? 1 : 0;
-            for (; listed > 0; --listed) {
-                uint at = atomicAdd(record[0].candidate_count, 1u);
-                if (at < uint(push.cell_room)) candidates[at] = ivec2(min(first, second), max(first, second));
-            }
-        }
-    }
+    int count = self_listed(record[0].block_count, push.cell_room);
+    FOR_EVERY(i, count, judge(blocks[i]))
+    dispatch(self_size_near, reached);
 }

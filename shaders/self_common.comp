@@ -10,6 +10,7 @@ layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacements;
 layout(set = 0, binding = 1, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 3, std430) buffer Sizes { uvec4 sizes[]; };
 
 vec3 sample_of(int k) {
     SelfCloth cloth = cloths[k / (self_samples * self_samples)];
@@ -23,13 +24,17 @@ void main() {
     for (int k = 0; k < count; ++k) sum = sum + sample_of(k);
     if (gl_GlobalInvocationID.x > 0u) return;
     record[0].carried = vec4(self_mean(sum, push.cloth_count), 0.0f);
-    record[0].pair_count = 0u;
+    record[0].point_count = 0u;
+    record[0].edge_count = 0u;
+    record[0].near_point_count = 0u;
+    record[0].near_edge_count = 0u;
     record[0].cell_count = 0u;
-    record[0].short_rounds = 0u;
     record[0].drift = self_drift(record[0].drift, uintBitsToFloat(record[0].moved));
     record[0].moved = 0u;
+    for (int k = self_size_of_substep; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
     if (push.first == 0) return;
     record[0].most_pairs = 0u;
+    record[0].most_near = 0u;
     record[0].most_cells = 0u;
     record[0].unproved = 0u;
     record[0].truncated = 0u;

@@ -1,7 +1,9 @@
-// Adds up what the listed pairs push their corners by: integers, so that the order does not matter.
+// Adds up what the listed pairs push their corners by: integers, so that the order does not matter. What comes after it
+// runs only where something was pushed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/every.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -10,6 +12,10 @@ layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, std430) buffer Corrections { ivec4 corrections[]; };
+layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
+
+bool pushes = false;
 
 /// Adds to what a corner is pushed by.
 void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
@@ -17,33 +23,41 @@ void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
     precise float moves = mass * weight;
     precise float per_metre = self_correction_units / thickness;
     precise vec3 correction = impulse * moves;
-    atomicAdd(corrections[place].x, self_units(correction.x, per_metre));
-    atomicAdd(corrections[place].y, self_units(correction.y, per_metre));
-    atomicAdd(corrections[place].z, self_units(correction.z, per_metre));
-    atomicAdd(corrections[place].w, self_weight(weight));
+    if (weight != 0.0f) {
+        atomicAdd(corrections[place].x, self_units(correction.x, per_metre));
+        atomicAdd(corrections[place].y, self_units(correction.y, per_metre));
+        atomicAdd(corrections[place].z, self_units(correction.z, per_metre));
+        atomicAdd(corrections[place].w, self_weight(weight));
+    }
 }
 
 vec3 moved(ivec2 texel) { return imageLoad(displacements, texel).xyz; }
 
-void main() {
-    int count = self_listed(record[0].pair_count, push.pair_room);
-    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
-        uvec4 pair = pairs[i];
-        bool edges = (pair.x & self_edge_pair) != 0u;
-        ivec2 a = self_texel(pair.x), b = self_texel(pair.y), c = self_texel(pair.z), d = self_texel(pair.w);
-        SelfCloth one = cloth_at(a), other = cloth_at(d);
-        vec4 xa = imageLoad(positions, a), xb = imageLoad(positions, b), xc = imageLoad(positions, c),
-             xd = imageLoad(positions, d);
-        SelfGap gap = self_gap(edges, SelfCorners(xa.xyz, xb.xyz, xc.xyz, xd.xyz));
-        vec4 mass = self_corner_masses(edges, one, other, vec4(xa.w, xb.w, xc.w, xd.w));
-        vec3 impulse = self_impulse(gap, SelfCorners(moved(a), moved(b), moved(c), moved(d)), mass,
-                                    self_pair_thickness(one, other, edges, a, b, c, d), self_pair_friction(one, other),
-                                    push.recovery);
-        if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) continue;
+void push_apart(bool edges, uvec4 pair) {
+    ivec2 a = self_texel(pair.x), b = self_texel(pair.y), c = self_texel(pair.z), d = self_texel(pair.w);
+    SelfCloth one = cloth_at(a), other = cloth_at(d);
+    vec4 xa = imageLoad(positions, a), xb = imageLoad(positions, b), xc = imageLoad(positions, c),
+         xd = imageLoad(positions, d);
+    SelfGap gap = self_gap(edges, SelfCorners(xa.xyz, xb.xyz, xc.xyz, xd.xyz));
+    vec4 mass = self_corner_masses(edges, one, other, vec4(xa.w, xb.w, xc.w, xd.w));
+    vec3 impulse = self_impulse(gap, SelfCorners(moved(a), moved(b), moved(c), moved(d)), mass,
+                                self_pair_thickness(one, other, edges, a, b, c, d), self_pair_friction(one, other),
+                                push.recovery);
+    if (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f) {
         add(a, one.thickness, impulse, mass.x, gap.weights.x);
         add(b, edges ? one.thickness : other.thickness, impulse, mass.y, gap.weights.y);
         add(c, other.thickness, impulse, mass.z, gap.weights.z);
         add(d, other.thickness, impulse, mass.w, gap.weights.w);
+        pushes = true;
     }
+}
+
+void main() {
+    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
+    FOR_EVERY(i, points, push_apart(false, pairs[i]))
+    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_room - 1 - i]))
+    dispatch(self_size_push + push.round, pushes ? uint(push.grid.x * push.grid.y) : 0u);
+    if (push.round + 1 < self_iterations)
+        dispatch(self_size_contact + push.round + 1, pushes ? uint(max(points, edges)) : 0u);
 }

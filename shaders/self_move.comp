@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/every.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -27,26 +28,25 @@ void move(int place, float thickness) {
     vec3 made = held ? moved : part;
     uint motion = floatBitsToUint(self_motion(made));
     // Most that come here find one that moved farther.
-    for (int go = motion > record[0].moved ? 1 : 0; go > 0; --go) atomicMax(record[0].moved, motion);
-    for (int go = cut ? 1 : 0; go > 0; --go) {
-        if (held) {
-            atomicAdd(record[0].unproved, 1u);
-        } else {
-            atomicAdd(record[0].truncated, 1u);
-            imageStore(displacements, texel, vec4(self_truncated(carried, moved, share), displacement.w));
-            before[place].w = 1.0f;
-        }
+    if (motion > record[0].moved) atomicMax(record[0].moved, motion);
+    if (cut && held) atomicAdd(record[0].unproved, 1u);
+    if (cut && !held) {
+        atomicAdd(record[0].truncated, 1u);
+        imageStore(displacements, texel, vec4(self_truncated(carried, moved, share), displacement.w));
+        before[place].w = 1.0f;
     }
 }
 
-void main() {
-    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    for (int place = int(gl_GlobalInvocationID.x); place < push.grid.x * push.grid.y; place += stride) {
-        int owner = owner_of(place);
-        if (owner >= 0) move(place, cloths[owner].thickness);
-        if (place > 0) continue;
-        record[0].most_pairs = max(record[0].most_pairs, record[0].pair_count);
-        record[0].most_cells = max(max(record[0].most_cells, record[0].cell_count),
-                                   max(record[0].candidate_count, record[0].block_count));
-    }
+void count() {
+    record[0].most_pairs = max(record[0].most_pairs, record[0].point_count + record[0].edge_count);
+    record[0].most_near = max(record[0].most_near, record[0].near_point_count + record[0].near_edge_count);
+    record[0].most_cells = max(max(record[0].most_cells, record[0].cell_count),
+                               max(record[0].candidate_count, record[0].block_count));
 }
+
+void move_own(int place) {
+    if (owner_of(place) >= 0) move(place, cloth_at(texel_of(place)).thickness);
+    if (place == 0) count();
+}
+
+void main() { FOR_EVERY(place, push.grid.x * push.grid.y, move_own(place)) }

@@ -1,10 +1,11 @@
 // Of every listed pair: the share of its motion that each corner may make and still be on its side of the plane between the
 // two. A particle keeps the least of all its pairs'; positive floats order as their bits do. The first round begins
 // with nobody moving, each next one with what the round before found to cross nothing: then the planes have moved too,
-// and layers that move together are not held back by each other.
+// and layers that move together are not held back by each other. It runs only where that left a motion short.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/every.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -14,6 +15,10 @@ layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Before { vec4 before[]; };
 layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
+layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
+
+bool cuts_short = false;
 
 struct Corner {
     int place;
@@ -38,34 +43,35 @@ Corner corner_of(uint which) {
 }
 
 void bound(SelfGap gap, Corner corner, float middle, float end, float side) {
-    float share =
-        self_share(gap, middle, end, side, corner.along, corner.share, corner.held, push.least);
-    if (!(share < 1.0f)) return;
-    atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
-    atomicOr(record[0].short_rounds, 1u << push.round);
+    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, push.least);
+    if (share < 1.0f) {
+        atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
+        cuts_short = true;
+    }
+}
+
+void bound_pair(bool edges, uvec4 pair) {
+    Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
+    SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
+    SelfGap gap = self_gap(edges, SelfCorners(a.x, b.x, c.x, d.x));
+    if (push.round == 0 && self_touch(gap)) atomicAdd(record[0].unproved, 1u);
+    a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
+    b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
+    c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
+    d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
+    vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
+    float middle = self_middle(edges, end);
+    bound(gap, a, middle, end.x, 1.0f);
+    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f);
+    bound(gap, c, middle, end.z, -1.0f);
+    bound(gap, d, middle, end.w, -1.0f);
 }
 
 void main() {
-    bool runs = push.round == 0 || (record[0].short_rounds & (1u << (push.round - 1))) != 0u;
-    int count = runs ? self_listed(record[0].pair_count, push.pair_room) : 0;
-    int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    for (int i = int(gl_GlobalInvocationID.x); i < count; i += stride) {
-        uvec4 pair = pairs[i];
-        bool edges = (pair.x & self_edge_pair) != 0u;
-        Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
-        SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
-        SelfGap gap = self_gap(edges, SelfCorners(a.x, b.x, c.x, d.x));
-        for (int go = push.round == 0 && self_touch(gap) ? 1 : 0; go > 0; --go) atomicAdd(record[0].unproved, 1u);
-        a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
-        b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
-        c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
-        d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
-        vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along),
-                             vec4(a.share, b.share, c.share, d.share));
-        float middle = self_middle(edges, end);
-        bound(gap, a, middle, end.x, 1.0f);
-        bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f);
-        bound(gap, c, middle, end.z, -1.0f);
-        bound(gap, d, middle, end.w, -1.0f);
-    }
+    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
+    FOR_EVERY(i, points, bound_pair(false, pairs[i]))
+    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    FOR_EVERY(i, edges, bound_pair(true, pairs[push.pair_room - 1 - i]))
+    if (push.round + 1 < self_rounds)
+        dispatch(self_size_room + push.round + 1, cuts_short ? uint(max(points, edges)) : 0u);
 }

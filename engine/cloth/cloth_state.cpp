@@ -57,6 +57,8 @@ FieldExtent self_sheet(Context c) {
 FieldExtent self_place_list(Context c) { return {c.model.self_contact->place_count()}; }
 FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.model.self_contact->push.grid)}; }
 FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.pair_room)}; }
+FieldExtent self_near_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.near_room)}; }
+FieldExtent self_size_list(Context) { return {glsl::self_size_count}; }
 FieldExtent self_cell_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.cell_room)}; }
 FieldExtent self_share_list(Context c) { return {c.model.self_contact->place_count() * glsl::self_rounds}; }
 FieldExtent one(Context) { return {1}; }
@@ -96,12 +98,14 @@ std::vector<FieldRow> self_contact_rows() {
         {Field::self_boxes, "self boxes", buffer, layout_of<glsl::SelfBox>(), device, keeps_contact, self_box_list},
         {Field::self_candidates, "self candidates", buffer, pair, device, keeps_contact, self_cell_list},
         {Field::self_cells, "self cells", buffer, pair, device, keeps_contact, self_cell_list},
+        {Field::self_near, "self near", buffer, pair, device, keeps_contact, self_near_list},
         {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_pair_list},
         {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, keeps_contact,
          self_place_list},
         {Field::self_before, "self before", buffer, vector, device, keeps_contact, self_place_list},
         {Field::self_shares, "self shares", buffer, integer, device, keeps_contact, self_share_list},
         {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, keeps_contact, one},
+        {Field::self_sizes, "self sizes", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_size_list},
     };
 }
 

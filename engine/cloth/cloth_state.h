@@ -58,11 +58,13 @@ enum class Field : std::uint8_t {
     self_boxes,          ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)
     self_candidates,     ///< pairs of cells that may come near each other until the next search
     self_cells,          ///< those that are in this substep
-    self_pairs,          ///< corners of the pairs of primitives near each other
+    self_near,           ///< pairs of primitives whose boxes are near each other
+    self_pairs,          ///< corners of those that may meet
     self_corrections,    ///< sums of integers, by place
     self_before,       ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
     self_shares,       ///< bits of the share of its motion that a particle may make, by round
     self_record,       ///< what self-contact was in the frame
+    self_sizes,        ///< of the dispatches that go through lists
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< of every substep
 };
@@ -110,7 +112,7 @@ struct FieldRow {
     std::vector<std::byte> (*start)(const FieldContext&) = nullptr;
     bool is_image() const { return view != FieldView::buffer; }
     /// Of contact between cloths: kept with the first cloth, for all.
-    bool is_shared() const { return field >= Field::self_owners && field <= Field::self_record; }
+    bool is_shared() const { return field >= Field::self_owners && field <= Field::self_sizes; }
     /// Cloths that are simulated together (cloth/together.h) have it in one image.
     bool lies_together() const { return is_image() && !is_shared(); }
 };

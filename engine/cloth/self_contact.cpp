@@ -95,9 +95,11 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
     push.pair_room = static_cast<int>(particles * self_pairs_per_particle);
+    push.near_room = static_cast<int>(particles * self_near_per_particle);
     push.cell_room = static_cast<int>(particles * self_cells_per_particle);
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
+    push.cloth = cloths.front();
 }
 
 std::vector<int> SelfContact::owners() const {
@@ -116,8 +118,9 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
 }
 
 double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record) {
-    return std::max(static_cast<double>(record.most_pairs) / push.pair_room,
-                    static_cast<double>(record.most_cells) / push.cell_room);
+    const auto use = [](std::uint32_t most, int room) { return static_cast<double>(most) / room; };
+    return std::max({use(record.most_pairs, push.pair_room), use(record.most_near, push.near_room),
+                     use(record.most_cells, push.cell_room)});
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

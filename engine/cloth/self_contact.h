@@ -11,8 +11,8 @@
 
 namespace drape {
 
-/// Per particle: pairs that their list has room for, and pairs of cells.
-inline constexpr std::uint32_t self_pairs_per_particle = 96, self_cells_per_particle = 48;
+/// Per particle: pairs that their list has room for, pairs whose boxes are near each other, and pairs of cells.
+inline constexpr std::uint32_t self_pairs_per_particle = 96, self_near_per_particle = 192, self_cells_per_particle = 48;
 /// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
 /// the lower nodes of its tree of boxes are of one cloth each.
 inline constexpr int self_sheet_step = 8;

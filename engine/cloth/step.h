@@ -37,6 +37,8 @@ enum class StepKind {
     self_blocks,
     self_cells,
     self_near,
+    self_bent,
+    self_primitives,
     self_pairs,
     self_contact,
     self_push,

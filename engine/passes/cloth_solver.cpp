@@ -296,6 +296,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::self_blocks:
         case StepKind::self_cells:
         case StepKind::self_near:
+        case StepKind::self_bent:
+        case StepKind::self_primitives:
         case StepKind::self_pairs:
         case StepKind::self_contact:
         case StepKind::self_push:
@@ -319,6 +321,10 @@ void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const
             return add_self_cells(graph, pipelines_, state, step);
         case StepKind::self_near:
             return add_self_near(graph, pipelines_, state, step);
+        case StepKind::self_bent:
+            return add_self_bent(graph, pipelines_, state, step);
+        case StepKind::self_primitives:
+            return add_self_primitives(graph, pipelines_, state, step);
         case StepKind::self_pairs:
             return add_self_pairs(graph, pipelines_, state, step);
         case StepKind::self_contact:

@@ -21,6 +21,8 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
     return *pipeline;
 }
 
+std::uint32_t PipelineCache::entries_each() const { return device_.info().type == "cpu" ? 8 : 1; }
+
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
     const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
     std::vector<std::pair<VkFormat, FieldExtent>> images = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},

@@ -22,6 +22,9 @@ class PipelineCache {
     const vulkan::ComputePipeline& get(const std::string& module,
                                        const std::vector<vulkan::SpecializationConstant>& constants = {});
     std::size_t size() const { return pipelines_.size(); }
+    /// Entries of a list that an invocation takes in turn: on a CPU, where one costs as much to begin as some entries,
+    /// several.
+    std::uint32_t entries_each() const;
 
   private:
     const vulkan::Device& device_;

@@ -36,16 +36,23 @@ void add_pass(graph::Graph& graph, const Step& step, const char* name, const vul
     add_pass<glsl::SelfContactPush>(graph, pass_name(name, step), step, pipeline, {invocations, 1}, set_up);
 }
 
-/// An invocation per place on the sheet, or per share of the pairs.
-int in_a_row(const Step& step) {
+/// Invocations that go over the places on the sheet.
+int over_sheet(const PipelineCache& pipelines, const Step& step) {
     const glsl::ivec2 grid = step.push<glsl::SelfContactPush>().grid;
-    return static_cast<int>(std::min(std::size_t(grid.x) * std::size_t(grid.y), most_invocations));
+    const std::size_t each = pipelines.entries_each();
+    return static_cast<int>(std::min((std::size_t(grid.x) * std::size_t(grid.y) + each - 1) / each, most_invocations));
 }
 
 /// Of a pass that looks up which cloth a place is of (shaders/include/self_cloths.h).
 const vulkan::ComputePipeline& pipeline_of(PipelineCache& pipelines, const char* module, const Step& step) {
     const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
     return pipelines.get(module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}});
+}
+/// Likewise of one that says how far those after it run (shaders/include/self_lists.h).
+const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const char* module, const Step& step) {
+    const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
+    return pipelines.get(
+        module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
 }
 
 void read(PassSetup& setup, const ClothState& contact, Field field, const char* name) {
@@ -74,6 +81,29 @@ void move_on_sheet(PassSetup& setup, ClothState& contact) {
 }
 void write(PassSetup& setup, ClothState& contact, Field field, const char* name) {
     contact[field] = setup.write(contact[field], Access::compute_write, name);
+}
+
+/// Entries of a list, which the passes after it go through.
+void fill(PassSetup& setup, ClothState& contact, Field list, const char* name) {
+    update_in_place(setup, contact, list, name);
+    update_in_place(setup, contact, Field::self_record, "record");
+    update_in_place(setup, contact, Field::self_sizes, "sizes");
+}
+
+/// A pass over the sheet, or through a list, as far as the passes before found something to do for it.
+template <class SetUp>
+void add_sized_pass(graph::Graph& graph, const ClothState& contact, const Step& step, const char* name,
+                    const vulkan::ComputePipeline& pipeline, int size, const SetUp& set_up) {
+    const graph::Handle sizes = contact[Field::self_sizes];
+    graph.add_pass(
+        pass_name(name, step),
+        [&](PassSetup& setup) {
+            setup.read(sizes, Access::indirect_read);
+            set_up(setup);
+        },
+        [&pipeline, size, sizes, push = step.push<glsl::SelfContactPush>()](graph::PassContext& context) {
+            context.dispatch_indirect(pipeline, push, sizes, static_cast<std::uint64_t>(size) * sizeof(glsl::uvec4));
+        });
 }
 
 }  // namespace
@@ -114,6 +144,7 @@ void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         read(setup, contact, Field::self_displacements, "displacements");
         read(setup, contact, Field::self_cloths, "cloths");
         update_in_place(setup, contact, Field::self_record, "record");
+        update_in_place(setup, contact, Field::self_sizes, "sizes");
     });
 }
 
@@ -122,97 +153,113 @@ void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
     const bool leaves = push.level == 0;
     if (leaves)
         return add_pass(graph, step, "self boxes", pipeline_of(pipelines, "self_boxes_leaves.comp", step),
-                        in_a_row(step), [&](PassSetup& setup) {
+                        over_sheet(pipelines, step), [&](PassSetup& setup) {
                             read_sheet(setup, contact);
                             write(setup, contact, Field::self_boxes, "boxes");
                             write(setup, contact, Field::self_corrections, "corrections");
                             write(setup, contact, Field::self_shares, "shares");
                             read(setup, contact, Field::self_record, "record");
+                            write(setup, contact, Field::self_before, "before");
                         });
     const int count =
         push.last > push.level ? glsl::workgroup_width : static_cast<int>(self_tree_boxes_of(push.grid, push.level));
     add_pass(graph, step, "self boxes above", pipelines.get("self_boxes.comp"), count, [&](PassSetup& setup) {
         update_in_place(setup, contact, Field::self_boxes, "boxes");
         update_in_place(setup, contact, Field::self_record, "record");
+        update_in_place(setup, contact, Field::self_sizes, "sizes");
     });
 }
 
 void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    const auto blocks = static_cast<int>(self_tree_boxes_of(step.push<glsl::SelfContactPush>().grid, 1));
-    add_pass(graph, step, "self blocks", pipeline_of(pipelines, "self_blocks.comp", step), blocks,
-             [&](PassSetup& setup) {
-                 read(setup, contact, Field::self_boxes, "boxes");
-                 read_cloths(setup, contact);
-                 read(setup, contact, Field::self_meetings, "meetings");
-                 update_in_place(setup, contact, Field::self_cells, "blocks");
-                 update_in_place(setup, contact, Field::self_record, "record");
-             });
+    add_sized_pass(graph, contact, step, "self blocks", listing_pipeline(pipelines, "self_blocks.comp", step),
+                   glsl::self_size_blocks, [&](PassSetup& setup) {
+                       read(setup, contact, Field::self_boxes, "boxes");
+                       read_cloths(setup, contact);
+                       read(setup, contact, Field::self_meetings, "meetings");
+                       fill(setup, contact, Field::self_cells, "blocks");
+                   });
 }
 
 void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self cells", pipeline_of(pipelines, "self_cells.comp", step), in_a_row(step),
-             [&](PassSetup& setup) {
-                 read(setup, contact, Field::self_boxes, "boxes");
-                 read_cloths(setup, contact);
-                 read(setup, contact, Field::self_cells, "blocks");
-                 update_in_place(setup, contact, Field::self_candidates, "candidates");
-                 update_in_place(setup, contact, Field::self_record, "record");
-             });
+    add_sized_pass(graph, contact, step, "self cells", listing_pipeline(pipelines, "self_cells.comp", step),
+                   glsl::self_size_cells, [&](PassSetup& setup) {
+                       read(setup, contact, Field::self_boxes, "boxes");
+                       read_cloths(setup, contact);
+                       read(setup, contact, Field::self_cells, "blocks");
+                       fill(setup, contact, Field::self_candidates, "candidates");
+                   });
 }
 
 void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self near", pipeline_of(pipelines, "self_near.comp", step), in_a_row(step),
+    add_sized_pass(graph, contact, step, "self near", listing_pipeline(pipelines, "self_near.comp", step),
+                   glsl::self_size_near, [&](PassSetup& setup) {
+                       read(setup, contact, Field::self_boxes, "boxes");
+                       read(setup, contact, Field::self_candidates, "candidates");
+                       read_cloths(setup, contact);
+                       fill(setup, contact, Field::self_cells, "cells");
+                   });
+}
+
+void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self bent", listing_pipeline(pipelines, "self_bent.comp", step), over_sheet(pipelines, step),
              [&](PassSetup& setup) {
                  read_sheet(setup, contact);
                  read(setup, contact, Field::self_meetings, "meetings");
-                 read(setup, contact, Field::self_boxes, "boxes");
-                 read(setup, contact, Field::self_candidates, "candidates");
-                 update_in_place(setup, contact, Field::self_cells, "cells");
-                 update_in_place(setup, contact, Field::self_record, "record");
+                 fill(setup, contact, Field::self_cells, "cells");
              });
+}
+
+void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_sized_pass(graph, contact, step, "self primitives", listing_pipeline(pipelines, "self_primitives.comp", step),
+                   glsl::self_size_primitives, [&](PassSetup& setup) {
+                       read_sheet(setup, contact);
+                       read(setup, contact, Field::self_cells, "cells");
+                       fill(setup, contact, Field::self_near, "near");
+                   });
 }
 
 void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self pairs", pipeline_of(pipelines, "self_pairs.comp", step), in_a_row(step),
-             [&](PassSetup& setup) {
-                 read_sheet(setup, contact);
-                 read(setup, contact, Field::self_cells, "cells");
-                 update_in_place(setup, contact, Field::self_pairs, "pairs");
-                 update_in_place(setup, contact, Field::self_record, "record");
-             });
+    add_sized_pass(graph, contact, step, "self pairs", listing_pipeline(pipelines, "self_pairs.comp", step),
+                   glsl::self_size_pairs, [&](PassSetup& setup) {
+                       read_sheet(setup, contact);
+                       read(setup, contact, Field::self_near, "near");
+                       fill(setup, contact, Field::self_pairs, "pairs");
+                   });
 }
 
 void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self contact", pipeline_of(pipelines, "self_contact.comp", step), in_a_row(step),
-             [&](PassSetup& setup) {
-                 read_sheet(setup, contact);
-                 read(setup, contact, Field::self_pairs, "pairs");
-                 read(setup, contact, Field::self_record, "record");
-                 update_in_place(setup, contact, Field::self_corrections, "corrections");
-             });
+    add_sized_pass(graph, contact, step, "self contact", listing_pipeline(pipelines, "self_contact.comp", step),
+                   glsl::self_size_contact + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
+                       read_sheet(setup, contact);
+                       read(setup, contact, Field::self_pairs, "pairs");
+                       read(setup, contact, Field::self_record, "record");
+                       update_in_place(setup, contact, Field::self_corrections, "corrections");
+                       update_in_place(setup, contact, Field::self_sizes, "sizes");
+                   });
 }
 
 void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self push", pipeline_of(pipelines, "self_push.comp", step), in_a_row(step),
-             [&](PassSetup& setup) {
-                 move_on_sheet(setup, contact);
-                 update_in_place(setup, contact, Field::self_corrections, "corrections");
-             });
+    add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, "self_push.comp", step),
+                   glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
+                       move_on_sheet(setup, contact);
+                       update_in_place(setup, contact, Field::self_corrections, "corrections");
+                   });
 }
 
 void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self room", pipeline_of(pipelines, "self_room.comp", step), in_a_row(step),
-             [&](PassSetup& setup) {
-                 read_sheet(setup, contact);
-                 read(setup, contact, Field::self_pairs, "pairs");
-                 update_in_place(setup, contact, Field::self_record, "record");
-                 read(setup, contact, Field::self_before, "before");
-                 update_in_place(setup, contact, Field::self_shares, "shares");
-             });
+    add_sized_pass(graph, contact, step, "self room", listing_pipeline(pipelines, "self_room.comp", step),
+                   glsl::self_size_room + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
+                       read_sheet(setup, contact);
+                       read(setup, contact, Field::self_pairs, "pairs");
+                       update_in_place(setup, contact, Field::self_record, "record");
+                       read(setup, contact, Field::self_before, "before");
+                       update_in_place(setup, contact, Field::self_shares, "shares");
+                       update_in_place(setup, contact, Field::self_sizes, "sizes");
+                   });
 }
 
 void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self move", pipeline_of(pipelines, "self_move.comp", step), in_a_row(step),
+    add_pass(graph, step, "self move", pipeline_of(pipelines, "self_move.comp", step), over_sheet(pipelines, step),
              [&](PassSetup& setup) {
                  move_on_sheet(setup, contact);
                  read(setup, contact, Field::self_shares, "shares");

@@ -19,22 +19,26 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
 /// Reads displacement; begins the record anew.
 void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, record; writes levels of the tree of boxes. The lowest also begins the sums and shares
-/// anew; the root's says in the record whether candidates are searched.
+/// anew and writes the displacement before contact; the root's says whether candidates are searched.
 void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads boxes; writes the list of cells, for now with blocks of them, where the record says so, counts them in it.
+// From here on most run as far as the passes before said that there is something to do (Field::self_sizes).
+/// Reads boxes; writes the list of cells, for now with blocks of them, counts them in the record.
 void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads boxes and that list; writes the candidates where the record says so, counts them in it.
+/// Reads boxes and that list; writes the candidates, counts them in the record.
 void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, boxes, candidates; writes the list of cells, counts them in the record.
+/// Reads boxes, candidates; writes the list of cells, counts them in the record.
 void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, cells; writes the list of pairs, counts them in the record.
+/// Reads position, displacement; adds neighbouring cells to that list, counts them in the record.
+void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position, displacement, cells; writes the list of primitives near each other, counts them in the record.
+void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position, displacement, that list; writes the list of pairs, counts them in the record.
 void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, pairs; adds to the corrections.
 void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position; takes the corrections; updates displacement; the first one writes what it was before.
+/// Reads position, displacement before contact; takes the corrections; updates displacement.
 void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, displacement before contact, pairs; lowers the round's shares, notes in the record
-/// that it did.
+/// Reads position, displacement, displacement before contact, pairs; lowers the round's shares.
 void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement before contact, shares; updates displacement, the record.
 void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);

@@ -51,6 +51,12 @@ struct TwinCloth {
     std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
 };
 
+/// A pair of primitives that may meet.
+struct TwinPair {
+    bool edges;  ///< two, else a particle and a triangle
+    glsl::uvec4 corners;
+};
+
 /// What the passes of contact hand each other: by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);
@@ -59,7 +65,7 @@ struct TwinContact {
     std::vector<int> owners;
     std::vector<glsl::vec4> positions, displacements;
     std::vector<glsl::SelfBox> boxes;
-    std::vector<glsl::uvec4> pairs;
+    std::vector<TwinPair> pairs;
     std::vector<glsl::ivec4> corrections;
     std::vector<glsl::vec4> before;
     std::vector<float> shares;  ///< of their motions that the particles make, after the last round

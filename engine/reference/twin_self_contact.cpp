@@ -1,6 +1,7 @@
 // The twin of contact between cloths. Pairs are found by trying all boxes against all others: what the device's tree
 // may not miss.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "cloth/texels.h"
@@ -59,25 +60,36 @@ class ContactStep {
         return self_relative_motion(moved, xyz(contact_.record.carried));
     }
     template <class Of>
-    SelfCorners corners(const uvec4& pair, const Of& of) const {
-        return {of(place(pair.x)), of(place(pair.y)), of(place(pair.z)), of(place(pair.w))};
+    SelfCorners corners(const TwinPair& pair, const Of& of) const {
+        const uvec4& all = pair.corners;
+        return {of(place(all.x)), of(place(all.y)), of(place(all.z)), of(place(all.w))};
     }
-    SelfCorners positions(const uvec4& pair) const {
+    std::array<uint, 4> places(const TwinPair& pair) const {
+        const uvec4& all = pair.corners;
+        return {place(all.x), place(all.y), place(all.z), place(all.w)};
+    }
+    SelfCorners positions(const TwinPair& pair) const {
         return corners(pair, [this](uint place) { return position(place); });
     }
-    static bool edges(const uvec4& pair) { return (pair.x & self_edge_pair) != 0; }
-    float thickness(const uvec4& pair) const {
-        return self_pair_thickness(cloth_of(pair.x), cloth_of(pair.w), edges(pair), self_texel(pair.x),
-                                   self_texel(pair.y), self_texel(pair.z), self_texel(pair.w));
+    float thickness(const TwinPair& pair) const {
+        const uvec4& all = pair.corners;
+        return self_pair_thickness(cloth_of(all.x), cloth_of(all.w), pair.edges, self_texel(all.x), self_texel(all.y),
+                                   self_texel(all.z), self_texel(all.w));
+    }
+    SelfBox point_box(uint place) const { return self_point_box(position(place), motion(place)); }
+    template <class... Corners>
+    SelfBox box_of(Corners... corners) const {
+        SelfBox box = self_no_box();
+        for (const uint corner : {corners...}) box = self_joined(box, point_box(place(corner)));
+        return box;
     }
     SelfBox cell_box(ivec2 own) const;
     bool lies_flat(ivec2 cell) const;
     void add_between(ivec2 a, ivec2 b);
-    static uint corner(ivec2 from, int columns, int rows) { return self_corner({from.x + columns, from.y + rows}); }
     bool triangle_exists(ivec2 cell, int which) const;
     bool edge_exists(ivec2 particle, int k) const;
     void add_triangles(ivec2 particle, ivec2 cell);
-    void add_pair(const uvec4& pair);
+    void add_pair(const TwinPair& pair);
     void add_correction(std::size_t place, vec3 impulse, float mass, float weight);
     void move_to(std::size_t place, vec3 displacement) {
         contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
@@ -100,15 +112,12 @@ void ContactStep::common() {
         }
     const vec3 mean = self_mean(sum, push_.cloth_count);
     record.carried = {mean.x, mean.y, mean.z, 0};
-    record.pair_count = 0;
+    record.point_count = record.edge_count = 0;
     record.cell_count = 0;
 }
 
 SelfBox ContactStep::cell_box(ivec2 own) const {
-    const auto box_of = [&](int columns, int rows) {
-        const uint at = place(ivec2{own.x + columns, own.y + rows});
-        return self_point_box(position(at), motion(at));
-    };
+    const auto box_of = [&](int columns, int rows) { return point_box(place(ivec2{own.x + columns, own.y + rows})); };
     const SelfCloth& cloth = cloth_at(place(own));
     const bool right = inside(cloth, {own.x + 1, own.y}), below = inside(cloth, {own.x, own.y + 1});
     SelfBox box = box_of(0, 0);
@@ -125,7 +134,10 @@ void ContactStep::boxes() {
     contact_.pairs.clear();
     contact_.boxes.assign(count, {});
     for (std::size_t own = 0; own < count; ++own)
-        if (owned(own)) contact_.boxes[own] = cell_box(texel_of(own));
+        if (owned(own)) {
+            contact_.boxes[own] = cell_box(texel_of(own));
+            contact_.before[own] = texel(xyz(contact_.displacements[own]));
+        }
 }
 
 /// Whether what a cell and its neighbours to the right and below own is apart because the cloth is flat there.
@@ -171,11 +183,7 @@ void ContactStep::add_between(ivec2 a, ivec2 b) {
     add_triangles(b, a);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            if (edge_exists(a, i) && edge_exists(b, k)) {
-                const ivec4 one = self_edge(i), other = self_edge(k);
-                add_pair({corner(a, one.x, one.y) | self_edge_pair, corner(a, one.z, one.w),
-                          corner(b, other.x, other.y), corner(b, other.z, other.w)});
-            }
+            if (edge_exists(a, i) && edge_exists(b, k)) add_pair({true, self_edge_pair(a, i, b, k)});
 }
 
 bool ContactStep::triangle_exists(ivec2 cell, int which) const {
@@ -193,20 +201,21 @@ bool ContactStep::edge_exists(ivec2 particle, int k) const {
 
 void ContactStep::add_triangles(ivec2 particle, ivec2 cell) {
     for (int which = 1; which <= 2; ++which)
-        if (triangle_exists(cell, which)) {
-            const ivec2 b = triangle_corner(which, 0), c = triangle_corner(which, 1), d = triangle_corner(which, 2);
-            add_pair({self_corner(particle), corner(cell, b.x, b.y), corner(cell, c.x, c.y), corner(cell, d.x, d.y)});
-        }
+        if (triangle_exists(cell, which)) add_pair({false, self_point_pair(particle, cell, which)});
 }
 
-void ContactStep::add_pair(const uvec4& pair) {
-    if (self_shares_corner(edges(pair), {pair.x & ~self_edge_pair, pair.y, pair.z, pair.w})) return;
-    const SelfGap gap = self_gap(edges(pair), positions(pair));
+void ContactStep::add_pair(const TwinPair& pair) {
+    const uvec4& all = pair.corners;
+    if (self_shares_corner(pair.edges, all)) return;
+    const float mean = self_mean_thickness(cloth_of(all.x), cloth_of(all.w));
+    const SelfBox one = pair.edges ? box_of(all.x, all.y) : box_of(all.x),
+                  other = pair.edges ? box_of(all.z, all.w) : box_of(all.y, all.z, all.w);
+    if (!self_primitives_meet(one, other, push_, mean)) return;
+    const SelfGap gap = self_gap(pair.edges, positions(pair));
     const SelfCorners motions = corners(pair, [this](uint place) { return motion(place); });
-    const float mean = self_mean_thickness(cloth_of(pair.x), cloth_of(pair.w));
-    if (!self_listed_pair(edges(pair), gap, motions, mean, mean)) return;
-    if (!self_listed_pair(edges(pair), gap, motions, thickness(pair), mean)) return;
-    if (contact_.record.pair_count++ < static_cast<uint>(push_.pair_room)) contact_.pairs.push_back(pair);
+    if (!self_listed_pair(pair.edges, gap, motions, thickness(pair), mean)) return;
+    ++(pair.edges ? contact_.record.edge_count : contact_.record.point_count);
+    contact_.pairs.push_back(pair);
 }
 
 void ContactStep::add_correction(std::size_t place, vec3 impulse, float mass, float weight) {
@@ -219,12 +228,12 @@ void ContactStep::add_correction(std::size_t place, vec3 impulse, float mass, fl
 }
 
 void ContactStep::contact() {
-    for (const uvec4& pair : contact_.pairs) {
-        const SelfCloth &one = cloth_of(pair.x), &other = cloth_of(pair.w);
-        const SelfGap gap = self_gap(edges(pair), positions(pair));
-        const uint corner[4] = {place(pair.x), place(pair.y), place(pair.z), place(pair.w)};
+    for (const TwinPair& pair : contact_.pairs) {
+        const SelfCloth &one = cloth_of(pair.corners.x), &other = cloth_of(pair.corners.w);
+        const SelfGap gap = self_gap(pair.edges, positions(pair));
+        const auto corner = places(pair);
         const vec4 mass = self_corner_masses(
-            edges(pair), one, other,
+            pair.edges, one, other,
             {inverse_mass(corner[0]), inverse_mass(corner[1]), inverse_mass(corner[2]), inverse_mass(corner[3])});
         const SelfCorners displacements = corners(pair, [this](uint place) { return displacement(place); });
         const vec3 impulse =
@@ -239,7 +248,6 @@ void ContactStep::push() {
     for (std::size_t i = 0; i < contact_.before.size(); ++i) {
         if (!owned(i)) continue;
         const vec3 displacement = xyz(contact_.displacements[i]);
-        if (push_.round == 0) contact_.before[i] = texel(displacement);
         const ivec4 sum = std::exchange(contact_.corrections[i], {});
         if (sum.w == 0 || held(static_cast<uint>(i))) continue;
         const float thickness = cloth_at(i).thickness;
@@ -251,11 +259,11 @@ void ContactStep::room() {
     std::vector<float>& shares = contact_.shares;
     if (push_.round == 0) shares.assign(contact_.before.size(), 0);
     std::vector<float> next(shares.size(), 1);
-    for (const uvec4& pair : contact_.pairs) {
-        const bool edges = this->edges(pair);
+    for (const TwinPair& pair : contact_.pairs) {
+        const bool edges = pair.edges;
         const SelfGap gap = self_gap(edges, positions(pair));
         if (push_.round == 0 && self_touch(gap)) ++contact_.record.unproved;
-        const uint corner[4] = {place(pair.x), place(pair.y), place(pair.z), place(pair.w)};
+        const auto corner = places(pair);
         const auto along = [&](uint place) { return ordered_dot(gap.normal, bounded(place)); };
         const vec4 all{along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
         const vec4 end =
@@ -273,8 +281,8 @@ void ContactStep::room() {
 
 void ContactStep::move() {
     SelfRecord& record = contact_.record;
-    record.most_pairs = std::max(record.most_pairs, record.pair_count);
-    // The device also counts what a search found, which here none does.
+    record.most_pairs = std::max(record.most_pairs, record.point_count + record.edge_count);
+    // The device also counts what a search and boxes found.
     record.most_cells = std::max(record.most_cells, record.cell_count);
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (!owned(i)) continue;
@@ -350,7 +358,7 @@ void Twin::run_contact(const Step& step) {
         case StepKind::self_move:
             return contact.move();
         default:
-            return;  // it tries all pairs of cells: blocks, cells, near
+            return;  // it tries all pairs of cells: blocks, cells, near, bent, primitives
     }
 }
 

@@ -7,4 +7,9 @@ int place_of(ivec2 texel) { return texel.y * push.grid.x + texel.x; }
 ivec2 texel_of(int place) { return ivec2(place % push.grid.x, place / push.grid.x); }
 int owner_of(int place) { return cloth_count == 1 ? 0 : owners[place]; }
 /// Of a place where a cloth is.
-SelfCloth cloth_at(ivec2 texel) { return cloths[max(owner_of(place_of(texel)), 0)]; }
+SelfCloth cloth_at(ivec2 texel) {
+    // On the default device what comes from a buffer is loaded for every invocation.
+    SelfCloth cloth = push.cloth;
+    if (cloth_count > 1) cloth = cloths[max(owner_of(place_of(texel)), 0)];
+    return cloth;
+}

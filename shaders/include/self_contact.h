@@ -39,9 +39,8 @@ SHARED vec4 self_corner_masses(bool edges, SelfCloth one, SelfCloth other, vec4 
 }
 
 SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
-    if (self_same_cloth(one, other)) return one.friction;
     precise float mean = sqrt(one.friction * other.friction);
-    return mean;
+    return self_same_cloth(one, other) ? one.friction : mean;
 }
 
 /// The thickness that a pair keeps. Primitives of one cloth that are nearer than two thicknesses in it when it is flat
@@ -49,13 +48,12 @@ SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
 /// rows of the particles; `one`, `other`: the cloths of the first and of the last.
 SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
     float thickness = self_mean_thickness(one, other);
-    if (!self_same_cloth(one, other)) return thickness;
     int columns = b.x - a.x, rows = b.y - a.y;
     if (edges) {
         columns = c.x - a.x;
         rows = c.y - a.y;
     }
-    if (columns > 4 || columns < -4 || rows > 4 || rows < -4) return thickness;
+    bool far = columns > 4 || columns < -4 || rows > 4 || rows < -4;
     precise vec3 liesa = vec3(float(a.x) * one.spacing.x, float(a.y) * one.spacing.y, 0.0f);
     precise vec3 liesb = vec3(float(b.x) * one.spacing.x, float(b.y) * one.spacing.y, 0.0f);
     precise vec3 liesc = vec3(float(c.x) * one.spacing.x, float(c.y) * one.spacing.y, 0.0f);
@@ -63,7 +61,8 @@ SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ive
     SelfCorners x = self_relative(SelfCorners(liesa, liesb, liesc, liesd));
     vec3 across = self_sum(self_weights(edges, x), x);
     precise float half_distance = sqrt(ordered_dot(across, across)) * 0.5f;
-    return self_least(thickness, half_distance);
+    float least = self_least(thickness, half_distance);
+    return far || !self_same_cloth(one, other) ? thickness : least;
 }
 
 /// Most that a pair's corners come nearer to each other along its normal in a substep before contact corrects it, all
@@ -254,42 +253,39 @@ SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
 SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, float pair_thickness, float friction,
                          float recovery) {
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
-    if (!(gap.distance > 1.0e-12f)) return nothing;
     precise float given_back = gap.distance + recovery;
     float target = self_least(pair_thickness, given_back);
     vec3 relative = self_sum(gap.weights, moved);
     float along = ordered_dot(gap.normal, relative);
     precise float missing = target - (gap.distance + along);
     float depth = self_least(missing, pair_thickness);
-    if (!(depth > 0.0f)) return nothing;
     vec4 g = gap.weights;
     precise float mass = ((inverse_mass.x * g.x * g.x + inverse_mass.y * g.y * g.y) + inverse_mass.z * g.z * g.z) +
                          inverse_mass.w * g.w * g.w;
-    if (!(mass > 0.0f)) return nothing;
     precise vec3 tangent = relative - gap.normal * along;
     precise float sliding = sqrt(ordered_dot(tangent, tangent));
     precise float grip = friction * depth;
     precise float kept = sliding > grip ? grip / sliding : 1.0f;
     precise vec3 impulse = (gap.normal * depth - tangent * kept) / mass;
-    return impulse;
+    return gap.distance > 1.0e-12f && depth > 0.0f && mass > 0.0f ? impulse : nothing;
 }
 
 /// A component of a correction in units; what is not a number is none.
 SHARED int self_units(float correction, float units_per_metre) {
     precise float units = correction * units_per_metre;
-    if (!(units > -self_correction_units)) return units <= -self_correction_units ? -int(self_correction_units) : 0;
-    return units < self_correction_units ? int(units) : int(self_correction_units);
+    int least = units <= -self_correction_units ? -int(self_correction_units) : 0;
+    int most = units < self_correction_units ? int(units) : int(self_correction_units);
+    return units > -self_correction_units ? most : least;
 }
 
 /// The corrections of all pairs that a particle is in: xyz in units, w the sum of its weights. Where it is in several
 /// they are averaged by weight, so that layers that lie on each other corner on corner get what one pair would.
 SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {
-    if (sum.w == 0) return displacement;
     precise float weight = float(sum.w) / self_weight_units;
     precise float unit = thickness / self_correction_units / self_largest(weight, 1.0f);
     precise vec3 correction = vec3(float(sum.x), float(sum.y), float(sum.z)) * unit;
     precise vec3 corrected = displacement + correction;
-    return corrected;
+    return sum.w == 0 ? displacement : corrected;
 }
 
 /// A displacement as it is measured: against what all particles have in common.
@@ -314,12 +310,11 @@ SHARED bool self_exceeds(vec3 displacement, vec3 before, float thickness) {
 
 /// What contact and colliders made of the displacement before them, changed by no more than the limit.
 SHARED vec3 self_bounded(vec3 displacement, vec3 before, float thickness) {
-    if (!self_exceeds(displacement, before, thickness)) return displacement;
     precise vec3 change = displacement - before;
     precise float length = sqrt(ordered_dot(change, change));
     precise float share = self_limit(thickness) / length;
     precise vec3 bounded = before + change * share;
-    return bounded;
+    return self_exceeds(displacement, before, thickness) ? bounded : displacement;
 }
 
 /// Where a pair's corners have come along its normal, m, when each makes `shares` of `along`, its motion that way.
@@ -345,15 +340,15 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
                         float least) {
     float doubt = self_largest(least, gap.doubt);
     precise float nearly = doubt * 0.25f;
-    if (!(gap.apart > nearly)) return along != 0.0f ? share : 1.0f;
     precise float kept = gap.apart * (held ? self_held_kept : self_room_kept);
     precise float room = (middle - end) * side - kept;
     float allowed = gap.apart > doubt ? self_largest(room, 0.0f) : 0.0f;
     precise float left = 1.0f - share;
     precise float wanted = left * (along * side);
-    if (!(wanted > allowed)) return 1.0f;
     precise float part = share + left * (allowed / wanted);
-    return self_limited(part);
+    float made = wanted > allowed ? self_limited(part) : 1.0f;
+    float still = along != 0.0f ? share : 1.0f;
+    return gap.apart > nearly ? made : still;
 }
 
 /// Whether two primitives touch, so that no plane between them is known: then nothing is proved of them.
@@ -370,19 +365,45 @@ SHARED int self_weight(float weight) {
     return int(units);
 }
 
-/// Pairs that are in the list.
-SHARED int self_listed(uint pair_count, int pair_room) {
-    return pair_count < uint(pair_room) ? int(pair_count) : pair_room;
-}
+/// Entries that are in a list.
+SHARED int self_listed(uint count, int room) { return count < uint(room) ? int(count) : room; }
 
-/// A corner in a pair: row and column; self_edge_pair may be set beside them.
+/// Likewise of one that another grows towards from its end; none where they have overwritten each other, in a substep
+/// that is done again or given up (self_list_use).
+SHARED int self_both_listed(uint count, uint other, int room) { return count + other <= uint(room) ? int(count) : 0; }
+
+/// A corner in a pair: row and column.
 SHARED uint self_corner(ivec2 texel) { return (uint(texel.y) << 16) | uint(texel.x); }
-SHARED ivec2 self_texel(uint corner) { return ivec2(int(corner & 0xffffu), int((corner & 0x7fff0000u) >> 16)); }
+SHARED ivec2 self_texel(uint corner) { return ivec2(int(corner & 0xffffu), int(corner >> 16)); }
 
 /// Whether the two primitives of a pair have a corner in common.
 SHARED bool self_shares_corner(bool edges, uvec4 pair) {
     bool one = pair.x == pair.z || pair.x == pair.w || pair.y == pair.z || pair.y == pair.w;
     return edges ? one : pair.x == pair.y || pair.x == pair.z || pair.x == pair.w;
+}
+
+/// Corners of the pair of a particle and triangle `which` (1, 2) of a cell.
+SHARED uvec4 self_point_pair(ivec2 particle, ivec2 cell, int which) {
+    ivec2 b = triangle_corner(which, 0), c = triangle_corner(which, 1), d = triangle_corner(which, 2);
+    return uvec4(self_corner(particle), self_corner(ivec2(cell.x + b.x, cell.y + b.y)),
+                 self_corner(ivec2(cell.x + c.x, cell.y + c.y)), self_corner(ivec2(cell.x + d.x, cell.y + d.y)));
+}
+
+/// Pairs of primitives of two cells: bits 0 and 1, the first one's particle and the other's triangles; 2 and 3 the
+/// other way round; from 4 on edges, three of the other for each of the first.
+const int self_first_edge_pair = 4;
+/// Those of them that share no corner and are no other pair's again; `columns`, `rows`: from the first cell to the
+/// other.
+SHARED uint self_disjoint(int columns, int rows) {
+    uint beside = columns == 0 ? 0x0002u : columns == 1 ? 0x13c3u : 0x1fffu;
+    uint below = columns == 0 ? 0x1273u : columns == 1 ? 0x1ff7u : columns == -1 ? 0x097fu : 0x1fffu;
+    return rows == 0 ? beside : rows == 1 ? below : 0x1fffu;
+}
+
+/// Whether two primitives that are in these boxes may be listed. A pair whose boxes are farther apart than that cannot
+/// come as near as its thickness, whatever part of their motions its corners make.
+SHARED bool self_primitives_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness) {
+    return self_boxes_meet(a, b, push, thickness, 0.0f);
 }
 
 /// Boxes along columns and rows of a level of the tree, and all of them.
@@ -395,10 +416,13 @@ SHARED int self_tree_count(ivec2 grid, int level) {
 }
 
 /// Edge k (0..2) that a particle owns: its ends relative to the particle.
-SHARED ivec4 self_edge(int k) {
-    if (k == 0) return ivec4(0, 0, 1, 0);
-    if (k == 1) return ivec4(0, 0, 0, 1);
-    return ivec4(1, 0, 0, 1);
+SHARED ivec4 self_edge(int k) { return ivec4(k == 2 ? 1 : 0, 0, k == 0 ? 1 : 0, k == 0 ? 0 : 1); }
+
+/// Corners of the pair of edges i of one particle and k of another.
+SHARED uvec4 self_edge_pair(ivec2 a, int i, ivec2 b, int k) {
+    ivec4 one = self_edge(i), other = self_edge(k);
+    return uvec4(self_corner(ivec2(a.x + one.x, a.y + one.y)), self_corner(ivec2(a.x + one.z, a.y + one.w)),
+                 self_corner(ivec2(b.x + other.x, b.y + other.y)), self_corner(ivec2(b.x + other.z, b.y + other.w)));
 }
 
 /// The two triangles that may have that edge: cell relative to the particle, and which one.

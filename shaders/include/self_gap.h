@@ -27,7 +27,8 @@ SHARED float self_ratio(float a, float b) {
     return ratio;
 }
 
-/// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
+/// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5). All cases
+/// are worked out and the first that holds is taken: on the default device that costs what one of them does.
 SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -35,39 +36,31 @@ SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     precise vec3 bp = p - b;
     precise vec3 cp = p - c;
     float d1 = ordered_dot(ab, ap), d2 = ordered_dot(ac, ap);
-    if (d1 <= 0.0f && d2 <= 0.0f) return vec3(1.0f, 0.0f, 0.0f);
     float d3 = ordered_dot(ab, bp), d4 = ordered_dot(ac, bp);
-    if (d3 >= 0.0f && d4 <= d3) return vec3(0.0f, 1.0f, 0.0f);
-    precise float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
-        precise float length = d1 - d3;
-        precise float v = self_ratio(d1, length);
-        precise float rest = 1.0f - v;
-        return vec3(rest, v, 0.0f);
-    }
     float d5 = ordered_dot(ab, cp), d6 = ordered_dot(ac, cp);
-    if (d6 >= 0.0f && d5 <= d6) return vec3(0.0f, 0.0f, 1.0f);
+    precise float vc = d1 * d4 - d3 * d2;
     precise float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
-        precise float length = d2 - d6;
-        precise float w = self_ratio(d2, length);
-        precise float rest = 1.0f - w;
-        return vec3(rest, 0.0f, w);
-    }
     precise float va = d3 * d6 - d5 * d4;
+    precise float area = (va + vb) + vc;
+    precise float v = vb / area;
+    precise float w = vc / area;
+    precise float u = (1.0f - v) - w;
+    precise float length_ab = d1 - d3;
+    precise float length_ac = d2 - d6;
     precise float along = d4 - d3;
     precise float back = d5 - d6;
-    if (va <= 0.0f && along >= 0.0f && back >= 0.0f) {
-        precise float length = along + back;
-        precise float w = self_ratio(along, length);
-        precise float rest = 1.0f - w;
-        return vec3(0.0f, rest, w);
-    }
-    precise float area = (va + vb) + vc;
-    precise float v = self_ratio(vb, area);
-    precise float w = self_ratio(vc, area);
-    precise float u = (1.0f - v) - w;
-    return vec3(u, v, w);
+    precise float length_bc = along + back;
+    float on_ab = self_ratio(d1, length_ab), on_ac = self_ratio(d2, length_ac), on_bc = self_ratio(along, length_bc);
+    precise float rest_ab = 1.0f - on_ab;
+    precise float rest_ac = 1.0f - on_ac;
+    precise float rest_bc = 1.0f - on_bc;
+    vec3 weights = vec3(u, v, w);
+    weights = va <= 0.0f && along >= 0.0f && back >= 0.0f ? vec3(0.0f, rest_bc, on_bc) : weights;
+    weights = vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f ? vec3(rest_ac, 0.0f, on_ac) : weights;
+    weights = d6 >= 0.0f && d5 <= d6 ? vec3(0.0f, 0.0f, 1.0f) : weights;
+    weights = vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f ? vec3(rest_ab, on_ab, 0.0f) : weights;
+    weights = d3 >= 0.0f && d4 <= d3 ? vec3(0.0f, 1.0f, 0.0f) : weights;
+    return d1 <= 0.0f && d2 <= 0.0f ? vec3(1.0f, 0.0f, 0.0f) : weights;
 }
 
 /// Where two edges a-b and c-d are nearest, as shares of their lengths (the same, 5.1.9).
@@ -98,15 +91,19 @@ SHARED SelfCorners self_relative(SelfCorners x) {
     return SelfCorners(vec3(0.0f, 0.0f, 0.0f), b, c, d);
 }
 
+/// `edges`: a constant where it is called.
 SHARED vec4 self_weights(bool edges, SelfCorners x) {
+    vec4 weights;
     if (edges) {
         vec2 at = nearest_on_edges(x.a, x.b, x.c, x.d);
         precise float first = at.x - 1.0f;
         precise float second = 1.0f - at.y;
-        return vec4(first, -at.x, second, at.y);
+        weights = vec4(first, -at.x, second, at.y);
+    } else {
+        vec3 at = nearest_in_triangle(x.a, x.b, x.c, x.d);
+        weights = vec4(-1.0f, at.x, at.y, at.z);
     }
-    vec3 at = nearest_in_triangle(x.a, x.b, x.c, x.d);
-    return vec4(-1.0f, at.x, at.y, at.z);
+    return weights;
 }
 
 SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
@@ -130,9 +127,8 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     float doubt =
         self_doubt(self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
                                 self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
-    SelfGap none = SelfGap(weights, vec3(0.0f, 0.0f, 0.0f), distance, 0.0f, vec4(0.0f, 0.0f, 0.0f, 0.0f), doubt);
-    if (!(distance > 1.0e-12f)) return none;
-    precise vec3 normal = across / distance;
+    precise vec3 direction = across / distance;
+    vec3 normal = distance > 1.0e-12f ? direction : vec3(0.0f, 0.0f, 0.0f);
     float b = ordered_dot(normal, x.b), c = ordered_dot(normal, x.c), d = ordered_dot(normal, x.d);
     float below = edges ? self_largest(0.0f, b) : 0.0f;
     float above = edges ? self_least(c, d) : self_least(b, self_least(c, d));

@@ -11,8 +11,6 @@ namespace drape::glsl {
 
 /// Boxes of a level of the tree that one workgroup makes together with all levels above.
 const int self_tree_tail = 1024;
-/// Bit of a pair's first particle: two edges, else a particle and a triangle.
-const uint self_edge_pair = 0x80000000u;
 /// Units of a correction in a thickness; of a weight in 1. Integers, so that atomic sums are exact in any order.
 const float self_correction_units = 1048576.0f, self_weight_units = 65536.0f;
 
@@ -28,24 +26,13 @@ const int self_iterations = 3;
 /// Rounds in which motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 
-/// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other,
-/// so that what holds for a grid holds for it, and a column and a row name a particle of the scene.
-struct SelfContactPush {
-    ivec2 grid;       // columns, rows of the sheet
-    float thickness;  // m: the largest that a cloth keeps
-    float recovery;   // m that a substep gives back of a thickness that is missing
-    float least;      // m: distances that rounding leaves in doubt
-    float margin;     // m: by how much more than it needs to the search for cells looks
-    int pair_room;    // pairs that the list can hold
-    int cell_room;    // likewise of pairs of cells, and of candidates
-    int level;        // boxes: the first that this pass makes
-    int last;         // boxes: the last
-    int top;          // level of the root
-    int first;        // 1: the frame's first substep
-    int round;        // contact, push, room: which
-    int held;         // 1: some particles are always held, so that nothing is carried along with all
-    int cloth_count;
-};
+/// Which of the sizes of indirect dispatches a pass takes: those of its own round where it has several. What there is
+/// nothing to do for is not dispatched: on the default device an invocation without work costs what one with it does.
+const int self_size_blocks = 0, self_size_cells = 1, self_size_near = 2, self_size_primitives = 3, self_size_pairs = 4,
+          self_size_contact = 5, self_size_push = self_size_contact + self_iterations,
+          self_size_room = self_size_push + self_iterations, self_size_count = self_size_room + self_rounds;
+/// The first of those that begin anew with every substep, not with a search.
+const int self_size_of_substep = self_size_primitives;
 
 /// A cloth on the sheet.
 struct SelfCloth {
@@ -58,6 +45,27 @@ struct SelfCloth {
     float lightness;   // of its particles' relative inverse masses, in those of the first cloth
 };
 
+/// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other,
+/// so that what holds for a grid holds for it, and a column and a row name a particle of the scene.
+struct SelfContactPush {
+    ivec2 grid;       // columns, rows of the sheet
+    float thickness;  // m: the largest that a cloth keeps
+    float recovery;   // m that a substep gives back of a thickness that is missing
+    float least;      // m: distances that rounding leaves in doubt
+    float margin;     // m: by how much more than it needs to the search for cells looks
+    int pair_room;    // pairs that their list can hold
+    int near_room;    // likewise of pairs of primitives whose boxes are near each other
+    int cell_room;    // likewise of pairs of cells, and of candidates
+    int level;        // boxes: the first that this pass makes
+    int last;         // boxes: the last
+    int top;          // level of the root
+    int first;        // 1: the frame's first substep
+    int round;        // contact, push, room: which
+    int held;         // 1: some particles are always held, so that nothing is carried along with all
+    int cloth_count;
+    SelfCloth cloth;  // the first: looked up here where it is the only one
+};
+
 /// Of the passes between a cloth's own fields and the sheet.
 struct SelfClothPush {
     ivec2 grid;   // the cloth's
@@ -65,21 +73,23 @@ struct SelfClothPush {
     int columns;  // the sheet's
 };
 
-/// What contact between the scene's cloths was in the substeps of a frame so far. m.
+/// What contact between the scene's cloths was in the substeps of a frame so far. m. Counts include what found no room.
 struct SelfRecord {
-    vec4 carried;          // motion that all particles are measured against in this substep; w unused
-    uint pair_count;       // of this substep, those that found no room included
+    vec4 carried;           // motion that all particles are measured against in this substep; w unused
+    uint point_count;       // pairs of this substep of a particle and a triangle
+    uint edge_count;        // of two edges
+    uint near_point_count;  // of both kinds those whose boxes are near each other
+    uint near_edge_count;
+    uint cell_count;       // pairs of cells of this substep
+    uint candidate_count;  // pairs of cells that may meet in it or later
+    uint block_count;      // pairs of blocks of cells that the last search found
     uint most_pairs;       // of the frame
+    uint most_near;        // likewise, by boxes
+    uint most_cells;       // likewise, the most of the three
     uint unproved;         // motions of held particles that were not proved to cross nothing, pairs that touched
     uint truncated;        // motions of free particles that were cut short
-    uint cell_count;       // pairs of cells of this substep, those that found no room included
-    uint candidate_count;  // pairs of cells that may meet in it or later, likewise
-    uint most_cells;       // the larger of the two, of the frame
-    uint search;           // 1: candidates are searched in this substep
     uint moved;            // bits: most that a particle moved in the substep before
     float drift;           // twice what was moved since the last search, summed by substep
-    uint short_rounds;     // bit k: round k left a motion short
-    uint block_count;      // pairs of blocks of cells that the last search found, likewise
 };
 
 #ifdef __cplusplus

@@ -131,7 +131,6 @@ TEST(SelfContactTest, ClothsThatStartThroughEachOtherDoNotMeet) {
     EXPECT_EQ(model.self_contact->meetings, (std::vector<glsl::uint>{1, 0, 1, 0, 0, 1, 1, 1, 0}));
 }
 
-/// Against points tried all over the two primitives.
 /// Metres times kg: where the mass of all cloths is, times that mass.
 double mass_moment(const SimulationModel& model, const Twin& twin) {
     double moment = 0;
@@ -170,6 +169,7 @@ TEST(SelfContactTest, ClothsOfDifferentMassExchangeMomentumAndMakeNone) {
     EXPECT_NEAR(off, 0, 0.03);
 }
 
+/// Against points tried all over the two primitives.
 TEST(SelfContactKernelTest, NearestPointsAreNearest) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> anywhere(-1, 1);
@@ -193,6 +193,37 @@ TEST(SelfContactKernelTest, NearestPointsAreNearest) {
         if (gap.apart > 0) {
             EXPECT_NEAR(gap.apart, gap.distance, 1e-4) << trial;
         }
+    }
+}
+
+/// Corners of pair k of two cells.
+glsl::uvec4 pair_of_cells(glsl::ivec2 a, glsl::ivec2 b, int k) {
+    if (k < 2) return glsl::self_point_pair(a, b, k + 1);
+    if (k < glsl::self_first_edge_pair) return glsl::self_point_pair(b, a, k - 1);
+    const int edges = k - glsl::self_first_edge_pair;
+    return glsl::self_edge_pair(a, edges / 3, b, edges % 3);
+}
+
+TEST(SelfContactKernelTest, PairsOfTwoCellsThatShareNoCornerAreKnown) {
+    std::vector<glsl::ivec2> offsets{{2, 0}, {-2, 1}, {0, 2}, {1, 2}};
+    for (int k = 0; k < glsl::self_neighbour_pairs; ++k) {
+        const glsl::ivec4 pair = glsl::self_neighbour_pair(k);
+        offsets.push_back({pair.z - pair.x, pair.w - pair.y});
+    }
+    for (const glsl::ivec2 offset : offsets) {
+        const glsl::ivec2 a{8, 8}, b{8 + offset.x, 8 + offset.y};
+        glsl::uint expected = 0;
+        for (int k = 0; k < 13; ++k) {
+            const glsl::uvec4 pair = pair_of_cells(a, b, k);
+            bool again = glsl::self_shares_corner(k >= glsl::self_first_edge_pair, pair);
+            for (int before = 0; before < k; ++before) {
+                const glsl::uvec4 other = pair_of_cells(a, b, before);
+                const bool of_a_kind = (before < glsl::self_first_edge_pair) == (k < glsl::self_first_edge_pair);
+                again |= of_a_kind && pair.x == other.x && pair.y == other.y && pair.z == other.z && pair.w == other.w;
+            }
+            expected |= again ? 0u : 1u << k;
+        }
+        EXPECT_EQ(glsl::self_disjoint(offset.x, offset.y), expected) << offset.x << ", " << offset.y;
     }
 }
 

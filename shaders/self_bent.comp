@@ -1,0 +1,70 @@
+// Lists the pairs of neighbouring cells whose triangles and edges this substep may bring together: those about which the
+// cloth is not flat.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/every.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+layout(push_constant) uniform Push { SelfContactPush push; };
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
+layout(set = 0, binding = 5, std430) buffer Cells { ivec2 cells[]; };
+layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
+
+vec3 at(ivec2 texel) { return imageLoad(positions, texel).xyz; }
+vec3 moved(ivec2 texel) {
+    return self_relative_motion(imageLoad(displacements, texel).xyz, record[0].carried.xyz);
+}
+
+bool lies_flat(SelfCloth cloth, ivec2 cell) {
+    ivec2 m = cell + ivec2(1, 1);
+    ivec2 l = m + ivec2(-1, 0), r = m + ivec2(1, 0), u = m + ivec2(0, -1), d = m + ivec2(0, 1);
+    ivec2 ur = m + ivec2(1, -1), dl = m + ivec2(-1, 1), dr = m + ivec2(1, 1);
+    return self_patch_lies_flat(
+        push, cloth, SelfPatch(at(m), at(l), at(r), at(u), at(d), at(cell), at(ur), at(dl), at(dr)),
+        SelfPatch(moved(m), moved(l), moved(r), moved(u), moved(d), moved(cell), moved(ur), moved(dl), moved(dr)));
+}
+
+/// Bits of the pairs of neighbours that a cell of a cloth stands for and that exist.
+uint neighbours_of(SelfCloth cloth, ivec2 own) {
+    uint bits = 0u;
+    for (int k = 0; k < self_neighbour_pairs; ++k) {
+        ivec4 pair = self_neighbour_pair(k);
+        bool exists = own.x + max(pair.x, pair.z) < cloth.grid.x && own.y + max(pair.y, pair.w) < cloth.grid.y;
+        bits |= exists ? 1u << k : 0u;
+    }
+    return bits;
+}
+
+/// Those of them that are not ruled out by how flat the cloth is there.
+uint near_neighbours(ivec2 texel) {
+    int owner = owner_of(place_of(texel));
+    bool meets = owner >= 0 && meetings[max(owner, 0) * (push.cloth_count + 1)] != 0u;
+    SelfCloth cloth = cloth_at(texel);
+    ivec2 own = texel - cloth.first;
+    bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
+    bool flat_there = inside && lies_flat(cloth, texel);
+    return meets && !flat_there ? neighbours_of(cloth, own) : 0u;
+}
+
+void judge(ivec2 texel) {
+    uint near = near_neighbours(texel), count = uint(bitCount(near));
+    uint place = 0u;
+    if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
+    for (int k = 0; k < self_neighbour_pairs; ++k) {
+        ivec4 pair = self_neighbour_pair(k);
+        ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
+        bool listed = (near & (1u << k)) != 0u;
+        if (listed && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
+        place += listed ? 1u : 0u;
+    }
+}
+
+void main() {
+    FOR_EVERY(place, push.grid.x * push.grid.y, judge(texel_of(place)))
+    dispatch(self_size_primitives, reached);
+}
