@@ -32,7 +32,7 @@ void main() {
     ivec2 own = ivec2(index % across.x, index / across.x), node = ivec2(0, 0);
     int owner = block_owner(own);
     bool searches = gl_GlobalInvocationID.x <= uint(last) && owner >= 0;
-    precise float most = (cloths[max(owner, 0)].thickness + push.thickness) * 0.5f;
+    precise float most = (cloth_at(2 * own).thickness + push.thickness) * 0.5f;
     int level = searches ? push.top : push.top + 1;
     int first = 0, visits = 0;  // first: box of the level
     for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
@@ -50,7 +50,10 @@ void main() {
             open = false;
             entered = false;
         }
-        if (open && level == 1 && meets(owner, box, node, boxes[place])) {
+        bool found = open && level == 1;
+        // One cloth is in question at all because it meets itself, and the way here judged it by its own thickness.
+        if (cloth_count > 1) found = found && meets(owner, box, node, boxes[place]);
+        if (found) {
             uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
             if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
         }
