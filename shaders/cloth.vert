@@ -58,4 +58,5 @@ void main() {
     hidden = hidden_by_folds(texel, particle_position(particle), surface_normal);
     gl_Position = clip_position(world);
     gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);
+    gl_ClipDistance[0] = clip_distance(world, push.size.w);
 }

@@ -18,4 +18,5 @@ void main() {
     on_plane = mesh.position.xz;
     albedo = vec4(collider.color.xyz, collider.shape.y);
     gl_Position = clip_position(world);
+    gl_ClipDistance[0] = clip_distance(world, 0.0);
 }

@@ -1,13 +1,22 @@
-// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. The backdrop shows
-// where samples are left uncovered, and is drawn here alone: as a triangle it costs as much as the ground. Ordered dither
+// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. Backdrop and floor
+// show where samples are left uncovered, and are drawn here alone: as triangles each costs twice as much. Ordered dither
 // (Bayer's 8 x 8 matrix) of one level in place of rounding: without it soft gradients show bands.
+// SHADOWED: the floor is under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SHADOWED
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
+#ifdef SHADOWED
+#include "include/shadow_map.h"
+#endif
+#include "include/plane.h"
+#include "include/floor.h"
 #include "include/tone.h"
 
-layout(constant_id = 0) const bool is_toned = true;
+layout(constant_id = 0) const bool has_floor = true;
+layout(location = 0) flat in vec4 background;
+layout(location = 1) flat in FloorConstants plane;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
 layout(location = 0) out vec4 color;
 
@@ -27,8 +36,10 @@ vec3 srgb(vec3 linear) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 drawn = imageLoad(light, pixel);  // w: the share of its samples that something covers
-    vec3 radiance = drawn.xyz + (1.0 - drawn.w) * backdrop(gl_FragCoord.y);
-    if (is_toned) radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
+    vec3 behind = backdrop(background, gl_FragCoord.y);
+    if (has_floor) behind = floor_radiance(plane, gl_FragCoord.xy, behind);
+    vec3 radiance = drawn.xyz + (1.0 - drawn.w) * behind;
+    radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
     color = vec4(min(floor(levels + threshold(uvec2(pixel))), 255.0) / 255.0, 1.0);
 }

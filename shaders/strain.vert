@@ -57,4 +57,5 @@ void main() {
     place = push.place.x * strain_at(texel) + push.place.y;
     gl_Position = clip_position(world);
     gl_Position.z = depth_of_thickness(world, push.springs.w, gl_Position.w);
+    gl_ClipDistance[0] = clip_distance(world, push.springs.w);
 }

@@ -47,12 +47,9 @@ Vec3 tangent(const Vec3& normal) {
 }
 
 glsl::ColliderInstance plane_instance(const Collider& collider, const PlaneExtent& extent, double time) {
-    const Plane& plane = std::get<Plane>(collider.shape);
-    ColliderPose pose = collider_pose(collider, time);
-    const Vec3 normal = rotate(pose.rotation, plane.normal);
-    const Vec3 x = rotate(pose.rotation, tangent(plane.normal));
-    const Vec3 z = cross(x, normal);
-    pose.rotation = {x[0], normal[0], z[0], x[1], normal[1], z[1], x[2], normal[2], z[2]};
+    const ColliderPose pose = plane_pose(collider, time);
+    const auto& r = pose.rotation;
+    const Vec3 x{r[0], r[3], r[6]}, z{r[2], r[5], r[8]};
     const Vec3 to_center{extent.center[0] - pose.center[0], extent.center[1] - pose.center[1],
                          extent.center[2] - pose.center[2]};
     const glsl::vec4 shape{static_cast<float>(extent.half_side), static_cast<float>(extent.line_distance),
@@ -61,6 +58,16 @@ glsl::ColliderInstance plane_instance(const Collider& collider, const PlaneExten
 }
 
 }  // namespace
+
+ColliderPose plane_pose(const Collider& collider, double time) {
+    const Plane& plane = std::get<Plane>(collider.shape);
+    ColliderPose pose = collider_pose(collider, time);
+    const Vec3 normal = rotate(pose.rotation, plane.normal);
+    const Vec3 x = rotate(pose.rotation, tangent(plane.normal));
+    const Vec3 z = cross(x, normal);
+    pose.rotation = {x[0], normal[0], z[0], x[1], normal[1], z[1], x[2], normal[2], z[2]};
+    return pose;
+}
 
 glsl::vec4 linear_color(const Vec3& srgb) {
     Vec3 linear;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drape/scene.h"
+#include "scene/collider_pose.h"
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 
@@ -43,6 +44,9 @@ struct PlaneExtent {
     double half_side = 1;      ///< m
     double line_distance = 1;  ///< m, of the grid drawn on it
 };
+
+/// As a plane is drawn: y is its normal, x and z run along the grid's lines.
+ColliderPose plane_pose(const Collider& plane, double time);
 
 /// In the order that `collider_draws` counts, poses at `time` (s).
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,

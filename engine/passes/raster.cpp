@@ -131,10 +131,13 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       view_(options.view.kind),
       scale_(strain_scale(options.view, scene)) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
-    const BoundingSphere extent = scene_extent(scene);
-    const Camera camera = picture_camera(scene, width, height);
-    plane_extent_ = plane_extent(camera, extent);
-    constants_ = frame_constants(scene, camera, extent, width, height, options.shift);
+    const PictureGeometry picture{picture_camera(scene, width, height), scene_extent(scene), width, height,
+                                  options.shift};
+    plane_extent_ = plane_extent(picture.camera, picture.extent);
+    const std::optional<std::size_t> floor = floor_of(scene.colliders, picture.camera);
+    constants_ = frame_constants(scene, picture, floor ? &scene.colliders[*floor] : nullptr);
+    has_floor_ = floor.has_value();
+    if (floor) colliders_.erase(colliders_.begin() + static_cast<std::ptrdiff_t>(*floor));
     make_pipelines(device, scene, options);
 }
 
@@ -192,7 +195,8 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     }
     vulkan::GraphicsState encoding;
     encoding.vertex = {"encode.vert"};
-    encoding.fragment = {"encode.frag"};
+    encoding.fragment = {vulkan::variant_name("encode.frag", {{"shadowed", shadow && has_floor_}})};
+    encoding.constants = {{"has_floor", has_floor_ ? 1u : 0u}};
     encoding.color_format = color_format;
     encoding.depth_format = VK_FORMAT_UNDEFINED;
     encoding_ = std::make_unique<vulkan::GraphicsPipeline>(device, "encode", encoding);
@@ -347,16 +351,19 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
 
 void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
     auto attachments = std::make_shared<RasterAttachments>();
+    const bool shadow_on_floor = casts_shadow() && has_floor_;
     graph.add_pass(
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
-            setup.read(targets.frame, Access::fragment_read);
+            setup.read(targets.frame, Access::vertex_read);
             setup.read(targets.light, Access::fragment_read);
+            if (shadow_on_floor) setup.read(targets.shadow_map, Access::fragment_read);
             attachments->color = targets.color = setup.write(targets.color, Access::color_write);
         },
-        [this, attachments, frame = targets.frame, light = targets.light](graph::PassContext& context) {
+        [this, attachments, targets, shadow_on_floor](graph::PassContext& context) {
             begin_rendering(context, *attachments);
-            const graph::Binding bound[] = {{"frame", frame}, {"light", light}};
+            std::vector<graph::Binding> bound{{"frame", targets.frame}, {"light", targets.light}};
+            if (shadow_on_floor) bound.push_back({"shadow_map", targets.shadow_map});
             context.bind(*encoding_, bound);
             draw_whole_picture(context);
             vkCmdEndRendering(context.commands());

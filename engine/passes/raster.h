@@ -111,6 +111,7 @@ class RasterPass {
 
     std::vector<Collider> colliders_;
     std::vector<Fixture> fixtures_;
+    bool has_floor_ = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow

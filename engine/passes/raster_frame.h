@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "drape/scene.h"
 #include "passes/collider_mesh.h"
@@ -18,8 +20,20 @@ std::uint32_t light_count(const SceneDescription& scene);
 double fade_radius(const Camera& camera, const BoundingSphere& extent);
 PlaneExtent plane_extent(const Camera& camera, const BoundingSphere& extent);
 
-/// The shadow map looks along the first light and holds `extent`. `shift`: RasterOptions.
-glsl::FrameConstants frame_constants(const SceneDescription& scene, const Camera& camera, const BoundingSphere& extent,
-                                     std::uint32_t width, std::uint32_t height, const std::array<double, 2>& shift);
+/// Of the colliders, the plane that the encoding pass draws behind all else: the first that keeps still with the camera
+/// above it.
+std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, const Camera& camera);
+
+/// What a picture is taken of and with.
+struct PictureGeometry {
+    Camera camera;
+    BoundingSphere extent;
+    std::uint32_t width = 0, height = 0;
+    std::array<double, 2> shift{0, 0};  ///< RasterOptions
+};
+
+/// The shadow map looks along the first light and holds the extent. `floor`: null where there is none.
+glsl::FrameConstants frame_constants(const SceneDescription& scene, const PictureGeometry& picture,
+                                     const Collider* floor);
 
 }  // namespace drape

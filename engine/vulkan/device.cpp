@@ -118,6 +118,8 @@ void Device::create() {
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
+    VkPhysicalDeviceFeatures features{};
+    features.shaderClipDistance = VK_TRUE;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;
@@ -126,6 +128,7 @@ void Device::create() {
     constexpr const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     auto info = structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
     info.pNext = &features13;
+    info.pEnabledFeatures = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = 1;

@@ -55,6 +55,7 @@ std::string missing_feature(VkPhysicalDevice physical) {
     if (!features13.synchronization2) return "the feature synchronization2 is missing";
     if (!features13.dynamicRendering) return "the feature dynamicRendering is missing";
     if (!features13.maintenance4) return "the feature maintenance4 is missing";
+    if (!features.features.shaderClipDistance) return "the feature shaderClipDistance is missing";
     return {};
 }
 

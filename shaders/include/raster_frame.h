@@ -4,14 +4,19 @@
 
 layout(set = 0, binding = 0, std430) readonly buffer Frame { FrameConstants frame[]; };
 
-/// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top.
-vec3 backdrop(float pixel_y) { return frame[0].background.xyz * (0.8 + 0.2 * pixel_y / frame[0].background.w); }
+/// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top;
+/// `background`: FrameConstants::background.
+vec3 backdrop(vec4 background, float pixel_y) { return background.xyz * (0.8 + 0.2 * pixel_y / background.w); }
 
 vec4 clip_position(vec3 world) {
     vec4 point = vec4(world, 1.0);
     return vec4(dot(frame[0].clip_from_world[0], point), dot(frame[0].clip_from_world[1], point),
                 dot(frame[0].clip_from_world[2], point), dot(frame[0].clip_from_world[3], point));
 }
+
+/// For gl_ClipDistance: what lies deeper than `margin` under the floor is not drawn, because the floor is drawn behind
+/// all else.
+float clip_distance(vec3 world, float margin) { return dot(frame[0].above_floor, vec4(world, 1.0)) + margin; }
 
 /// Depth as if the cloth were nearer to the eye by its thickness: by so much contact keeps particles off a collider,
 /// and no more does a triangle between them cut into it.

@@ -14,6 +14,19 @@ const int light_limit = 4;
 /// Texels of the square shadow map's side.
 const int shadow_map_size = 512;
 
+/// Its depth runs from 0 to 1 over eight radii of what it holds, a texel is two radii over the number of texels.
+const float shadow_texels_per_depth = 4.0f * float(shadow_map_size);
+
+/// The floor (include/floor.h) in its own coordinates, in which y is its normal: a place on it is (x, 0, z).
+struct FloorConstants {
+    vec4 ray[3];     // xyz: direction of sight at a pixel's place (x, y): [0] + x [1] + y [2], of any length
+    vec4 eye;        // xyz: camera position; w: distance of the grid's lines, m
+    vec4 shadow[3];  // xyz: texel x, y and depth in the shadow map, as dot(xyz, (x, z, 1))
+    vec4 fade;       // xyz: centre of its fade into the backdrop; w: radius, m
+    vec4 steady;     // xyz: radiance but for the first light's; w: depth in the map from texel to texel along x
+    vec4 first;      // xyz: radiance by the first light, where it arrives; w: depth from texel to texel along y
+};
+
 /// What all draws of a frame share.
 struct FrameConstants {
     vec4 clip_from_world[4];    // rows
@@ -25,6 +38,8 @@ struct FrameConstants {
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
     vec4 to_light[4];           // xyz: unit, towards the light
     vec4 light_radiance[4];     // xyz: linear colour times intensity
+    vec4 above_floor;           // height above the floor: dot(xyz, place) + w, m; (0, 0, 0, 1): there is none
+    FloorConstants floor;
 };
 
 // What `ClothPush::grid.z` says.

@@ -372,6 +372,37 @@ double psnr(const Picture& picture, const std::vector<double>& expected) {
     return 10 * std::log10(255 * 255 * static_cast<double>(expected.size()) / squares);
 }
 
+TEST_F(Raster, TheFloorIsThePlaneAsTriangles) {
+    SceneDescription scene = floor_scene();
+    scene.camera = Camera{{0.7, 1.1, 3}, {0, 0.2, 0}, 50};
+    scene.image.background = {0.5, 0.6, 0.7};
+    scene.lights = {{{-0.5, -1, -0.2}, white, 0.6}, {{1, -0.3, 0}, red, 0.3}};
+    scene.ambient_ground = {0.1, 0.05, 0.2};
+    scene.colliders[0].rotate = {4, 30, -7};
+    for (const Collider& body :
+         {painted(Sphere{{-0.3, 0.1, 0.2}, 0.4}, {0.4, 0.5, 0.6}),  // partly under it
+          painted(Box{{0.8, 0, -0.4}, {0.2, 0.5, 0.3}}, green), painted(Plane{{0, 0, 1}, -2}, blue)})
+        scene.colliders.push_back(body);
+    const DrawnCloth cloth = flat_cloth({0.3, 0.2, 0.5}, {0.9, 0.1, 0}, {0, -0.7, -0.3}, {0, 0, 1}, red, blue);
+    SceneDescription moving = scene;  // to where it is: only what keeps still is a floor
+    moving.colliders[0].path.keys = {{0, {}, {}}, {1, {}, {}}};
+    for (const bool shadow : {false, true}) {
+        const Shot shot{.samples = 4, .options = {.shadow = shadow, .shift = {0.3, -0.2}}};
+        const Picture floor = draw(scene, {cloth}, shot), triangles = draw(moving, {cloth}, shot);
+        std::vector<double> expected;
+        int unequal = 0;
+        for (std::size_t i = 0; i < std::size_t{3} * width * height; ++i) {
+            expected.push_back(triangles.bytes[4 * (i / 3) + i % 3]);
+            unequal += std::abs(floor.bytes[4 * (i / 3) + i % 3] - expected.back()) > 1;
+        }
+        std::printf("[ measured ] floor against triangles: PSNR %.1f dB, %d values differ by more than 1\n",
+                    psnr(floor, expected), unequal);
+        EXPECT_GT(psnr(floor, expected), 50);
+        EXPECT_LT(unequal, width * height * 3 / 1000);
+        EXPECT_NE(floor.bytes, draw(scene, {}, shot).bytes);
+    }
+}
+
 TEST_F(Raster, FourSamplesComeCloseToSixtyFour) {
     SceneDescription scene = floor_scene();
     scene.colliders.push_back(painted(Sphere{{0.2, 0.3, 0}, 0.3}, {0.4, 0.5, 0.6}));

@@ -144,7 +144,8 @@ TEST(VulkanReflection, a_struct_is_known_by_its_type_alone) {
     EXPECT_EQ(layout_of<Element>().name, "Element");
     EXPECT_EQ(layout_of<Element>().size, 32u);
     EXPECT_THAT(layout_of<Element>().offsets, ElementsAre(0, 16, 20, 24));
-    EXPECT_THAT(layout_of<glsl::FrameConstants>().offsets, ElementsAre(0, 64, 112, 128, 144, 160, 176, 192, 256))
+    EXPECT_THAT(layout_of<glsl::FrameConstants>().offsets,
+                ElementsAre(0, 64, 112, 128, 144, 160, 176, 192, 256, 320, 336))
         << "arrays";
     EXPECT_THAT(layout_of<glsl::vec4>().offsets, ElementsAre());
     EXPECT_THAT(layout_of<std::uint32_t>().offsets, ElementsAre());

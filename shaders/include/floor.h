@@ -1,0 +1,26 @@
+// The floor: a plane that keeps still with the camera above it. All else is cut off where it goes below
+// (clip_distance), so the floor shows wherever nothing does, and the encoding pass draws it with the backdrop: once per
+// pixel, with no attributes to interpolate and, as it is flat, with light that is summed up before.
+#ifndef DRAPE_FLOOR_H
+#define DRAPE_FLOOR_H
+
+/// Of a pixel that nothing covers: the floor's radiance or, above its horizon, the backdrop's.
+vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
+    vec3 ray = plane.ray[0].xyz + pixel.x * plane.ray[1].xyz + pixel.y * plane.ray[2].xyz;
+    bool seen = ray.y < 0.0;
+    vec2 place = plane.eye.xz - plane.eye.y / (seen ? ray.y : -1.0) * ray.xz;
+    vec2 cell = place / plane.eye.w;
+    float lines = grid_lines(cell, max(fwidth(cell), vec2(1e-6)));
+    float away = distance(vec3(place.x, 0.0, place.y), plane.fade.xyz) / plane.fade.w;
+    float lit = 1.0;
+#ifdef SHADOWED
+    vec3 there = vec3(place, 1.0);
+    lit = light_arriving(
+        vec3(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there), dot(plane.shadow[2].xyz, there)),
+        vec2(plane.steady.w, plane.first.w));
+#endif
+    vec3 radiance = lined(plane.steady.xyz + lit * plane.first.xyz, lines);
+    return seen ? mix(radiance, behind, faded(away)) : behind;
+}
+
+#endif

@@ -1,0 +1,39 @@
+// What of the first light arrives, by the shadow map.
+#ifndef DRAPE_SHADOW_MAP_H
+#define DRAPE_SHADOW_MAP_H
+
+#include "shared/raster_types.h"
+
+layout(set = 0, binding = 3, r32f) uniform readonly image2D shadow_map;
+
+/// Weighted share of four texels in a row that are no nearer to the light than the surface, which `slope` tilts along
+/// the row: a box filter of three texels, bilinear between them.
+float lit_in_row(ivec2 first, float depth, float slope, vec4 weights) {
+    vec4 nearest = vec4(imageLoad(shadow_map, first).x, imageLoad(shadow_map, first + ivec2(1, 0)).x,
+                        imageLoad(shadow_map, first + ivec2(2, 0)).x, imageLoad(shadow_map, first + ivec2(3, 0)).x);
+    return dot(weights, vec4(greaterThanEqual(nearest, depth + slope * vec4(0.0, 1.0, 2.0, 3.0))));
+}
+
+/// Share of the first light that arrives: 3x3 percentage-closer filter, bilinear between texels, each compared with the
+/// plane of the surface above it (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006), so that large
+/// texels, which make shadows soft, need no wide gap. `at`: texel coordinates and depth in the map; `slope`: of the
+/// surface's depth from texel to texel. Beyond the map there is light.
+float light_arriving(vec3 at, vec2 slope) {
+    vec2 corner = floor(at.xy - 1.5);
+    vec2 part = at.xy - 1.5 - corner;
+    ivec2 first = ivec2(corner);
+    bool beyond = any(lessThan(first, ivec2(0))) || any(greaterThan(first + 3, ivec2(shadow_map_size - 1)));
+    float depth = at.z + dot(corner + 0.5 - at.xy, slope);
+    vec4 columns = vec4(1.0 - part.x, 1.0, 1.0, part.x);
+    // A loop of no round skips the loads of pixels beyond the map; a branch would not on the default device.
+    int rounds = beyond ? 0 : 1;
+    float lit = 9.0;
+    for (int round = 0; round < rounds; ++round)
+        lit = (1.0 - part.y) * lit_in_row(first, depth, slope.x, columns) +
+              lit_in_row(first + ivec2(0, 1), depth + slope.y, slope.x, columns) +
+              lit_in_row(first + ivec2(0, 2), depth + 2.0 * slope.y, slope.x, columns) +
+              part.y * lit_in_row(first + ivec2(0, 3), depth + 3.0 * slope.y, slope.x, columns);
+    return lit / 9.0;
+}
+
+#endif
