@@ -9,11 +9,12 @@
 #include "include/triangles.h"
 
 layout(local_size_x = workgroup_width) in;
+layout(constant_id = 16) const bool again = false;  // the second round
 layout(push_constant) uniform Push { CollisionPush push; };
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;  // again: as the first round left it
 VECTOR_OUT(2, LiftedOut, lifted);
 #ifdef MASKED
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D cells;
@@ -55,8 +56,9 @@ uint near_rows(int column, int first, int count) {
 /// xyz: displacement of a particle after all boxes, w: 1 where one led it.
 vec4 led_by_boxes(ivec2 texel) {
     vec4 start = LOAD(position, texel);
-    vec3 moved = LOAD(displacement, texel).xyz;
-    bool touched = false;
+    vec4 before = LOAD(displacement, texel);
+    vec3 moved = before.xyz;
+    bool touched = again && before.w > 0.0f;
     for (int i = spheres_end; i < boxes_end; ++i) {
         ColliderRecord collider = colliders[push.first + i];
         vec3 local = local_point(collider, moved_position(start.xyz, moved));
@@ -86,8 +88,8 @@ void main() {
     int count = push.grid.y - first < box_edge_rows ? push.grid.y - first : box_edge_rows;
     for (int k = 0; k < count; ++k) {
         ivec2 texel = ivec2(column, first + k);
-        vec3 moved = LOAD(displacement, texel).xyz;
-        STORE_VECTOR(lifted, texel, vec4(moved, 0.0f));
+        vec4 moved = LOAD(displacement, texel);
+        STORE_VECTOR(lifted, texel, vec4(moved.xyz, again ? moved.w : 0.0f));
     }
     // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
     for (uint rows = near_rows(column, first, count); rows != 0u; rows &= rows - 1u) {

@@ -70,6 +70,8 @@ FieldExtent size_list(Context) { return {glsl::iteration_size_count}; }
 FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
 std::vector<std::byte> start_excess(Context c) { return bytes_of(c.cloth.start_excess()); }
+std::vector<std::byte> share_of_mass(Context c) { return bytes_of(mass_shares(c.cloth)); }
+bool cut_by_boxes(Context c) { return c.cloth.edge_reach > 0; }
 std::vector<std::byte> cell_bits(Context c) { return bytes_of(c.topology.grid().cells()); }
 std::vector<std::byte> reference(Context c) { return bytes_of(std::vector{statistics_reference(c.cloth)}); }
 
@@ -150,12 +152,12 @@ const std::vector<FieldRow>& rows() {
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
-        {Field::lifted, "lifted", stored, vector, frame, [](Context c) { return c.cloth.edge_reach > 0; }, particles},
+        {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
+        {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
          [](Context c) { return bytes_of(c.topology.spring_shares()); }},
-        {Field::mass_share, "mass share", image, scalar, constant, masked, particles,
-         [](Context c) { return bytes_of(mass_shares(c.cloth)); }},
+        {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},

@@ -35,7 +35,8 @@ enum class Field : std::uint8_t {
     statistics_reference,      ///< what the statistics measure from
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     wind_force,                ///< N
-    lifted,                    ///< displacement after the edges of boxes, m; w: 1 where they touched
+    lifted_once,               ///< displacement after the first round of boxes' edges, m; w: 1 where they touched
+    lifted,                    ///< likewise after the second
     normal,                    ///< unit normal of the front
     spring_share,              ///< share per direction, by first particle
     mass_share,                ///< 1 = an inner particle's

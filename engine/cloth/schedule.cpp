@@ -58,6 +58,8 @@ class Substep {
     Step& collide(std::uint32_t iteration, bool ends) {
         const bool edges = ends && cloth_.edge_reach > 0;
         if (edges) add(StepKind::box_edges, iteration);
+        // Led off one triangle, a corner may be past its neighbour.
+        if (edges) add(StepKind::box_edges, iteration).after_edges = true;
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         return step;

@@ -20,12 +20,12 @@ struct SubstepWork {
 
 /// The method's, and what wind and contact add to a substep of any. Nanoseconds on lavapipe, one core.
 SubstepWork substep_work(const Method& method, const SceneDescription& scene, const Cloth& cloth) {
-    constexpr double wind_ns = 64, collider_ns = 27, box_edges_ns = 24;
+    constexpr double wind_ns = 64, collider_ns = 27, box_edges_ns = 48;
     SubstepWork work{method.dispatches, method.particle_ns};
     if (scene.wind.blows()) work = {work.dispatches + 1, work.particle_ns + wind_ns};
     if (const auto count = static_cast<double>(scene.colliders.size()); count > 0)
         work = {work.dispatches + 1, work.particle_ns + count * collider_ns};
-    if (meets_box_edges(cloth, scene.colliders)) work = {work.dispatches + 1, work.particle_ns + box_edges_ns};
+    if (meets_box_edges(cloth, scene.colliders)) work = {work.dispatches + 2, work.particle_ns + box_edges_ns};
     return work;
 }
 
@@ -84,9 +84,8 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
     for (const Cloth& cloth : scene.cloths)
-        result.predicted_ms +=
-            result.substeps *
-            substep_ms(hang_of(scene, cloth), device, substep_work(method, scene, cloth), method.walks);
+        result.predicted_ms += result.substeps * substep_ms(hang_of(scene, cloth), device,
+                                                            substep_work(method, scene, cloth), method.walks);
     return result;
 }
 

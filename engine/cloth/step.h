@@ -76,7 +76,7 @@ struct Step {
     std::uint32_t count = 1;
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
-    /// Contact: goes on from what `box_edges` left.
+    /// Contact, a second `box_edges`: goes on from what `box_edges` left.
     bool after_edges = false;
     /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;

@@ -7,16 +7,19 @@ void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     // The boxes are between the two ends.
     std::vector<vulkan::SpecializationConstant> ends = collider_constants(model.scene);
     std::erase_if(ends, [](const auto& each) { return each.name != "spheres_end" && each.name != "boxes_end"; });
+    ends.push_back({"again", step.after_edges});
+    const Field from = step.after_edges ? Field::lifted_once : Field::displacement;
+    const Field to = step.after_edges ? Field::lifted : Field::lifted_once;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("box_edges.comp", {{"masked", state.masked()}, {"buffered", state.buffered}}), ends);
     glsl::CollisionPush push = state.model->box_edges();
     push.first = first_collider(model, *state.model, step.substep);
     graph.add_pass(
-        state.step_name("box edges", step),
+        state.step_name(step.after_edges ? "box edges again" : "box edges", step),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
-            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement");
-            state[Field::lifted] = setup.write(state[Field::lifted], graph::Access::compute_write, "lifted");
+            setup.read(state[from], graph::Access::compute_read, "displacement");
+            state[to] = setup.write(state[to], graph::Access::compute_write, "lifted");
             setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
             if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },

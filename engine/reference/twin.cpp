@@ -129,7 +129,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::tether:
             return tether(state);
         case StepKind::box_edges:
-            return box_edges(model, state, inputs, step.substep);
+            return box_edges(model, state, inputs, step);
         case StepKind::collide:
             return collide(model, state, inputs, step);
         case StepKind::check:

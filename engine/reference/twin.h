@@ -110,7 +110,7 @@ class Twin {
     void spring(const ClothModel& model, TwinCloth& state, const Step& step);
     void bend(TwinCloth& state, const Step& step);
     void twist(TwinCloth& state, const Step& step);
-    void box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
+    void box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
     void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
     void check(const ClothModel& model, TwinCloth& state, const Step& step);
     void self_gather(TwinCloth& state, const Step& step);

@@ -16,6 +16,7 @@ namespace {
 struct BoxEdges {
     const ClothModel& model;
     const TwinCloth& state;
+    Field from;  ///< where they are
     CollisionPush push;
 
     std::size_t place(ivec2 texel) const {
@@ -24,7 +25,7 @@ struct BoxEdges {
 
     CutCorner corner_at(ivec2 texel, const ColliderRecord& collider) const {
         const vec4 start = state[Field::position][place(texel)];
-        const vec3 moved = xyz(state[Field::displacement][place(texel)]);
+        const vec3 moved = xyz(state[from][place(texel)]);
         return {local_point(collider, moved_position(xyz(start), moved)), moved, start.w};
     }
 
@@ -44,16 +45,16 @@ struct BoxEdges {
 
 }  // namespace
 
-void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
-    const BoxEdges edges{model, state, model.box_edges()};
+void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+    const BoxEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement, model.box_edges()};
     const std::vector<drape::Collider>& colliders = model_->scene.colliders;
-    const auto first = static_cast<std::size_t>(first_collider(*model_, model, substep));
+    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
     for (int y = 0; y < edges.push.grid.y; ++y)
         for (int x = 0; x < edges.push.grid.x; ++x) {
             const std::size_t i = edges.place({x, y});
             const vec4 start = state[Field::position][i];
-            vec3 moved = xyz(state[Field::displacement][i]);
-            bool touched = false;
+            vec3 moved = xyz(state[edges.from][i]);
+            bool touched = step.after_edges && state[edges.from][i].w > 0.0f;
             for (std::size_t k = 0; k < colliders.size(); ++k) {
                 const ColliderRecord& collider = inputs.colliders[first + k];
                 if (colliders[k].kind() != kind_box) continue;
@@ -63,7 +64,7 @@ void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInput
                 moved = taken_displacement(moved, taken, local, collider, edges.push.contact.y);
                 touched = touched || ordered_dot(taken, taken) > 0.0f;
             }
-            state[Field::lifted][i] = texel(moved, touched ? 1.0f : 0.0f);
+            state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, touched ? 1.0f : 0.0f);
         }
 }
 
