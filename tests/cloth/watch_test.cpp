@@ -67,6 +67,23 @@ TEST(WatchTest, PinsCollidersAndWindExplainSpeed) {
         EXPECT_THAT(said(scene, 60, fast), HasSubstr("moves at 1e+05 m/s"));
 }
 
+TEST(WatchTest, ContactMovesWeightlessClothFromWhatItStartsTooNearTo) {
+    SceneDescription alone = hanging();
+    alone.cloths[0].pins.clear();
+    alone.gravity = {0, 0, 0};
+    ClothStatistics lifted = resting();
+    lifted.potential_energy = 0;
+    lifted.largest_speed = 0.2;  // what is led out at 0.1 m/s takes its neighbours along
+    EXPECT_THAT(said(alone, 1, lifted), HasSubstr("moves at 0.2 m/s, where at most 0.1 m/s are explained"));
+    lifted.kinetic_energy = 0.5 * 0.1 * 0.1;
+    SceneDescription on_ball = alone, on_itself = alone;
+    on_ball.colliders.push_back({Sphere{}});
+    on_itself.cloths[0].self_collision = SelfCollision{};
+    for (const SceneDescription& scene : {on_ball, on_itself}) EXPECT_THAT(said(scene, 1, lifted), IsEmpty());
+    lifted.largest_speed = 1.2;
+    EXPECT_THAT(said(on_ball, 1, lifted), HasSubstr("where at most 1.1 m/s are explained"));
+}
+
 TEST(WatchTest, NoParticleLeavesWhatItsClothReaches) {
     ClothStatistics far = resting();
     far.largest_distance = 6;  // the farthest starts sqrt(2) m off, and twice the diagonal is 2.86 m
