@@ -15,9 +15,10 @@ vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
     float lit = 1.0;
 #ifdef SHADOWED
     vec3 there = vec3(place, 1.0);
-    lit = light_arriving(
-        vec3(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there), dot(plane.shadow[2].xyz, there)),
-        vec2(plane.steady.w, plane.first.w));
+    vec2 texel = vec2(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there));
+    // Towards the horizon it is beyond what an integer holds.
+    texel = clamp(texel, vec2(-8.0), vec2(shadow_map_size + 8));
+    lit = light_arriving(vec3(texel, dot(plane.shadow[2].xyz, there)), vec2(plane.steady.w, plane.first.w));
 #endif
     vec3 radiance = lined(plane.steady.xyz + lit * plane.first.xyz, lines);
     return seen ? mix(radiance, behind, faded(away)) : behind;
