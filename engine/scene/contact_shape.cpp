@@ -43,8 +43,7 @@ double covering_radius(const Cloth& cloth) {
 
 bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
     return cloth.contact == ContactOf::surface && cloth.thickness < covering_radius(cloth) &&
-           std::ranges::any_of(colliders,
-                               [](const Collider& each) { return std::holds_alternative<Box>(each.shape); });
+           std::ranges::any_of(colliders, [](const Collider& each) { return std::holds_alternative<Box>(each.shape); });
 }
 
 Collider contact_shape(const Cloth& cloth, const Collider& collider) {

@@ -17,9 +17,9 @@ uint place_after(uint before, uint count) {
     return before;
 }
 
-/// The pass that goes through `count` entries, of several lists those of the longest, runs: no pass does unless somebody
-/// has work for it. Most that come here find it told. Once per invocation: an atomic costs as much as some dozen
-/// operations on the default device, and that for nobody, too.
+/// The pass that goes through `count` entries, of several lists those of the longest, runs: no pass does unless
+/// somebody has work for it. Most that come here find it told. Once per invocation: an atomic costs as much as some
+/// dozen operations on the default device, and that for nobody, too.
 void dispatch(int which, uint count) {
     uint groups = groups_of(count);
     if (sizes[which].x < groups) atomicMax(sizes[which].x, groups);
