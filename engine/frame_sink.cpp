@@ -75,13 +75,14 @@ void Sink::add_cut(const Cut& cut) {
                                .cloth = static_cast<std::uint32_t>(cut.cloth),
                                .springs = cut.springs,
                                .triangles = cut.triangles,
+                               .crumbs = cut.crumbs,
                                .faces = cut.faces};
     if (journal_) journal_->add(record);
     repeat_cut(record);
 }
 
 void Sink::repeat_cut(const JournalRecord& cut) {
-    cuts_.push_back({cut.frame, scene_.cloths.at(cut.cloth).name, cut.springs, cut.triangles});
+    cuts_.push_back({cut.frame, scene_.cloths.at(cut.cloth).name, cut.springs, cut.triangles, cut.crumbs});
     for (const Writer& writer : writers_) writer.files->set_faces(cut.frame + 1, cut.cloth, cut.faces);
 }
 

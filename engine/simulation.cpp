@@ -70,8 +70,9 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.samples = scene.image.samples;
     if (wanted.on_cut)
         options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
-            on_cut(
-                {event.frame, event.cloth, event.counts.springs, event.counts.triangles, topology.whole_triangles()});
+            const CutCounts& counts = event.counts;
+            on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.crumbs,
+                    topology.whole_triangles()});
         };
     return options;
 }

@@ -1,5 +1,7 @@
 #include "cloth/cloth_geometry.h"
 
+#include <algorithm>
+
 #include "cloth/texels.h"
 #include "scene/start.h"
 
@@ -17,7 +19,8 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       velocity(cloth.velocity),
       rigid(cloth.stiffness.rigid),
       bend(cloth.stiffness.bend),
-      stiffness_constant(stiffness_constants(cloth.stiffness, spacing)) {
+      stiffness_constant(stiffness_constants(cloth.stiffness, spacing)),
+      shows_crumbs(std::ranges::any_of(scene.cutters, &Cutter::crumbs)) {
     // An axis of two particles has no elements; explicit steps need not mind them.
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;

@@ -53,6 +53,7 @@ struct ClothGeometry {
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
     bool has_release = false, has_motion = false;
+    bool shows_crumbs;  ///< small pieces that are cut off are drawn
     std::vector<SkippedWork> skipped;
 
     /// The flat cloth's diagonal, m.

@@ -1,6 +1,7 @@
 #include "cloth/cut_topology.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cloth/directions.h"
 #include "cloth/texels.h"
@@ -47,7 +48,8 @@ float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) con
 float CutTopology::edge_cut(std::uint32_t from, std::uint32_t to) const {
     // Mesh edges are row, column and down-left springs, owned by the particle of lower index.
     const std::uint32_t owner = std::min(from, to), step = std::max(from, to) - owner;
-    const std::size_t direction = step == 1 ? 0 : step == columns_ ? 1 : 3;
+    const bool in_row = step == 1 && owner % columns_ + 1 < columns_;  // of two columns down-left is one on, too
+    const std::size_t direction = in_row ? 0 : step == columns_ ? 1 : 3;
     const float fraction = component(cuts_[owner], direction);
     return fraction < 0 ? -1 : owner == from ? fraction : 1 - fraction;
 }
@@ -121,6 +123,7 @@ CutCounts CutTopology::apply(const CutFindings& findings) {
     std::ranges::fill(tethers_, glsl::ParticleTethers{-1, -1, 0, 0});
     counts.triangles = split_triangles();
     rebuild_drawing();
+    counts.crumbs = crumb_count_;
     return counts;
 }
 
@@ -140,7 +143,11 @@ void CutTopology::rebuild_drawing() {
                 split.push_back(drawn);
             }
         }
+    grid_triangle_count_ = indices_.size() / 3;
     for (const Triangle& cut : split) add_parts(cut);
+    crumb_count_ = 0;
+    left_out_area_ = 0;
+    if (masked()) leave_out_crumbs();
 }
 
 void CutTopology::add_parts(const Triangle& cut) {
@@ -223,15 +230,88 @@ std::uint32_t CutTopology::add_vertex(std::uint32_t anchor, std::array<double, 2
     return static_cast<std::uint32_t>(grid_.particle_count() + vertices_.size() - 1);
 }
 
-std::vector<std::uint32_t> CutTopology::whole_triangles() const { return grid_.triangle_indices(); }
-
-double CutTopology::drawn_rest_area() const {
-    double doubled = 0;
+std::vector<std::uint32_t> CutTopology::whole_triangles() const {
+    std::vector<std::uint32_t> whole;
     for (std::size_t k = 0; k < indices_.size(); k += 3) {
-        const auto a = material(indices_[k]), b = material(indices_[k + 1]), c = material(indices_[k + 2]);
-        doubled += (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+        const std::uint32_t *const corner = &indices_[k], *const end = corner + 3;
+        if (corner[0] != corner[1] && std::all_of(corner, end, [&](auto c) { return c < grid_.particle_count(); }))
+            whole.insert(whole.end(), corner, end);
     }
-    return doubled / 2;
+    return whole;
+}
+
+double CutTopology::rest_area_of(std::size_t drawn) const {
+    const auto a = material(indices_[drawn]), b = material(indices_[drawn + 1]), c = material(indices_[drawn + 2]);
+    return ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
+}
+
+double CutTopology::rest_area() const {
+    double sum = left_out_area_;
+    for (std::size_t k = 0; k < indices_.size(); k += 3) sum += rest_area_of(k);
+    return sum;
+}
+
+std::vector<std::size_t> CutTopology::pieces() const {
+    std::vector<std::size_t> parent(grid_.particle_count());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::size_t k) {
+        while (parent[k] != k) k = parent[k] = parent[parent[k]];
+        return k;
+    };
+    for (std::uint32_t row = 0; row < rows_; ++row)
+        for (std::uint32_t column = 0; column < columns_; ++column) {
+            const std::size_t here = grid_.particle(column, row);
+            const glsl::vec4 share = masked() ? spring_shares_[here] : cloth_->grid.spring_shares(column, row);
+            for (std::size_t k = 0; k < spring_directions.size(); ++k) {
+                const glsl::ivec2 offset = spring_directions[k].offset;
+                const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
+                if (component(share, k) == 0 || x < 0 || x >= grid_.size().x || y >= grid_.size().y) continue;
+                parent[root(here)] = root(static_cast<std::size_t>(y * grid_.size().x + x));
+            }
+        }
+    for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
+    return parent;
+}
+
+std::vector<bool> CutTopology::beside_cuts(const std::vector<std::size_t>& piece) const {
+    std::vector<bool> beside(piece.size());
+    for (std::size_t particle = 0; particle < piece.size(); ++particle)
+        for (std::size_t k = 0; k < spring_directions.size(); ++k) {
+            if (cut_fraction(particle, k) < 0) continue;
+            const glsl::ivec2 offset = spring_directions[k].offset;
+            beside[piece[particle]] = true;
+            beside[piece[particle + static_cast<std::size_t>(offset.y * grid_.size().x + offset.x)]] = true;
+        }
+    return beside;
+}
+
+void CutTopology::leave_out_crumbs() {
+    const std::vector<std::size_t> piece = pieces();
+    const auto piece_of = [&](std::size_t drawn) {
+        const std::uint32_t first = indices_[drawn], count = grid_.particle_count();
+        return piece[first < count ? first : vertices_[first - count].particles.x];
+    };
+    std::vector<double> areas(piece.size());
+    for (std::size_t k = 0; k < indices_.size(); k += 3) areas[piece_of(k)] += rest_area_of(k);
+    const double largest = *std::ranges::max_element(areas);
+    // A hair less: four triangles cut along their edges are no crumb, however their sum was rounded.
+    const double least = (1 - 1e-9) * crumb_triangles * cloth_->spacing[0] * cloth_->spacing[1] / 2;
+    std::vector<bool> crumb = beside_cuts(piece);
+    for (std::size_t k = 0; k < piece.size(); ++k) crumb[k] = crumb[k] && areas[k] < std::min(least, largest);
+    crumb_count_ = static_cast<std::uint32_t>(std::ranges::count(crumb, true));
+    if (crumb_count_ == 0 || cloth_->shows_crumbs) return;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < indices_.size(); k += 3) {
+        const bool in_place = k < 3 * grid_triangle_count_;
+        if (crumb[piece_of(k)]) {
+            left_out_area_ += rest_area_of(k);
+            if (!in_place) continue;
+            std::fill_n(&indices_[k], 3, indices_[k]);
+        }
+        std::copy_n(&indices_[k], 3, &indices_[kept]);
+        kept += 3;
+    }
+    indices_.resize(kept);
 }
 
 }  // namespace drape

@@ -21,8 +21,12 @@ struct CutFindings {
 struct CutCounts {
     std::uint32_t springs = 0;    ///< cut now
     std::uint32_t triangles = 0;  ///< split now: gone from the whole ones
+    std::uint32_t crumbs = 0;     ///< there are now
     bool any() const { return springs > 0; }
 };
+
+/// A piece that was cut off and is smaller than so many triangles of the grid is a crumb; a cloth's largest is none.
+constexpr double crumb_triangles = 4;
 
 class CutTopology {
   public:
@@ -47,13 +51,17 @@ class CutTopology {
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }
 
     /// Three indices per triangle: each triangle of the uncut grid at its own place (its first index three times
-    /// once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`.
+    /// once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`. What
+    /// crumbs have is left out, likewise, unless the scene shows them.
     const std::vector<std::uint32_t>& indices() const { return indices_; }
     const std::vector<glsl::CutVertex>& vertices() const { return vertices_; }
-    /// Whole triangles alone, as exported: particle indices.
+    /// Drawn whole triangles alone, as exported: particle indices.
     std::vector<std::uint32_t> whole_triangles() const;
-    /// Drawn area at rest, m^2: whole triangles and parts; cutting does not change it.
-    double drawn_rest_area() const;
+    /// Area at rest, m^2, of whole triangles and parts, crumbs and all; cutting does not change it.
+    double rest_area() const;
+    std::uint32_t crumb_count() const { return crumb_count_; }
+    /// For each particle the number of one particle of its piece, the same for all that springs hold together.
+    std::vector<std::size_t> pieces() const;
     /// Fraction along an owned spring where it was cut; -1 when it was not.
     float cut_fraction(std::size_t particle, std::size_t direction) const;
 
@@ -71,6 +79,9 @@ class CutTopology {
     CutCounts take_crossings(const CutFindings& findings);
     std::uint32_t split_triangles();
     void rebuild_drawing();
+    double rest_area_of(std::size_t drawn) const;
+    std::vector<bool> beside_cuts(const std::vector<std::size_t>& piece) const;
+    void leave_out_crumbs();
     void add_parts(const Triangle& triangle);
     void add_isolated_corners(const Triangle& triangle);
     std::uint32_t edge_vertex(std::uint32_t anchor, std::uint32_t other, float fraction);
@@ -86,6 +97,9 @@ class CutTopology {
     std::vector<std::uint32_t> indices_;
     std::vector<glsl::CutVertex> vertices_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_vertices_;  ///< (anchor, other) -> vertex
+    std::uint32_t crumb_count_ = 0;
+    double left_out_area_ = 0;             ///< of crumbs, at rest
+    std::size_t grid_triangle_count_ = 0;  ///< of `indices_` that have a place of their own
 };
 
 /// Cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), room for

@@ -14,14 +14,14 @@ namespace drape {
 namespace {
 
 constexpr std::string_view magic = "DRAPEJNL";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t most_waiting = std::size_t{64} << 20;
 
 template <class Archive, class Record>
 void transfer(Archive& archive, Record& record, std::uint32_t& kind) {
     archive(kind, record.frame);
     if (kind == static_cast<std::uint32_t>(JournalRecord::Kind::cut))
-        archive(record.cloth, record.springs, record.triangles, record.faces);
+        archive(record.cloth, record.springs, record.triangles, record.crumbs, record.faces);
 }
 
 void put_values(ByteWriter& writer, const JournalRecord& record) {

@@ -21,8 +21,8 @@ struct JournalRecord {
     FrameValues values{};  // of a frame
     // Of a frame, per cloth: x y z w of every particle; empty where no format needs them.
     std::vector<std::vector<float>> positions{}, velocities{};
-    std::uint32_t cloth = 0, springs = 0, triangles = 0;  // of a cut
-    std::vector<std::uint32_t> faces{};                   // of a cut
+    std::uint32_t cloth = 0, springs = 0, triangles = 0, crumbs = 0;  // of a cut
+    std::vector<std::uint32_t> faces{};                               // of a cut
 };
 
 // What the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same (its

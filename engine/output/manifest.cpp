@@ -87,6 +87,7 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
         row["cloth"] = cut.cloth;
         row["springs"] = cut.spring_count;
         row["triangles"] = cut.triangle_count;
+        row["crumbs"] = cut.crumb_count;
         json.append(row);
     }
     return json;

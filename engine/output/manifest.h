@@ -84,6 +84,7 @@ struct Manifest {
         std::string cloth;
         std::uint32_t spring_count = 0;    // cut
         std::uint32_t triangle_count = 0;  // split
+        std::uint32_t crumb_count = 0;     // there are now
     };
     struct FrameTime {  // wall-clock milliseconds per frame
         double median = 0;

@@ -303,6 +303,9 @@ const Object<Cutter> cutter{
          "[begin, end] in seconds"},
         {"path", &Cutter::path, path,
          "Rigid motion on top of the given triangle; absent: at rest; rotations are about the triangle's centroid."},
+        {"crumbs", &Cutter::crumbs, boolean(),
+         "Whether crumbs are drawn and exported: pieces cut off of less than four triangles of the grid. They are "
+         "simulated and counted in the manifest either way. One cutter that asks for them shows those of all."},
     }};
 
 constexpr auto method_spellings = [] {

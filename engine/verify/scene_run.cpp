@@ -7,7 +7,6 @@
 #include <map>
 
 #include "scene/surface_distance.h"
-#include "verify/pieces.h"
 
 namespace drape::verify {
 
@@ -35,9 +34,9 @@ namespace {
 
 CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, const CutTopology& topology) {
     std::map<std::size_t, std::size_t> sizes;
-    const std::vector<std::size_t> piece_of = pieces(topology);
+    const std::vector<std::size_t> piece_of = topology.pieces();
     for (const std::size_t piece : piece_of) ++sizes[piece];
-    CutRecord record{frame, index, springs, 0, 0, topology.drawn_rest_area()};
+    CutRecord record{frame, index, springs, 0, 0, topology.rest_area()};
     for (const auto& [piece, size] : sizes) ++(100 * size >= piece_of.size() ? record.pieces : record.crumbs);
     return record;
 }

@@ -101,7 +101,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
 
     TwinWithCuts twin(scene);
-    const double area = twin.topology(0).drawn_rest_area();
+    const double area = twin.topology(0).rest_area();
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     std::uint64_t springs = 0;
     FrameLoopOptions options = positions_only();
@@ -109,7 +109,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
         ++device_cuts;
         springs += event.counts.springs;
         test::expect_consistent(topology);
-        EXPECT_NEAR(topology.drawn_rest_area(), area, 1e-6 * area);
+        EXPECT_NEAR(topology.rest_area(), area, 1e-6 * area);
     };
     FrameLoop loop(test::gpu().device, twin.model(), options);
     loop.run(

@@ -165,7 +165,7 @@ const Malformed setting_cases[] = {
       "2:13: /cutters/0/active: expected [begin, end] in seconds, got nothing",
       "2:30: /cutters/1/triangle: expected a triangle with an area, got a degenerate one",
       "2:78: /cutters/1/active: expected an end that is not before the beginning",
-      "2:86: /cutters/1/spin: expected one of triangle, active, path, got the unknown key \"spin\""}},
+      "2:86: /cutters/1/spin: expected one of triangle, active, path, crumbs, got the unknown key \"spin\""}},
     {"Solver",
      scene("\"solver\": {\"method\": \"magic\", \"substeps\": 0, \"iterations\": 1025,\n\"collide\": 1, "
            "\"tolerance\": -1,\n\"tethers\": 1}"),

@@ -11,16 +11,13 @@
 
 #include "cloth/cut_topology.h"
 #include "cloth/directions.h"
-#include "verify/pieces.h"
 
 namespace drape::test {
 
 inline double number(float x) { return static_cast<double>(x); }
 
-using verify::pieces;
-
 inline std::size_t piece_count(const CutTopology& topology) {
-    const std::vector<std::size_t> roots = pieces(topology);
+    const std::vector<std::size_t> roots = topology.pieces();
     return std::set<std::size_t>(roots.begin(), roots.end()).size();
 }
 
@@ -28,7 +25,9 @@ inline int cut_edge_count(const CutTopology& topology, const std::uint32_t* corn
     int count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = std::min(corner[k], corner[(k + 1) % 3]), b = std::max(corner[k], corner[(k + 1) % 3]);
-        const std::size_t direction = b - a == 1 ? 0 : b - a == topology.cloth().grid.columns() ? 1 : 3;
+        const std::uint32_t columns = topology.cloth().grid.columns();
+        const bool in_row = a / columns == b / columns;
+        const std::size_t direction = in_row ? 0 : b - a == columns ? 1 : 3;
         count += topology.cut_fraction(a, direction) >= 0;
     }
     return count;
@@ -51,7 +50,7 @@ inline Vec3 evaluate(const glsl::CutVertex& vertex, const std::vector<glsl::vec4
 /// and a whole triangle has at most one cut edge (a slit's end); no spring's share is negative; a cut spring has
 /// share 0; the corners of a cell that the mesh has let go are joined by no diagonal.
 inline void expect_consistent(const CutTopology& topology) {
-    const std::vector<std::size_t> piece = pieces(topology);
+    const std::vector<std::size_t> piece = topology.pieces();
     const std::size_t particle_count = topology.cloth().grid.particle_count();
     const std::vector<std::uint32_t>& indices = topology.indices();
     ASSERT_EQ(indices.size() % 3, 0u);

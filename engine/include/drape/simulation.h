@@ -64,7 +64,8 @@ struct Cut {
     std::uint32_t frame = 0;
     std::size_t cloth = 0;
     std::uint32_t springs = 0, triangles = 0;  ///< cut and split now
-    std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is still whole
+    std::uint32_t crumbs = 0;                  ///< pieces there are now of less than four triangles of the grid
+    std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is drawn whole
 };
 
 /// How finely FinishedFrame::timings tells the device's time. Each bracket costs about 10 us on a CPU.
