@@ -101,6 +101,22 @@ TEST_F(Sweep, GoesOnWhereItWasAndSaysWhatIsMissing) {
     EXPECT_THAT(other.err, HasSubstr("is another sweep's"));
 }
 
+/// As a full disk does: nothing that says something of the run.
+TEST_F(Sweep, AFileThatCannotBeWrittenEndsItAndItGoesOnWhenItCan) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/cloths/0/damping": {"grid": [0, 1]}}})");
+    const Outcome stopped = drape({"sweep", "spec.json", "-o", "out", "--jobs", "1", "-q"},
+                                  {.folder = folder.path(), .file_size_limit = 4096});
+    EXPECT_EQ(stopped.code, 1) << stopped.err;
+    EXPECT_THAT(stopped.err, AllOf(HasSubstr("drape: run 0: cannot write 'out/runs/0000/"),
+                                   HasSubstr("positions.npz': File too large")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/jobs/0000.json"));
+    EXPECT_EQ(sweep({"--resume", "-q"}).code, 0);
+    EXPECT_EQ(sweep({"-q"}, "whole").code, 0);
+    EXPECT_EQ(results(), results("whole"));
+    EXPECT_EQ(file("out/runs/0000/positions.npz"), file("whole/runs/0000/positions.npz"));
+    EXPECT_EQ(names_in(folder / "out/jobs"), names_in(folder / "whole/jobs"));
+}
+
 TEST_F(Sweep, TellsItsRunsAndRefusesOthers) {
     EXPECT_EQ(drape({"sweep", "spec.json", "--count"}, {.folder = folder.path()}).out, "6\n");
     const std::string list = drape({"sweep", "spec.json", "--list"}, {.folder = folder.path()}).out;

@@ -77,6 +77,8 @@ std::optional<ExitCode> run_one(const Options& options, const sweep::SweepSpec& 
         if (!run_scene(request_of(options, spec, folder, index)).complete) return std::nullopt;
     } catch (...) {
         const Failure failure = current_failure();
+        // A full disk says nothing about the run: without a record --resume runs it again.
+        if (failure.code == ExitCode::io) throw;
         record.exit_code = static_cast<int>(failure.code);
         record.message = failure.text;
         print_error(fmt::format("run {}: {}", index, failure.text));
@@ -179,7 +181,9 @@ gives. Grids are counted through, the last pointer in alphabetical order
 fastest; without a count every combination runs once.
 
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
-results.csv, a line per run, failed ones too: exit code 9 when there is one.
+results.csv, a line per run, failed ones too: exit code 9 when there is one. A
+file that a run cannot read or write ends the sweep with exit code 1; that run
+has no record, and --resume runs it.
 
 Examples:
   drape sweep spec.json -o out/sweep              all cores; a process per run

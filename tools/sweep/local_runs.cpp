@@ -12,6 +12,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "output/atomic_file.h"
+#include "output/file_descriptor.h"
 #include "output/output_error.h"
 #include "output/progress.h"
 
@@ -24,10 +26,12 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
+    const FileDescriptor messages(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!messages) throw system_error_at("write", log.string(), errno);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&actions, messages.get(), STDERR_FILENO);
     pid_t child = -1;
     const int error = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -58,7 +62,7 @@ class Pool {
         Progress progress(runs_.indices.size(), options);
         bool stopped = false;
         for (std::size_t next = 0; next < runs_.indices.size() || !running_.empty();) {
-            stopped = stopped || runs_.stop();
+            stopped = stopped || !unwritten_.empty() || runs_.stop();
             while (!stopped && next < runs_.indices.size() && running_.size() < runs_.processes) {
                 const std::uint32_t index = runs_.indices[next++];
                 running_[start(runs_.command(index), folder_.log_file(index))] = index;
@@ -75,10 +79,19 @@ class Pool {
                 running_.erase(found);
             }
         }
+        if (!unwritten_.empty()) throw OutputError(unwritten_);
         return !stopped;
     }
 
   private:
+    /// Why a run that could not read or write a file ended, by its log; where that has no room either, it is the one.
+    std::string file_failure(std::uint32_t index, std::string said) const {
+        constexpr std::string_view program = "drape: ";
+        if (said.starts_with(program)) said.erase(0, program.size());
+        if (said.empty()) write_file(folder_.log_file(index), said = "it could not write its files, nor why");
+        return fmt::format("run {}: {}", index, said);
+    }
+
     /// Whether the run has a record now.
     bool ended(std::uint32_t index, int status) {
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
@@ -86,9 +99,13 @@ class Pool {
         const bool interrupted =
             code == static_cast<int>(ExitCode::interrupted) || code == static_cast<int>(ExitCode::terminated);
         if (!record && interrupted) return false;
+        const std::string said = last_line(folder_.log_file(index));
+        if (!record && code == static_cast<int>(ExitCode::io)) {
+            if (unwritten_.empty()) unwritten_ = file_failure(index, said);
+            return false;
+        }
         if (!record) {
-            record = JobRecord{index, code == 0 ? static_cast<int>(ExitCode::internal) : code,
-                               last_line(folder_.log_file(index))};
+            record = JobRecord{index, code == 0 ? static_cast<int>(ExitCode::internal) : code, said};
             folder_.write(*record, runs_.dataset);
         }
         if (!record->done()) ++failed_;
@@ -104,6 +121,7 @@ class Pool {
     const SweepFolder& folder_;
     std::map<pid_t, std::uint32_t> running_;
     std::uint32_t failed_ = 0;
+    std::string unwritten_;  ///< what ends the sweep: a file that the first such run could not read or write
 };
 
 }  // namespace
