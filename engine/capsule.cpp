@@ -128,11 +128,10 @@ void write_capsule(OutputFolder& folder, const FailureCapsule& capsule) {
     write_file(folder, std::string(capsule_file_name), encode_sections(capsule_format, sections));
 }
 
-FailureCapsule read_capsule(const std::string& path) {
-    const std::string file = bytes_at(path);
+FailureCapsule decode_capsule(std::span<const std::byte> file) {
     FailureCapsule capsule;
     try {
-        const Sections sections = decode_sections(capsule_format, bytes_of(file));
+        const Sections sections = decode_sections(capsule_format, file);
         const auto about = sections.find(about_part), scene = sections.find(scene_part);
         if (about == sections.end() || scene == sections.end()) throw Error("it has not all its parts");
         take_about(json_of(about->second), capsule);
@@ -143,14 +142,23 @@ FailureCapsule read_capsule(const std::string& path) {
             if (name.starts_with(prefix)) checkpoint[name.substr(prefix.size())] = bytes;
         std::string key;
         if (!checkpoint.empty()) capsule.checkpoint = checkpoint_of(checkpoint, key);
+    } catch (const OutputError&) {
+        throw;
     } catch (const Json::Exception& error) {
-        throw OutputError(fmt::format("'{}' is damaged: {}", path, error.what()));
+        throw OutputError(fmt::format("is damaged: {}", error.what()));
     } catch (const Error& error) {
-        throw OutputError(fmt::format("'{}' is damaged: {}", path, error.what()));
+        throw OutputError(fmt::format("is damaged: {}", error.what()));
+    }
+    return capsule;
+}
+
+FailureCapsule read_capsule(const std::string& path) {
+    const std::string file = bytes_at(path);
+    try {
+        return decode_capsule(bytes_of(file));
     } catch (const OutputError& error) {
         throw OutputError(fmt::format("'{}' {}", path, error.what()));
     }
-    return capsule;
 }
 
 }  // namespace drape

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "checkpoints.h"
@@ -31,6 +32,8 @@ struct FailureCapsule {
 void write_capsule(OutputFolder& folder, const FailureCapsule& capsule);
 /// Throws OutputError naming the file when it is none.
 FailureCapsule read_capsule(const std::string& path);
+/// The same of a file's bytes. Throws OutputError with what is wrong, to be put behind the file's name.
+FailureCapsule decode_capsule(std::span<const std::byte> file);
 
 struct ReplayRequest {
     std::string path;

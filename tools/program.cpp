@@ -137,15 +137,13 @@ std::string Program::help(const std::vector<std::string>& command) const {
     return app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal);
 }
 
-/// Says what is wrong with the command line, and where help is.
-ExitCode Program::usage_error(const std::string& text) const {
+Program::Parsed Program::usage_error(const std::string& text) const {
     std::string name = "drape";
     for (const CLI::App* command = app_.get(); !command->get_subcommands().empty();) {
         command = command->get_subcommands().front();
         name += " " + command->get_name();
     }
-    print_message(name + ": " + text + "\nSee `" + name + " --help`.");
-    return ExitCode::usage;
+    return {{}, {}, name + ": " + text + "\nSee `" + name + " --help`.", ExitCode::usage};
 }
 
 /// What is wrong with the words that ought to name a command; empty when nothing is.
@@ -188,23 +186,28 @@ std::string Program::unknown_option() const {
     return text;
 }
 
-ExitCode Program::run() {
+Program::Parsed Program::parse() {
     if (const std::string wrong = unknown_command(); !wrong.empty()) return usage_error(wrong);
     try {
         // CLI11 takes the words from the back.
         app_->parse(std::vector<std::string>(arguments_.rbegin(), arguments_.rend() - 1));
     } catch (const CLI::CallForHelp&) {
-        print_data(app_->help());
-        return ExitCode::ok;
+        return {{}, app_->help(), {}};
     } catch (const CLI::CallForVersion& version) {
-        print_data(std::string(version.what()) + "\n");
-        return ExitCode::ok;
+        return {{}, std::string(version.what()) + "\n", {}};
     } catch (const CLI::ExtrasError&) {
         return usage_error(unknown_option());
     } catch (const CLI::ParseError& error) {
         return usage_error(error.what());
     }
-    return run_();
+    return {run_, {}, {}};
+}
+
+ExitCode Program::run() {
+    const Parsed parsed = parse();
+    if (!parsed.data.empty()) print_data(parsed.data);
+    if (!parsed.message.empty()) print_message(parsed.message);
+    return parsed.command ? parsed.command() : parsed.code;
 }
 
 }  // namespace drape::cli

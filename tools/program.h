@@ -41,6 +41,16 @@ class Program {
     CLI::App& add(const std::string& name, const char* summary, const char* details,
                   const std::function<ExitCode()>& run);
 
+    /// What a command line comes to: a command to run, or else what to print and how to end.
+    struct Parsed {
+        std::function<ExitCode()> command;
+        std::string data;     ///< for stdout
+        std::string message;  ///< for stderr: what is wrong, and where help is
+        ExitCode code = ExitCode::ok;
+    };
+    /// Runs and prints nothing.
+    Parsed parse();
+
     /// Parses the command line and runs the command it names, or says what is wrong with it.
     ExitCode run();
 
@@ -55,7 +65,7 @@ class Program {
     const CLI::App* find(const std::vector<std::string>& words) const;
     std::string unknown_command() const;
     std::string unknown_option() const;
-    ExitCode usage_error(const std::string& text) const;
+    Parsed usage_error(const std::string& text) const;
 
     std::vector<std::string> arguments_;
     std::unique_ptr<CLI::App> app_;

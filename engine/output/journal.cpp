@@ -58,7 +58,24 @@ void get_values(ByteReader& reader, JournalRecord& record) {
     get_arrays(reader, record.velocities);
 }
 
-JournalRecord decode(std::span<const std::byte> bytes) {
+std::vector<std::byte> head_of(const std::string& run_key) {
+    ByteWriter writer;
+    writer.put_bytes(std::as_bytes(std::span(magic)));
+    writer(version, run_key);
+    return writer.take();
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_record(const JournalRecord& record) {
+    ByteWriter writer;
+    auto kind = static_cast<std::uint32_t>(record.kind);
+    transfer(writer, record, kind);
+    if (record.kind == JournalRecord::Kind::frame) put_values(writer, record);
+    return writer.take();
+}
+
+JournalRecord decode_record(std::span<const std::byte> bytes) {
     ByteReader reader(bytes);
     JournalRecord record;
     std::uint32_t kind = 0;
@@ -70,15 +87,6 @@ JournalRecord decode(std::span<const std::byte> bytes) {
     return record;
 }
 
-std::vector<std::byte> head_of(const std::string& run_key) {
-    ByteWriter writer;
-    writer.put_bytes(std::as_bytes(std::span(magic)));
-    writer(version, run_key);
-    return writer.take();
-}
-
-}  // namespace
-
 void Journal::open_file(bool keep) {
     folder_.begin_writing();
     const int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC | (keep ? 0 : O_TRUNC);
@@ -87,11 +95,7 @@ void Journal::open_file(bool keep) {
 }
 
 void Journal::add(const JournalRecord& record) {
-    ByteWriter writer;
-    auto kind = static_cast<std::uint32_t>(record.kind);
-    transfer(writer, record, kind);
-    if (record.kind == JournalRecord::Kind::frame) put_values(writer, record);
-    const std::vector<std::byte> payload = writer.take();
+    const std::vector<std::byte> payload = encode_record(record);
     ByteWriter framed;
     framed(std::uint64_t{payload.size()});
     framed.put_bytes(payload);
@@ -161,7 +165,7 @@ void Journal::read(std::uint64_t length, const std::function<void(JournalRecord&
         ByteReader(next(sizeof sum))(sum);
         if (sum != XXH3_64bits(payload.data(), payload.size())) throw damaged();
         try {
-            take(decode(payload));
+            take(decode_record(payload));
         } catch (const Error&) {
             throw damaged();
         }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,10 @@ struct JournalRecord {
     std::uint32_t cloth = 0, springs = 0, triangles = 0, crumbs = 0;  // of a cut
     std::vector<std::uint32_t> faces{};                               // of a cut
 };
+
+// A record's content (engine/docs/checkpoint.md) and back. decode_record throws Error when it is none.
+std::vector<std::byte> encode_record(const JournalRecord& record);
+JournalRecord decode_record(std::span<const std::byte> bytes);
 
 // What the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same (its
 // arrays appear only when complete). Short runs never write it: records wait in memory until there is a checkpoint, or

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <array>
 #include <cstring>
 
 #include "byte_stream.h"
@@ -12,19 +11,13 @@
 
 namespace drape {
 
-namespace {
-
-using Checksum = std::array<std::byte, 16>;
-
-Checksum checksum_of(std::span<const std::byte> bytes) {
+SectionChecksum section_checksum(std::span<const std::byte> bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-    Checksum sum;
+    SectionChecksum sum;
     std::memcpy(sum.data(), &hash.low64, 8);
     std::memcpy(sum.data() + 8, &hash.high64, 8);
     return sum;
 }
-
-}  // namespace
 
 std::vector<std::byte> encode_sections(const SectionFormat& format, const Sections& sections) {
     ByteWriter writer;
@@ -35,7 +28,7 @@ std::vector<std::byte> encode_sections(const SectionFormat& format, const Sectio
         writer.put_bytes(bytes);
     }
     std::vector<std::byte> file = writer.take();
-    const Checksum sum = checksum_of(file);
+    const SectionChecksum sum = section_checksum(file);
     file.insert(file.end(), sum.begin(), sum.end());
     return file;
 }
@@ -44,13 +37,13 @@ Sections decode_sections(const SectionFormat& format, std::span<const std::byte>
     if (bytes.size() < format.magic.size() || std::memcmp(bytes.data(), format.magic.data(), format.magic.size()) != 0)
         throw OutputError(fmt::format("is no {}", format.what));
     const auto damaged = [](const char* why) { return OutputError(fmt::format("is damaged: {}", why)); };
-    constexpr std::size_t sum_size = std::tuple_size_v<Checksum>;
+    constexpr std::size_t sum_size = std::tuple_size_v<SectionChecksum>;
     if (bytes.size() < format.magic.size() + 2 * sizeof(std::uint32_t) + sum_size) throw damaged("it was cut short");
     const auto content = bytes.first(bytes.size() - sum_size);
     ByteReader reader(content.subspan(format.magic.size()));
     std::uint32_t version = 0, count = 0;
     reader(version, count);
-    const Checksum sum = checksum_of(content);
+    const SectionChecksum sum = section_checksum(content);
     const bool whole = std::memcmp(sum.data(), bytes.data() + content.size(), sum_size) == 0;
     // Another version may end with another checksum.
     if (version != format.version && (whole || version < 1000))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -21,6 +22,10 @@ struct SectionFormat {
 
 inline constexpr SectionFormat checkpoint_format{"DRAPECKP", "checkpoint", 1};
 inline constexpr SectionFormat capsule_format{"DRAPECAP", "capsule", 1};
+
+// XXH3-128, low half first: what ends a file, of all before it.
+using SectionChecksum = std::array<std::byte, 16>;
+SectionChecksum section_checksum(std::span<const std::byte> bytes);
 
 std::vector<std::byte> encode_sections(const SectionFormat& format, const Sections& sections);
 

@@ -10,10 +10,9 @@
 #include "device_run.h"
 #include "frame_loop.h"
 #include "gpu_test.h"
-#include "reference/cut_twin.h"
-#include "reference/twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
+#include "support/twin_with_cuts.h"
 
 namespace drape {
 namespace {
@@ -38,37 +37,6 @@ std::vector<glsl::vec4> texels(std::span<const float> xyzw) {
     std::memcpy(list.data(), xyzw.data(), xyzw.size_bytes());
     return list;
 }
-
-/// The whole chain again on the CPU: simulate, search, cut.
-class TwinWithCuts {
-  public:
-    explicit TwinWithCuts(const SceneDescription& scene) : model_(scene), twin_(model_) {}
-    CutCounts run_frame(std::uint32_t frame) {
-        if (frame > 0) twin_.run_frame(frame);
-        const double fps = model_.scene.time.fps, start = frame == 0 ? 0 : (frame - 1) / fps, end = frame / fps;
-        CutCounts sum;
-        if (!cutters_active(model_.scene.cutters, start, end)) return sum;
-        const std::vector<glsl::CutterTriangle> cutters = cutter_triangles(model_.scene.cutters, start, end);
-        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
-            CutTopology& topology = twin_.topology(cloth);
-            const CutFindings found = find_cuts(topology, twin_.cloth(cloth)[Field::position], cutters);
-            const bool hit = std::ranges::any_of(
-                found.fractions, [](const glsl::vec4& f) { return f.x >= 0 || f.y >= 0 || f.z >= 0 || f.w >= 0; });
-            if (!hit) continue;
-            const CutCounts counts = topology.apply(found);
-            sum.springs += counts.springs;
-            sum.triangles += counts.triangles;
-        }
-        return sum;
-    }
-    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth)[Field::position]; }
-    const CutTopology& topology(std::size_t cloth) { return twin_.topology(cloth); }
-    const SimulationModel& model() const { return model_; }
-
-  private:
-    SimulationModel model_;
-    Twin twin_;
-};
 
 /// Random blades, one after the other, anywhere about the sheet.
 std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
@@ -100,7 +68,7 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     scene.colliders.push_back({Plane{{0, 1, 0}, -1}});  // pieces stay within the blades' reach
     scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
 
-    TwinWithCuts twin(scene);
+    test::TwinWithCuts twin(scene);
     const double area = twin.topology(0).rest_area();
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     std::uint64_t springs = 0;
@@ -221,7 +189,7 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
 /// Runs `frames` frames on the device and on the twin: the same bits after each, at least ten cuts. The tethers of the
 /// twin's first cloth as the cuts left them.
 std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription& scene, std::uint32_t frames) {
-    TwinWithCuts twin(scene);
+    test::TwinWithCuts twin(scene);
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     FrameLoopOptions options = positions_only();
     options.on_cut = [&](const CutEvent&, const CutTopology&) { ++device_cuts; };
@@ -280,7 +248,7 @@ TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
     scene.time.frame_count = 4;
     scene.cutters = {blade({0.33, 5, -5}, {0.33, -10, -5}, {0.33, -2, 10}, 0, 0)};
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 8)};
-    TwinWithCuts twin(scene);
+    test::TwinWithCuts twin(scene);
     std::vector<std::uint32_t> cut_frames;
     FrameLoopOptions options = positions_only();
     options.on_cut = [&](const CutEvent& event, const CutTopology&) { cut_frames.push_back(event.frame); };

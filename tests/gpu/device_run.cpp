@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "vulkan/api.h"
 
 namespace drape::test {
@@ -63,6 +65,17 @@ std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
     std::vector<std::byte> bytes(std::size_t{about.width} * about.height * row_of(field).element.size);
     vulkan::download(device_, image, bytes);
     return bytes;
+}
+
+std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationModel& model) {
+    const bool buffered = std::ranges::all_of(
+        model.cloths, [&](const ClothModel& cloth) { return buffered_obstacle(device, cloth.grid).empty(); });
+    std::vector<Schedule> all{Schedule::images};
+    if (buffered) all.push_back(Schedule::buffers);
+    const bool streamed =
+        buffered && model.cloths[0].plan.spare_state && streamed_obstacle(device, model.cloths[0].grid).empty();
+    if (streamed) all.push_back(Schedule::streams);
+    return all;
 }
 
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where) {

@@ -52,6 +52,9 @@ class DeviceRun {
     vulkan::FrameSlots slots_;
 };
 
+/// Schedules that the device has for a model's cloths.
+std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationModel& model);
+
 /// Whether two lists of texels are the same bits; on failure `where` names the first difference.
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where);
 

@@ -63,24 +63,12 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
     expect_same(row_of(field), one.bytes(0, field), other.bytes(0, field), frame);
 }
 
-/// Schedules that the device has for a model's cloths.
-inline std::vector<Schedule> schedules(const SimulationModel& model) {
-    const bool buffered = std::ranges::all_of(
-        model.cloths, [](const ClothModel& cloth) { return buffered_obstacle(gpu().device, cloth.grid).empty(); });
-    std::vector<Schedule> all{Schedule::images};
-    if (buffered) all.push_back(Schedule::buffers);
-    const bool streamed =
-        buffered && model.cloths[0].plan.spare_state && streamed_obstacle(gpu().device, model.cloths[0].grid).empty();
-    if (streamed) all.push_back(Schedule::streams);
-    return all;
-}
-
 /// On every schedule. Returns the record of the last frame's contact between cloths, if they meet.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {}) {
     const SimulationModel model(scene, options);
     Twin twin(model);
     std::vector<std::unique_ptr<DeviceRun>> devices;
-    for (const Schedule schedule : schedules(model))
+    for (const Schedule schedule : schedules(gpu().device, model))
         devices.push_back(std::make_unique<DeviceRun>(gpu().device, model, graph::BarrierFilter{}, schedule));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);

@@ -38,7 +38,7 @@ bool are_together(const SceneDescription& scene, Schedule schedule) {
 
 TEST(TwinTogetherTest, Lines) {
     const SceneDescription scene = several(SolverMethod::line);
-    const auto schedules = test::schedules(SimulationModel(scene));
+    const auto schedules = test::schedules(test::gpu().device, SimulationModel(scene));
     EXPECT_FALSE(are_together(scene, Schedule::images));
     for (const Schedule schedule : schedules) EXPECT_EQ(are_together(scene, schedule), schedule != Schedule::images);
     compare(scene);

@@ -1,0 +1,120 @@
+// A small scene of everything on the device and on the C++ twin: every bit of the state after every frame, and nothing
+// from the validation layer. Needs a device with IEEE arithmetic, as lavapipe is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "device_run.h"
+#include "drape/scene_reader.h"
+#include "frame_loop.h"
+#include "reference/twin.h"
+#include "small_scene.h"
+#include "support/twin_with_cuts.h"
+
+#ifdef __SANITIZE_ADDRESS__
+#define DRAPE_FUZZ_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define DRAPE_FUZZ_SANITIZED
+#endif
+#endif
+
+namespace drape {
+namespace {
+
+using fuzz::require;
+
+/// With core and synchronization validation.
+struct Gpu {
+    vulkan::Instance instance{vulkan::InstanceOptions{.validation = true, .print_messages = false}};
+    vulkan::Device device{instance, selector()};
+
+    static std::string selector() {
+        const char* name = std::getenv("DRAPE_TEST_DEVICE");
+        return name ? name : "";
+    }
+};
+
+Gpu& gpu() {
+    static Gpu the_gpu;
+    return the_gpu;
+}
+
+void compare(const FieldRow& row, std::span<const std::byte> device, std::span<const std::byte> twin,
+             std::uint32_t frame) {
+    require(std::ranges::equal(device, twin), fmt::format("{} is not the same after frame {}", row.name, frame));
+}
+
+/// Every field of the state.
+void compare_states(const SimulationModel& model, Schedule schedule) {
+    Twin twin(model);
+    test::DeviceRun device(gpu().device, model, {}, schedule);
+    for (std::uint32_t frame = 1; frame < model.scene.time.frame_count; ++frame) {
+        twin.run_frame(frame);
+        device.run_frame(frame);
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+            twin.normals(cloth);
+            const TwinCloth& expected = twin.cloth(cloth);
+            const FieldContext about{model, model.cloths[cloth], expected.topology, {.drawing = true}};
+            for (const FieldRow& row : cloth_fields())
+                if (row.needed(about) && (row.life == FieldLife::state || row.field == Field::normal))
+                    compare(row, device.bytes(cloth, row.field), expected.bytes(row.field), frame);
+        }
+    }
+}
+
+/// Positions, with what the cutters cut.
+void compare_cut(const SceneDescription& scene, Schedule schedule) {
+    test::TwinWithCuts twin(scene);
+    FrameLoopOptions options;
+    options.draw = false;
+    options.positions = true;
+    options.schedule = schedule;
+    FrameLoop loop(gpu().device, twin.model(), options);
+    loop.run(
+        scene.time.frame_count - 1, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            twin.run_frame(frame.frame);
+            for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth)
+                compare(row_of(Field::position), std::as_bytes(frame.positions[cloth]),
+                        std::as_bytes(std::span(twin.position(cloth))), frame.frame);
+        });
+}
+
+void check_messages() {
+    vulkan::ValidationLog& log = gpu().instance.validation_log();
+    if (log.count() == 0) return;
+    const std::string first = log.messages().front();
+    log.clear();
+    require(false, first);
+}
+
+}  // namespace
+}  // namespace drape
+
+#ifdef DRAPE_FUZZ_SANITIZED
+extern "C" {
+/// As in gpu_test.cpp: drivers and layers stay loaded, so that their leaks can be told from ours.
+int dlclose(void*) noexcept { return 0; }
+}
+#endif
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace drape;
+    fuzz::Dice dice({data, size});
+    const std::string text = fuzz::small_scene(dice, {.longest_side = 7, .frames = 2, .substeps = 3});
+    if (std::getenv("DRAPE_FUZZ_PRINT")) fmt::print(stderr, "{}\n", text);
+    const SceneResult result = read_scene_text(text, "small scene");
+    if (!result.scene) return 0;
+    const SimulationModel model(*result.scene);
+    const std::vector<Schedule> schedules = test::schedules(gpu().device, model);
+    const Schedule schedule = schedules[dice.below(static_cast<std::uint32_t>(schedules.size()))];
+    if (result.scene->cutters.empty())
+        compare_states(model, schedule);
+    else
+        compare_cut(*result.scene, schedule);
+    check_messages();
+    return 0;
+}
