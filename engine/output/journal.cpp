@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "byte_stream.h"
@@ -43,7 +44,8 @@ void get_arrays(ByteReader& reader, std::vector<std::vector<float>>& arrays) {
         reader(floats);
         if (floats > reader.left() / sizeof(float)) throw Error("it ends too early");
         std::vector<float>& cloth = arrays.emplace_back(static_cast<std::size_t>(floats));
-        std::memcpy(cloth.data(), reader.get_bytes(floats * sizeof(float)).data(), floats * sizeof(float));
+        const auto bytes = reader.get_bytes(floats * sizeof(float));
+        std::ranges::copy(bytes, std::as_writable_bytes(std::span(cloth)).begin());  // memcpy takes no null pointer
     }
 }
 
