@@ -117,8 +117,10 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh
         throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
     if (!there && fs::exists(path_) && !fs::is_empty(path_) && !fs::exists(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
-    for (const char* name : {"runs", "jobs"}) make_folder(path_ / name);
+    // First what says whose folder it is: where there is no room for the rest, the sweep can still go on.
+    make_folder(path_);
     if (!there) write_file(file, text);
+    for (const char* name : {"runs", "jobs"}) make_folder(path_ / name);
 }
 
 std::string SweepFolder::number(std::uint32_t index) const {
