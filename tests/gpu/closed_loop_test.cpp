@@ -132,13 +132,15 @@ TEST(ClosedLoop, WithClothThatMeetsItself) {
     SceneDescription scene = automatic(test::fold(15, 0.5, SolverMethod::line, 1), 20);
     scene.cloths[0].velocity = {0, -4, 0};
     scene.solver.tolerance = 0.0005;
+    scene.solver.tolerance_motion = 0.5;  // the default's takes 1536 substeps, which the twin's search for pairs feels
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
 TEST(ClosedLoop, WithClothsThatMeetEachOther) {
     SceneDescription scene = automatic(test::layers(SolverMethod::line, 1), 12);
     for (Cloth& cloth : scene.cloths) cloth.velocity = {0, -3, 0};
-    scene.solver.tolerance = 0.0002;
+    scene.solver.tolerance = 0.0004;
+    scene.solver.tolerance_motion = 0.5;
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
@@ -176,7 +178,8 @@ TEST(ClosedLoop, TighterLimitsTakeMoreSubstepsAndErrLess) {
 }
 
 TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
-    SceneDescription scene = hanging_by_corners(6);
+    SceneDescription scene = automatic(test::sheet(9, 8, 0.4, 0.3, 1), 6);
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(8, 0, 8, 0)};
     scene.solver.tolerance = 1e-7;  // below what single precision resolves
     Simulation simulation(scene, {}, validated());
     try {
