@@ -80,6 +80,7 @@ const std::vector<SceneBreak>& scene_breaks() {
         {"cloth_on_sphere", "penetration", "no collision", 30, no_collision},
         {"cloth_on_sphere", "supported", "no thickness", 30, no_thickness},
         {"cloth_on_sphere", "stretch", "springs a thousand times too soft", 60, springs_a_thousand_times_too_soft},
+        {"cloth_on_sphere", "uncrossed", "no self-collision", 30, no_self_collision},
         {"curtain", "pins_follow", "key-framed pins stay", 60, pins_stay},
         {"curtain", "drawn", "key-framed pins stay", 60, pins_stay},
         {"curtain", "stretch", "springs a thousand times too soft", 30, springs_a_thousand_times_too_soft},
