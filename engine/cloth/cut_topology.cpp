@@ -266,7 +266,7 @@ std::vector<std::size_t> CutTopology::pieces() const {
                 const glsl::ivec2 offset = spring_directions[k].offset;
                 const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
                 if (component(share, k) == 0 || x < 0 || x >= grid_.size().x || y >= grid_.size().y) continue;
-                parent[root(here)] = root(static_cast<std::size_t>(y * grid_.size().x + x));
+                parent[root(here)] = root(grid_.particle(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
             }
         }
     for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
