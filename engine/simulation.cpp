@@ -15,6 +15,7 @@
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
 #include "scene/overlap.h"
+#include "scene/start.h"
 #include "scene/start_crossings.h"
 
 namespace drape {
@@ -111,6 +112,8 @@ const SceneDescription& checked(const SceneDescription& scene) {
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
            "pixels, of 1 or 4 samples");
     expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
+    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i)
+        expect(leaves_a_cell(scene.cloths[i]), fmt::format("/cloths/{}/holes", i), "holes that leave a cell");
     if (result.errors.empty() && scene.overlap == Overlap::refuse)
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),

@@ -267,6 +267,8 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     note_fabric(members.object());
     for (std::size_t i = 0; i < cloth.holes.size(); ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
+    if (fits && members.fit({"grid", "holes"}) && !leaves_a_cell(cloth))
+        fits = members["holes"].fail("expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
     if (members.fit({"grid", "size", "self_collision"}))

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
+#include "drape/scene_reader.h"
 #include "scene/random.h"
 #include "scene/vectors.h"
 
@@ -54,6 +56,32 @@ std::vector<bool> missing_cells(const Cloth& cloth) {
             for (std::size_t column = hole.first[0]; column < hole.last[0]; ++column)
                 missing[row * columns + column] = true;
     return missing;
+}
+
+bool leaves_a_cell(const Cloth& cloth) {
+    const std::size_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
+    if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > scene_particle_limit) return true;  // an error of its own
+    std::uint64_t covered = 0;
+    for (const IndexBox& hole : cloth.holes)
+        covered += std::uint64_t{hole.last[0] - hole.first[0]} * (hole.last[1] - hole.first[1]);
+    if (covered < columns * rows) return true;
+    // By cell how many more holes there are than around it to the left and above: the sum says how many it is in.
+    std::vector<std::int32_t> holes((columns + 1) * (rows + 1));
+    for (const IndexBox& hole : cloth.holes)
+        for (const auto& [column, row, sign] : {std::tuple{hole.first[0], hole.first[1], 1},
+                                                {hole.last[0], hole.first[1], -1},
+                                                {hole.first[0], hole.last[1], -1},
+                                                {hole.last[0], hole.last[1], 1}})
+            holes[row * (columns + 1) + column] += sign;
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < columns; ++column) {
+            std::int32_t& here = holes[row * (columns + 1) + column];
+            if (column > 0) here += holes[row * (columns + 1) + column - 1];
+            if (row > 0) here += holes[(row - 1) * (columns + 1) + column];
+            if (column > 0 && row > 0) here -= holes[(row - 1) * (columns + 1) + column - 1];
+            if (here == 0) return true;
+        }
+    return false;
 }
 
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {

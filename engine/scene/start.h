@@ -18,6 +18,9 @@ std::vector<bool> held_at_start(const Cloth& cloth);
 /// By cell, row by row: whether a hole takes it away.
 std::vector<bool> missing_cells(const Cloth& cloth);
 
+/// Whether any is left.
+bool leaves_a_cell(const Cloth& cloth);
+
 /// m, of a particle without jitter.
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);
 

@@ -265,6 +265,10 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
     refused("/cloths/0/size", [](SceneDescription& scene) { scene.cloths[0].size = {1, NAN}; });
     refused("/cloths/0/pins/0", [](SceneDescription& scene) { scene.cloths[0].pins[0].particles.last = {12, 0}; });
     refused("/cloths/0/holes/0", [](SceneDescription& scene) { scene.cloths[0].holes = {{{3, 3}, {2, 9}}}; });
+    refused("/cloths/0/holes", [](SceneDescription& scene) {
+        const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
+        scene.cloths[0].holes = {{{0, 0}, {grid[0] - 1, grid[1] - 1}}};
+    });
     refused("/cloths/0", [](SceneDescription& scene) {
         scene.overlap = Overlap::refuse;
         scene.colliders = {{Sphere{{0, 0, 0}, 100}}};

@@ -227,5 +227,12 @@ TEST(SceneFile, RefusesMoreThanItsLimit) {
     EXPECT_EQ(read_scene_text(padded, "s").errors.size(), 1u);
 }
 
+/// However many cells they take in all, one is left in the lower right.
+TEST(SceneValues, HolesMayLieOnEachOther) {
+    const SceneResult result = read_scene_text(
+        R"({"cloths": [{"grid": [3, 3], "holes": [[[0, 0], [2, 1]], [[0, 0], [2, 1]], [[0, 0], [1, 2]]]}]})", "holes");
+    EXPECT_TRUE(result.scene.has_value());
+}
+
 }  // namespace
 }  // namespace drape
