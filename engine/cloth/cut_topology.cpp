@@ -147,7 +147,7 @@ void CutTopology::rebuild_drawing() {
     for (const Triangle& cut : split) add_parts(cut);
     crumb_count_ = 0;
     left_out_area_ = 0;
-    if (masked()) leave_out_crumbs();
+    if (!split.empty()) find_crumbs();  // what is cut off has split triangles around it
 }
 
 void CutTopology::add_parts(const Triangle& cut) {
@@ -232,11 +232,8 @@ std::uint32_t CutTopology::add_vertex(std::uint32_t anchor, std::array<double, 2
 
 std::vector<std::uint32_t> CutTopology::whole_triangles() const {
     std::vector<std::uint32_t> whole;
-    for (std::size_t k = 0; k < indices_.size(); k += 3) {
-        const std::uint32_t *const corner = &indices_[k], *const end = corner + 3;
-        if (corner[0] != corner[1] && std::all_of(corner, end, [&](auto c) { return c < grid_.particle_count(); }))
-            whole.insert(whole.end(), corner, end);
-    }
+    for (std::size_t k = 0; k < 3 * grid_triangle_count_; k += 3)
+        if (indices_[k] != indices_[k + 1]) whole.insert(whole.end(), &indices_[k], &indices_[k] + 3);
     return whole;
 }
 
@@ -285,7 +282,7 @@ std::vector<bool> CutTopology::beside_cuts(const std::vector<std::size_t>& piece
     return beside;
 }
 
-void CutTopology::leave_out_crumbs() {
+void CutTopology::find_crumbs() {
     const std::vector<std::size_t> piece = pieces();
     const auto piece_of = [&](std::size_t drawn) {
         const std::uint32_t first = indices_[drawn], count = grid_.particle_count();

@@ -81,7 +81,8 @@ class CutTopology {
     void rebuild_drawing();
     double rest_area_of(std::size_t drawn) const;
     std::vector<bool> beside_cuts(const std::vector<std::size_t>& piece) const;
-    void leave_out_crumbs();
+    /// Counts them, and leaves them out of what is drawn where they are not to be seen.
+    void find_crumbs();
     void add_parts(const Triangle& triangle);
     void add_isolated_corners(const Triangle& triangle);
     std::uint32_t edge_vertex(std::uint32_t anchor, std::uint32_t other, float fraction);

@@ -13,6 +13,7 @@
 #include "frame_loop.h"
 #include "reference/twin.h"
 #include "small_scene.h"
+#include "support/twin_fields.h"
 #include "support/twin_with_cuts.h"
 #include "vulkan/error.h"
 
@@ -82,14 +83,9 @@ void compare_states(const SimulationModel& model, Schedule schedule) {
         twin.run_frame(frame);
         device.run_frame(frame);
         if (!goes_on(model, twin, device)) return;
-        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-            twin.normals(cloth);
-            const TwinCloth& expected = twin.cloth(cloth);
-            const FieldContext about{model, model.cloths[cloth], expected.topology, {.drawing = true}};
-            for (const FieldRow& row : cloth_fields())
-                if (row.needed(about) && (row.life == FieldLife::state || row.field == Field::normal))
-                    compare(row, device.bytes(cloth, row.field), expected.bytes(row.field), frame);
-        }
+        test::for_compared_fields(model, twin, [&](std::size_t cloth, const FieldRow& row, const auto& expected) {
+            compare(row, device.bytes(cloth, row.field), expected, frame);
+        });
     }
 }
 

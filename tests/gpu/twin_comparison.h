@@ -10,6 +10,7 @@
 #include "gpu_test.h"
 #include "reference/twin.h"
 #include "support/sheets.h"
+#include "support/twin_fields.h"
 
 namespace drape::test {
 
@@ -73,15 +74,9 @@ inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOption
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
         for (const auto& device : devices) device->run_frame(frame);
-        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-            twin.normals(cloth);
-            const TwinCloth& expected = twin.cloth(cloth);
-            const FieldContext about{model, model.cloths[cloth], expected.topology, {.drawing = true}};
-            for (const FieldRow& row : cloth_fields())
-                if (row.needed(about) && (row.life == FieldLife::state || row.field == Field::normal))
-                    for (const auto& device : devices)
-                        expect_same(row, device->bytes(cloth, row.field), expected.bytes(row.field), frame);
-        }
+        for_compared_fields(model, twin, [&](std::size_t cloth, const FieldRow& row, const auto& expected) {
+            for (const auto& device : devices) expect_same(row, device->bytes(cloth, row.field), expected, frame);
+        });
         if (::testing::Test::HasFailure()) return {};
     }
     // The comparison means something only if the cloth moved and stayed finite.

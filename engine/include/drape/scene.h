@@ -209,8 +209,7 @@ struct Cutter {
     std::array<Vec3, 3> triangle{};
     double begin = 0.0, end = 0.0;  ///< s; active from begin to end, both included
     MotionPath path;
-    bool crumbs =
-        false;  ///< pieces of less than four triangles that are cut off are drawn; of all cutters when one has it
+    bool crumbs = false;  ///< small pieces that are cut off are drawn; of all cutters when one has it
     bool operator==(const Cutter&) const = default;
 };
 
