@@ -277,6 +277,16 @@ std::optional<std::string> missed_limits(const SimulationFacts& facts, const Run
         rms, largest, facts.tolerance_rms, facts.tolerance_worst);
 }
 
+/// What a run is told whose cloths met and may have crossed; those that started so were told of before.
+std::optional<std::string> lost_proof(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->first_unproved) return std::nullopt;
+    return fmt::format(
+        "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
+        "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
+        *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
+}
+
 /// The files of a run that is done, or of one that failed as far as it came.
 void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
     manifest.cuts = sink.cuts();
@@ -388,6 +398,7 @@ RunSummary run_scene(const RunRequest& request) {
                            summary, failure, earlier_validation, device};
         summary.complete = run_missing(run, from, range);
         if (const auto warning = missed_limits(simulation.facts(), sink.statistics())) warn(*warning);
+        if (const auto warning = lost_proof(simulation)) warn(*warning);
         manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);

@@ -94,13 +94,14 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
 }
 
 std::string certificate_of(const Manifest::SelfCollision& told) {
-    if (!told.crossed.empty()) return "not proved: cloths started through each other, and do not meet";
-    if (told.first_unproved)
-        return fmt::format(
-            "not proved from frame {} on: a held particle moved farther than was shown to cross nothing, or cloth "
-            "touched",
-            *told.first_unproved);
-    return "no crossing in any substep";
+    std::string met = told.first_unproved ? fmt::format(
+                                                      "not proved from frame {} on: a held particle moved farther than "
+                                                      "was shown to cross nothing, or cloth "
+                                                      "touched",
+                                                      *told.first_unproved)
+                                                : "no crossing in any substep";
+    if (told.crossed.empty()) return met;
+    return "not proved from frame 0 on: cloths that started through each other do not meet; of the others: " + met;
 }
 
 Json::Value self_collision_json(const Manifest::SelfCollision& told) {

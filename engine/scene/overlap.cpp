@@ -45,15 +45,6 @@ double counting_depth(const Cloth& cloth) {
     return least_depth * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
 }
 
-/// Unit normal of the plane through three of its corners; 0 where they are on a line.
-Vec3 start_normal(const Cloth& cloth) {
-    const Vec3 corner = start_place(cloth, 0, 0);
-    const Vec3 normal = cross(exact::minus(start_place(cloth, cloth.grid[0] - 1, 0), corner),
-                              exact::minus(start_place(cloth, 0, cloth.grid[1] - 1), corner));
-    const double size = exact::norm(normal);
-    return size > 0 ? Vec3{normal[0] / size, normal[1] / size, normal[2] / size} : Vec3{};
-}
-
 /// `inside`: the places of particles in the box, `normal` the cloth's, both in its frame.
 WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Box& box, double speed) {
     WayOut best;

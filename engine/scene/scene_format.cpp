@@ -407,11 +407,15 @@ const Object<SceneDescription> scene{
         {"gravity", &SceneDescription::gravity, vec3, "m/s^2."},
         {"wind", &SceneDescription::wind, wind, "Wind; none by default."},
         {"cloths", &SceneDescription::cloths, list<Cloth>(cloth, cloth_count, 1, 1024),
-         "The cloths. They do not collide with each other or with themselves.", cloth_count},
+         "The cloths. Where one has self_collision they meet each other; else they pass through each other and "
+         "themselves.",
+         cloth_count},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
-         "Cloth that starts inside a collider, which is warned of: `resolve` moves it out by contact, at no more than "
-         "0.1 m/s; `refuse` makes it an error of the scene."},
+         "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "
+         "`resolve` "
+         "moves it out of the collider by contact, at no more than 0.1 m/s, while the two cloths never meet; `refuse` "
+         "makes it an error of the scene."},
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},

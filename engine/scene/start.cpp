@@ -118,6 +118,12 @@ std::vector<Vec3> start_positions(const Cloth& cloth) {
     return positions;
 }
 
+Vec3 start_normal(const Cloth& cloth) {
+    const Vec3 normal = cross(side(cloth, 0), side(cloth, 1));
+    const double size = length(normal);
+    return size > 0 ? Vec3{normal[0] / size, normal[1] / size, normal[2] / size} : Vec3{};
+}
+
 double start_strain(const Cloth& cloth) {
     double strain = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {

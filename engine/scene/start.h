@@ -30,6 +30,9 @@ Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t parti
 /// m, of every particle, row by row: its place, and without a pin what the jitter moves it by.
 std::vector<Vec3> start_positions(const Cloth& cloth);
 
+/// Unit normal of the plane through three of its corners; 0 where they are on a line.
+Vec3 start_normal(const Cloth& cloth);
+
 /// The most that a spring along u or v starts too long or too short by, over its length.
 double start_strain(const Cloth& cloth);
 

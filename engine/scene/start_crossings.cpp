@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/start.h"
 #include "scene/surface_distance.h"
@@ -15,6 +16,8 @@ namespace drape {
 namespace {
 
 using exact::minus;
+
+constexpr double least_depth = 1e-4;  ///< m: less is touching
 
 /// A cloth as it starts.
 struct Sheet {
@@ -72,6 +75,19 @@ bool boxes_meet(const Sheet& a, const Sheet& b, double within) {
     return true;
 }
 
+/// m, of the part of `b` on that side of the plane of `a` where it has less; not finite where that is no plane.
+double depth_beyond(const Sheet& a, const Sheet& b) {
+    const Vec3 normal = start_normal(*a.cloth);
+    if (!(length(normal) > 0)) return std::numeric_limits<double>::infinity();
+    double above = 0, below = 0;
+    for (const Vec3& x : b.at) {
+        const double height = dot(normal, minus(x, a.at.front()));
+        above = std::max(above, height);
+        below = std::max(below, -height);
+    }
+    return std::min(above, below);
+}
+
 bool touches(const Sheet& a, const Sheet& b, double within) {
     return std::ranges::any_of(a.at, [&](const Vec3& x) { return b.holds(x, within); }) ||
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
@@ -96,16 +112,22 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
                 TriangleCrossings({a.mesh(), b.mesh()}).count([](std::size_t one, std::size_t other) {
                     return one != other;
                 });
-            if (crossings > 0 || touches(a, b, within)) all.push_back({first, second, crossings});
+            if (crossings > 0 || touches(a, b, within)) {
+                const double depth = std::min(depth_beyond(a, b), depth_beyond(b, a));
+                all.push_back({first, second, crossings, std::isfinite(depth) ? depth : 0});
+            }
         }
     return all;
 }
 
 std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing) {
-    const std::string how = crossing.triangles == 0
-                                ? "on each other"
-                                : fmt::format("through each other ({} pair{} of triangles cross{})", crossing.triangles,
-                                              crossing.triangles == 1 ? "" : "s", crossing.triangles == 1 ? "es" : "");
+    const char *are = crossing.triangles == 1 ? "" : "s", *cross = crossing.triangles == 1 ? "es" : "";
+    const std::string off = fmt::format("moved by {:.3g} m one would be off the other", crossing.depth);
+    const std::string how = crossing.triangles > 0
+                                ? fmt::format("through each other ({} pair{} of triangles cross{}; {})",
+                                              crossing.triangles, are, cross, off)
+                            : crossing.depth > least_depth ? fmt::format("on or through each other ({})", off)
+                                                           : "on each other";
     return fmt::format("cloths \"{}\" and \"{}\" start {}", scene.cloths[crossing.first].name,
                        scene.cloths[crossing.second].name, how);
 }

@@ -145,6 +145,7 @@ SceneResult crossing(const std::string& placement, const std::vector<std::string
 }
 const std::string upright = R"({"origin": [-0.2, 0.3, 0.1], "u": [1, 0, 0], "v": [0, -1, 0]})",
                   beside = R"({"origin": [0.6, 0.3, 0.1], "u": [1, 0, 0], "v": [0, -1, 0]})",
+                  along = R"({"origin": [-0.25, 0.25, 0], "u": [1, 0, 0], "v": [0, -1, 0]})",
                   above = R"({"origin": [-0.2, 0.001, -0.3], "u": [1, 0, 0], "v": [0, 0, 1]})",
                   upon = R"({"origin": [-0.2, 1e-7, -0.3], "u": [1, 0, 0], "v": [0, 0, 1]})";
 
@@ -154,10 +155,14 @@ TEST(StartCrossingTest, IsSaidOfClothsThatMeet) {
         for (const SceneError& warning : result.warnings) texts.push_back(warning.text());
         return texts;
     };
-    EXPECT_THAT(warned(crossing(upright)),
-                ElementsAre(AllOf(HasSubstr("crossing.json:5:16: /cloths/1/placement: cloths \"sheet\" and \"other\" "
-                                            "start through each other ("),
-                                  HasSubstr("the two will not meet, and no frame is proved"))));
+    EXPECT_THAT(
+        warned(crossing(upright)),
+        ElementsAre(AllOf(HasSubstr("crossing.json:5:16: /cloths/1/placement: cloths \"sheet\" and \"other\" "
+                                    "start through each other (6 pairs of triangles cross; moved by 0.2 m one would "
+                                    "be off the other)"),
+                          HasSubstr("the two will not meet, and no frame is proved"))));
+    EXPECT_THAT(warned(crossing(along)), ElementsAre(HasSubstr("start on or through each other (moved by 0.25 m")))
+        << "along lines of both grids";
     EXPECT_THAT(warned(crossing(upon)), ElementsAre(HasSubstr("start on each other")));
     EXPECT_THAT(warned(crossing(beside)), IsEmpty());
     EXPECT_THAT(warned(crossing(above)), IsEmpty());
