@@ -152,6 +152,8 @@ class FrameLoop {
     template <class Archive>
     void transfer(Archive& archive);
     void restore_cuts(const SimulationState& state);
+    /// Whether what was read of a state is what a loop of this scene can come to: the next frame divides by it.
+    bool can_be() const;
     Frame build(FrameKind kind, const SimulationModel& run);
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);

@@ -3,12 +3,14 @@
 // scene and the frame alone, such as the bounds of the watch, is computed again.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "byte_stream.h"
 #include "cloth/directions.h"
 #include "cloth/texels.h"
 #include "frame_loop.h"
+#include "scene/frame_limit.h"
 
 namespace drape {
 
@@ -54,11 +56,11 @@ void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
     if (self_contact_) archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
-    sleep_.transfer(archive);
-    drive_.transfer(archive);
+    if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
+    if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");
     bool has_statistics = !attempt_statistics_.empty();
     archive(has_statistics);
-    if (!has_statistics) return;
+    if (!has_statistics) return attempt_statistics_.clear();
     if (attempt_statistics_.empty()) attempt_statistics_.emplace_back(model_.cloths.size());
     for (ClothStatistics& statistics : attempt_statistics_.back()) transfer_statistics(archive, statistics);
 }
@@ -78,6 +80,18 @@ SimulationState FrameLoop::save() const {
     return state;
 }
 
+bool FrameLoop::can_be() const {
+    // A loop may run beyond its scene's frames, but not beyond any scene's.
+    const std::uint32_t most = std::max(scene_frame_limit, model_.scene.time.frame_count);
+    if (std::max(next_frame_, simulated_) > most) return false;
+    const bool as_it_begins = state_substeps_ == model_.scene.solver.substeps;
+    if (!as_it_begins &&
+        !(control_ && std::ranges::count(substep_rungs(row_of(model_.scene.solver.method)), state_substeps_) == 1))
+        return false;
+    // The frame that a sleeping one repeats.
+    return !sleep_.remembers() || !attempt_statistics_.empty();
+}
+
 void FrameLoop::restore_cuts(const SimulationState& state) {
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const auto part = state.find(cuts_part(model_.cloths[cloth]));
@@ -94,6 +108,9 @@ void FrameLoop::restore_cuts(const SimulationState& state) {
 void FrameLoop::restore(const SimulationState& state) {
     const auto loop = state.find(loop_part);
     if (loop == state.end()) refuse("it has no part 'loop'");
+    ByteReader reader(loop->second);
+    transfer(reader);
+    if (reader.left() > 0 || !can_save() || !can_be()) refuse("its part 'loop' is of something else");
     restore_cuts(state);
     SimulationState fields;
     for (const auto& [name, bytes] : state)
@@ -103,9 +120,6 @@ void FrameLoop::restore(const SimulationState& state) {
         if (found == fields.end() || found->second.size() != bytes.size()) refuse(fmt::format("field '{}'", name));
     }
     rebuild_resources(fields);
-    ByteReader reader(loop->second);
-    transfer(reader);
-    if (reader.left() > 0 || !can_save()) refuse("its part 'loop' is of something else");
 }
 
 }  // namespace drape

@@ -25,8 +25,9 @@ class Drive {
 
     /// As SubstepControl's.
     template <class Archive>
-    void transfer(Archive& archive) {
+    bool transfer(Archive& archive) {
         archive(probed_);
+        return probed_.empty() || probed_.size() == model_.cloths.size();
     }
 
   private:

@@ -18,10 +18,6 @@ bool constant(const MotionPath& path, double from, double to) {
     return !path.moves() || to <= path.keys.front().time || from >= path.keys.back().time;
 }
 
-std::size_t frames_of_a_second(const SimulationModel& model) {
-    return static_cast<std::size_t>(std::max(std::ceil(model.scene.time.fps), 10.0));
-}
-
 }  // namespace
 
 bool quiet(const SimulationModel& model, std::uint32_t frame) {
@@ -37,6 +33,10 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
            });
 }
 
+std::size_t Sleep::remembered() const {
+    return static_cast<std::size_t>(std::max(std::ceil(model_.scene.time.fps), 10.0));
+}
+
 void Sleep::saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps) {
     double worst = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
@@ -46,7 +46,7 @@ void Sleep::saw(const std::vector<ClothStatistics>& cloths, std::uint32_t subste
         worst = std::max(worst, speed / (still_share * motion_limit(model_, cloth)));
     }
     speeds_.push_back(worst);
-    if (speeds_.size() > frames_of_a_second(model_)) speeds_.pop_front();
+    if (speeds_.size() > remembered()) speeds_.pop_front();
 }
 
 bool Sleep::asleep(std::uint32_t frame) {
@@ -54,7 +54,7 @@ bool Sleep::asleep(std::uint32_t frame) {
         speeds_.clear();
         return false;
     }
-    return speeds_.size() == frames_of_a_second(model_) && speeds_.back() <= speeds_.front() &&
+    return speeds_.size() == remembered() && speeds_.back() <= speeds_.front() &&
            std::ranges::all_of(speeds_, [](double speed) { return speed <= 1; });
 }
 

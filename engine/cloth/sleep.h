@@ -29,11 +29,16 @@ class Sleep {
 
     /// As SubstepControl's.
     template <class Archive>
-    void transfer(Archive& archive) {
+    bool transfer(Archive& archive) {
         archive(speeds_);
+        return speeds_.size() <= remembered();
     }
+    /// Whether it has seen a frame since it last woke.
+    bool remembers() const { return !speeds_.empty(); }
 
   private:
+    std::size_t remembered() const;  ///< most frames
+
     const SimulationModel& model_;
     std::deque<double> speeds_;  ///< the worst cloth's over its limit, of the last second's frames
 };

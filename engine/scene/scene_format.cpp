@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/frame_limit.h"
 #include "scene/scene_rules.h"
 
 namespace drape {
@@ -47,7 +48,7 @@ const Object<TimeSettings> time_settings{
     "Frame n shows time n / fps.",
     {
         {"fps", &TimeSettings::fps, number({0.0, 10000.0, true}), "Frames per second."},
-        {"frames", &TimeSettings::frame_count, integer(1, 1'000'000),
+        {"frames", &TimeSettings::frame_count, integer(1, scene_frame_limit),
          "Number of frames, 0 .. frames-1; frame 0 is the initial state. The default is two seconds at 60 a second."},
     }};
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "byte_stream.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/hang.h"
 #include "support/sheets.h"
@@ -91,6 +92,20 @@ TEST(Drive, IsEventfulWhereAPinLetsGo) {
     const SimulationModel model(scene);
     EXPECT_TRUE(Drive(model).eventful(31));
     EXPECT_FALSE(Drive(model).eventful(30));
+}
+
+TEST(Drive, IsReadBackForAsManyClothsAsThereAre) {
+    const SimulationModel model(jerked({0.3, 0, 0}));
+    const auto reads = [&](const std::vector<double>& probed) {
+        ByteWriter writer;
+        writer(probed);
+        const std::vector<std::byte> bytes = writer.take();
+        ByteReader reader(bytes);
+        return Drive(model).transfer(reader);
+    };
+    EXPECT_TRUE(reads({}));
+    EXPECT_TRUE(reads({gravity}));
+    EXPECT_FALSE(reads({gravity, gravity}));
 }
 
 }  // namespace

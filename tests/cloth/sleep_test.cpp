@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "byte_stream.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -97,6 +98,21 @@ TEST(SleepTest, WhatHasMovedSleepsAgainOnlyAfterASecond) {
     EXPECT_TRUE(asleep[2 * fps - 1]);
     for (std::uint32_t frame = 2 * fps + 1; frame < 3 * fps; ++frame) EXPECT_FALSE(asleep[frame - 1]) << frame;
     EXPECT_TRUE(asleep.back());
+}
+
+TEST(SleepTest, NoMoreSpeedsAreReadBackThanASecondHas) {
+    const SimulationModel model(hanging());
+    const auto reads = [&](std::size_t count) {
+        ByteWriter writer;
+        writer(std::vector<double>(count, 0.5));
+        const std::vector<std::byte> bytes = writer.take();
+        ByteReader reader(bytes);
+        Sleep sleep(model);
+        return sleep.transfer(reader) && sleep.remembers() == (count > 0);
+    };
+    EXPECT_TRUE(reads(0));
+    EXPECT_TRUE(reads(fps));
+    EXPECT_FALSE(reads(fps + 1));
 }
 
 }  // namespace

@@ -191,5 +191,64 @@ TEST(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     }
 }
 
+/// With another number at `place` of the part `loop` (engine/docs/checkpoint.md): 0: next frame, 4: substeps, 8: first
+/// frame not simulated.
+SimulationState with_number(SimulationState state, std::size_t place, std::uint32_t number) {
+    std::memcpy(state.at("loop").data() + place, &number, sizeof number);
+    return state;
+}
+
+TEST(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
+    constexpr std::uint32_t any = 0xffffffffu;
+    SimulationOptions options;
+    options.keep_promises = false;
+    for (const std::string& text : {relaxed, std::string(closed_loop_scene)}) {
+        const SceneDescription scene = parse_scene(text);
+        const auto restored = [&](const SimulationState& state) {
+            Simulation simulation(scene, options, validated());
+            simulation.restore(state);
+            return simulation.next_frame();
+        };
+        Simulation first(scene, options, validated());
+        do first.step();
+        while (first.next_frame() < 5 || !first.can_save());
+        const SimulationState state = first.save();
+        const std::uint32_t next = first.next_frame(), substeps = first.scene().solver.substeps;
+        EXPECT_EQ(restored(state), next);
+        EXPECT_EQ(restored(with_number(state, 0, 1'000'000)), 1'000'000u) << "a loop may run beyond its scene's frames";
+        EXPECT_THROW(restored(with_number(state, 0, 1'000'001)), Error);
+        EXPECT_THROW(restored(with_number(state, 0, any)), Error);
+        EXPECT_THROW(restored(with_number(state, 4, 0)), Error) << "the next frame divides by it";
+        EXPECT_THROW(restored(with_number(state, 4, substeps + 1)), Error);
+        EXPECT_THROW(restored(with_number(state, 4, any)), Error);
+        EXPECT_THROW(restored(with_number(with_number(state, 0, any), 8, any)), Error);
+    }
+}
+
+TEST(SimulationStateGuard, ASleeperWithoutTheFrameThatItRepeatsIsRefused) {
+    const SceneDescription scene = parse_scene(sleeping_scene);
+    Simulation first(scene, {}, validated()), other(scene, {}, validated());
+    do first.step();
+    while (!first.frame().effort.asleep);
+    const SimulationState state = first.save();
+    // Wherever the flag lies that says whether statistics follow; one at their end may say that nothing does.
+    std::size_t refused = 0;
+    for (std::size_t place = state.at("loop").size(); place-- > 0;) {
+        SimulationState without = state;
+        without.at("loop").resize(place + 1);
+        without.at("loop")[place] = std::byte{0};
+        try {
+            other.restore(without);
+        } catch (const Error&) {
+            ++refused;
+            continue;
+        }
+        ASSERT_TRUE(other.step()) << place;
+        ASSERT_TRUE(other.frame().effort.asleep) << place;
+        ASSERT_EQ(other.frame().statistics.size(), 1u) << place;
+    }
+    EXPECT_GE(refused + 5, state.at("loop").size());
+}
+
 }  // namespace
 }  // namespace drape

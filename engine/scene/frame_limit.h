@@ -1,0 +1,10 @@
+// Most frames that a scene may have.
+#pragma once
+
+#include <cstdint>
+
+namespace drape {
+
+inline constexpr std::uint32_t scene_frame_limit = 1'000'000;
+
+}  // namespace drape
