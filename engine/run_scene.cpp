@@ -189,16 +189,36 @@ bool write_frames(const RunParts& run, std::uint32_t last) {
     return false;
 }
 
+/// Throws Error for a record of other cloths: what wrote the file may have made its checksum as well.
+void expect_of_scene(const JournalRecord& record, const SceneDescription& scene) {
+    const auto particles = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1]; };
+    const auto fits = [&](const std::vector<std::vector<float>>& arrays) {
+        return arrays.empty() ||
+               std::ranges::equal(arrays, scene.cloths, [&](const std::vector<float>& values, const Cloth& cloth) {
+                   return values.size() == 4 * particles(cloth);
+               });
+    };
+    const auto cuts = [&] {
+        return record.cloth < scene.cloths.size() && record.faces.size() % 3 == 0 &&
+               std::ranges::all_of(record.faces, [&, count = particles(scene.cloths[record.cloth])](
+                                                     std::uint32_t particle) { return particle < count; });
+    };
+    if (!(record.kind == JournalRecord::Kind::cut ? cuts() : fits(record.positions) && fits(record.velocities)))
+        throw Error("a record of another scene");
+}
+
 /// The checkpoint that a run goes on from: what it does not simulate again has to be there, as pictures and, for
 /// arrays, in the journal.
 std::optional<RunCheckpoint> resumed_from(std::optional<Checkpoints>& checkpoints, const RunRequest& request,
-                                          const FrameRange& range, const MissingFrames& missing,
+                                          const SceneDescription& scene, const FrameRange& range,
+                                          const MissingFrames& missing,
                                           const std::function<void(const std::string&)>& say) {
     if (!checkpoints || request.existing != ExistingFiles::resume) return std::nullopt;
     const bool arrays = needs_positions(request);
     const auto usable = [&](const RunCheckpoint& checkpoint) {
         std::set<std::uint32_t> told;
         checkpoints->journal().read(checkpoint.journal_length, [&](const JournalRecord& record) {
+            expect_of_scene(record, scene);
             const bool enough = !record.positions.empty() && (!request.details() || !record.velocities.empty());
             if (record.kind == JournalRecord::Kind::frame && enough) told.insert(record.frame);
         });
@@ -378,7 +398,7 @@ RunSummary run_scene(const RunRequest& request) {
     summary.kept_count = missing.kept.size();
     std::optional<Checkpoints> checkpoints;
     if (folder) checkpoints.emplace(*folder, key, request.checkpoint_interval);
-    const auto from = resumed_from(checkpoints, request, range, missing, say);
+    const auto from = resumed_from(checkpoints, request, scene.description, range, missing, say);
     const std::uint64_t earlier_validation = from ? from->validation_count : 0;
     Manifest manifest;
     std::optional<RunFailure> failure;

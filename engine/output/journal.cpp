@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -141,6 +142,8 @@ void Journal::read(std::uint64_t length, const std::function<void(JournalRecord&
     const FileDescriptor file(openat(folder_.descriptor(), std::string(journal_file_name).c_str(),
                                      O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!file) throw system_error_at("read", path, errno);
+    struct stat status {};
+    if (fstat(file.get(), &status) != 0) throw system_error_at("read", path, errno);
     std::uint64_t at = 0;
     const auto damaged = [&] { return OutputError(fmt::format("'{}' is damaged at byte {}", path, at)); };
     const auto next = [&](std::uint64_t count) {
@@ -156,6 +159,7 @@ void Journal::read(std::uint64_t length, const std::function<void(JournalRecord&
         at += count;
         return bytes;
     };
+    if (length > static_cast<std::uint64_t>(status.st_size)) throw damaged();
     const std::vector<std::byte> head = head_of(run_key_);
     if (next(head.size()) != head)
         throw OutputError(fmt::format("'{}' is of another run, or of another version of this program", path));

@@ -3,11 +3,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 
+#include "byte_stream.h"
+#include "checkpoints.h"
+#include "output/journal.h"
 #include "output/output_folder.h"
+#include "output/section_file.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -194,11 +200,17 @@ class DamagedCheckpoint : public testing::Test {
         return drape(arguments);
     }
     void expect_refused(const std::vector<std::string>& more, const std::string& why) const {
-        const auto before = everything_below(folder_.out());
+        const auto before = lasting_files();
         const Outcome outcome = resume(more);
         EXPECT_EQ(outcome.code, 1) << outcome.err;
         EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot resume"), HasSubstr(why)));
-        EXPECT_EQ(everything_below(folder_.out()), before);
+        EXPECT_TRUE(lasting_files() == before) << why;
+    }
+    /// All but what the killed run had not finished, which the next one clears away.
+    std::map<std::string, std::string> lasting_files() const {
+        auto files = everything_below(folder_.out());
+        std::erase_if(files, [](const auto& file) { return file.first.find(".tmp-") != std::string::npos; });
+        return files;
     }
     void change(const std::string& name, const std::function<void(std::string&)>& how) const {
         std::string bytes = read_text(folder_ / "out" / name);
@@ -264,6 +276,81 @@ TEST_F(DamagedCheckpoint, SoIsOneWhoseJournalIs) {
     const Outcome outcome = resume();
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, Not(HasSubstr("checkpoint")));
+}
+
+/// The journal's records as `how` leaves them, with sums that fit.
+std::string changed_journal(const std::string& text, const std::function<void(JournalRecord&)>& how) {
+    ByteReader reader(std::as_bytes(std::span(text)));
+    std::uint64_t magic = 0, size = 0, sum = 0;
+    std::uint32_t version = 0;
+    std::string key;
+    reader(magic, version, key);
+    ByteWriter writer;
+    writer(magic, version, key);
+    while (reader.left() > 0) {
+        reader(size);
+        JournalRecord record = decode_record(reader.get_bytes(size));
+        reader(sum);
+        how(record);
+        const std::vector<std::byte> content = encode_record(record);
+        writer(std::uint64_t{content.size()});
+        writer.put_bytes(content);
+        writer(std::uint64_t{XXH3_64bits(content.data(), content.size())});
+    }
+    const std::vector<std::byte> bytes = writer.take();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string changed_checkpoint(const std::string& text, const std::function<void(RunCheckpoint&)>& how) {
+    std::string key;
+    RunCheckpoint checkpoint = checkpoint_of(decode_sections(checkpoint_format, std::as_bytes(std::span(text))), key);
+    how(checkpoint);
+    const std::vector<std::byte> bytes = encode_sections(checkpoint_format, sections_of(checkpoint, key));
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(DamagedCheckpoint, AJournalOfOtherClothsIsRefusedThoughItsSumsFit) {
+    const std::string good = read_text(folder_ / "out/journal.drape");
+    const auto with = [&](const std::function<void(JournalRecord&)>& how) {
+        change("journal.drape", [&](std::string& bytes) { bytes = changed_journal(good, how); });
+        expect_refused({}, "journal.drape' is damaged at byte ");
+    };
+    with([](JournalRecord& record) { record.cloth = 2; });
+    with([](JournalRecord& record) {
+        if (!record.faces.empty()) record.faces.back() = 90;  // of 10 x 9 particles the last is 89
+    });
+    with([](JournalRecord& record) {
+        if (record.positions.empty()) return;
+        std::vector<float>&one = record.positions[0], &other = record.positions[1];
+        other.insert(other.end(), one.end() - 4, one.end());
+        one.resize(one.size() - 4);
+    });
+    change("journal.drape", [&](std::string& bytes) { bytes = changed_journal(good, [](JournalRecord&) {}); });
+    EXPECT_EQ(resume().code, 0);
+}
+
+TEST_F(DamagedCheckpoint, NumbersThatNoRunComesToAreRefusedThoughTheSumFits) {
+    const std::string good = read_text(folder_ / "out" / checkpoint_name(newest_));
+    const auto with = [&](const std::function<void(RunCheckpoint&)>& how, const std::string& why) {
+        change_checkpoints([&](std::string& bytes) { bytes = changed_checkpoint(good, how); });
+        expect_refused({}, why);
+    };
+    const auto in_loop = [](std::size_t place, std::uint32_t number) {  // engine/docs/checkpoint.md
+        return [=](RunCheckpoint& checkpoint) {
+            std::memcpy(checkpoint.state.at("loop").data() + place, &number, sizeof number);
+        };
+    };
+    with(in_loop(4, 0), "the saved state is not of this scene");
+    with(in_loop(0, 0xffffffffu), "the saved state is not of this scene");
+    with(in_loop(0, 2'000'000), "the saved state is not of this scene");
+    // Together with a record of so many bytes.
+    change("journal.drape", [](std::string& bytes) {
+        std::uint64_t key_length = 0;
+        std::memcpy(&key_length, bytes.data() + 12, sizeof key_length);
+        bytes[20 + key_length + 7] = 0x10;  // the length's highest byte
+    });
+    with([](RunCheckpoint& checkpoint) { checkpoint.journal_length = std::uint64_t{1} << 62; },
+         "journal.drape' is damaged");
 }
 
 TEST(Checkpoint, IsNoUseWhereAPictureBeforeItIsGone) {
