@@ -1,0 +1,81 @@
+// What runs say of themselves, "no crossing in any substep", against the exact checker, on the device. The number of
+// random frames: DRAPE_CONTACT_FRAMES=2000 in the environment for those of the claim.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "contact_scenes.h"
+#include "drape/scene_reader.h"
+#include "judged_run.h"
+
+namespace drape::test {
+namespace {
+
+using testing::IsEmpty;
+
+const Device& device() {
+    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
+    static const Device opened(selector ? selector : "", Validation::print);
+    return opened;
+}
+
+class ContactCertificateTest : public testing::Test {
+  protected:
+    void TearDown() override { EXPECT_EQ(device().validation_count(), before_); }
+
+  private:
+    std::uint64_t before_ = device().validation_count();
+};
+
+TEST_F(ContactCertificateTest, IsNeverGivenWhereTrianglesCross) {
+    const char* asked = std::getenv("DRAPE_CONTACT_FRAMES");
+    const std::size_t wanted = asked ? std::strtoul(asked, nullptr, 10) : 200;
+    constexpr std::uint64_t seed = 12;
+    std::size_t frames = 0, proved = 0, crossed = 0, met = 0, ended = 0, lost = 0, started_crossed = 0, wild = 0;
+    std::uint32_t index = 0;
+    for (; frames < wanted; ++index) {
+        const SceneResult read = read_scene_text(random_contact_scene(seed, index), "random");
+        ASSERT_TRUE(read.scene) << index << ": " << read.errors[0].text();
+        const JudgedRun run = judged_run(*read.scene, device());
+        EXPECT_THAT(run.contradictions, IsEmpty()) << "contact_scene random " << seed << " " << index;
+        frames += run.frames;
+        proved += run.proved_frames;
+        crossed += run.crossed_frames;
+        met += run.most_pairs > 0 ? 1 : 0;
+        ended += run.ended.empty() ? 0 : 1;
+        lost += run.proved_frames < run.frames ? 1 : 0;
+        wild += run.implausible ? 1 : 0;
+        started_crossed += run.crossed_at_start ? 1 : 0;
+    }
+    std::printf(
+        "[ measured ] %zu frames of %u scenes: %zu proved, %zu crossed; of the scenes cloth met in %zu, the proof "
+        "was lost in %zu, cloths started crossed in %zu, %zu were not plausible, %zu ended early\n",
+        frames, index, proved, crossed, met, lost, started_crossed, wild, ended);
+    // Else it would say nothing.
+    EXPECT_GT(met, index / 2);
+    EXPECT_GT(proved, frames / 2);
+    EXPECT_GT(crossed, 0u);
+    EXPECT_GT(lost, 0u);
+}
+
+void expect_proved(const std::string& scene_text, std::uint32_t frames) {
+    const JudgedRun run = judged_run(parse_scene(scene_text), device());
+    std::printf("[ measured ] %zu frames, %u pairs, %llu motions cut short %s\n", run.frames, run.most_pairs,
+                static_cast<unsigned long long>(run.cut_short), run.ended.c_str());
+    EXPECT_EQ(run.frames, frames);
+    EXPECT_EQ(run.proved_frames, frames);
+    EXPECT_EQ(run.crossed_frames, 0u);
+    EXPECT_FALSE(run.implausible);
+    EXPECT_GT(run.most_pairs, 300u) << "nothing met";
+    const std::vector<std::string> without{"/cloths/0/self_collision=false", "/time/frames=150"};
+    EXPECT_GT(judged_run(*read_scene_text(scene_text, "scene", without).scene, device()).crossed_frames, 0u)
+        << "it would not have crossed anyway";
+}
+
+TEST_F(ContactCertificateTest, OfAStripThatIsTwistedEightTimes) { expect_proved(twisted_strip(4, 301, 16), 301); }
+
+TEST_F(ContactCertificateTest, OfASheetThatIsCrumpled) { expect_proved(crumpled_sheet(17, 401, 16), 401); }
+
+}  // namespace
+}  // namespace drape::test
