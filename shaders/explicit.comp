@@ -63,7 +63,7 @@ vec3 gather(vec3 sum, Particle center, ivec4 around) {
     float share = around.w == 1 ? share_of(center, around.xy, around.z) : share_of(there, around.xy, around.z);
     precise float relative_stiffness = push.relative_stiffness[around.z] * share;
     return add_pull(sum, spring_pull(edge_between(center, there), closing, push.rest_length[around.z],
-                                     relative_stiffness, push.strain_damping));
+                                     relative_stiffness, push.compression.x, push.strain_damping));
 }
 
 vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, int channel, float factor) {

@@ -101,7 +101,7 @@ vec3 pull_between(Particle from, Particle to, int channel, float share) {
     precise vec3 closing = to.displacement - from.displacement;
     precise float stiffness = push.relative_stiffness[channel] * share;
     vec3 edge = spring_edge(from.position, to.position, from.displacement, to.displacement);
-    return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.strain_damping);
+    return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.compression.x, push.strain_damping);
 }
 
 /// What another invocation computed; nothing from beyond the strip.

@@ -42,7 +42,7 @@ struct Line {
     ivec2 step;
     int columns, seam, channel;
     float share;  // of all its springs, where no image has them
-    float rest_length, compliance, followed, bend;
+    float rest_length, compliance, followed, bend, compression;
 };
 
 struct LineParticle {
@@ -57,7 +57,8 @@ Line read_line() {
     return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel,
                 border_share(line_start(index, push.step), push.step, push.grid), push.rest_length,
                 second_order ? push.compliance_bdf2 : push.compliance,
-                second_order ? push.followed_bdf2 : push.followed, second_order ? push.bend_bdf2 : push.bend);
+                second_order ? push.followed_bdf2 : push.followed, second_order ? push.bend_bdf2 : push.bend,
+                push.compression);
 }
 
 /// Where the scratch of a particle is: what a subgroup stores at a time lies side by side.
@@ -214,7 +215,8 @@ float eliminate_springs(Line line) {
         float share = share_of(line, first.at), tension = filtered_tension_of(line, first, second, spring);
         largest = larger_violation(largest, spring, share, tension);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w, share, line.compliance, tension);
+                                      second.position.w, acting_share(share, line.compression, spring.excess),
+                                      line.compliance, tension);
         STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
         STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
         normal_after = spring.normal;
@@ -239,14 +241,15 @@ void substitute_springs(Line line) {
         LineParticle second = particle_after(line, first);
         vec4 delta_after = LOAD_SCRATCH(scratch_in, line, has_spring ? p + 1 : p);
         vec3 moved_second = filtered(second, delta_after.xyz);
-        vec3 normal = spring_between(line, first, moved_first, second, moved_second).normal;
-        normal = has_spring ? normal : vec3(0.0f, 0.0f, 0.0f);
+        LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
+        vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
         float change = substitute_spring(LOAD_SCRATCH(rows_in, line, p).xy, change_before);
         change = has_spring ? change : 0.0f;
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
         STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
-        float tension = changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
+        float acting = acting_share(share_of(line, first.at), line.compression, spring.excess);
+        float tension = changed_tension(delta.w, change, acting, line.compliance);
         if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));
         change_before = change;
         normal_before = normal;

@@ -42,7 +42,7 @@ struct NestedLine {
     int columns;  // of the box
     int index, direction, seam, last;  // last: of its particles
     float share;  // of all its springs, where no image has them
-    float rest_length, compliance, followed;
+    float rest_length, compliance, followed, compression;
 };
 
 struct NestedParticle {
@@ -110,7 +110,9 @@ void eliminate_line(NestedLine line) {
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
         float tension = tension_in_use(load_tension(line.direction, first.at), line.followed);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w, share_of(line, first), line.compliance, tension);
+                                      second.position.w,
+                                      acting_share(share_of(line, first), line.compression, spring.excess),
+                                      line.compliance, tension);
         STORE_VECTOR(rows_out, first.at, vec4(eliminated, tension, 0.0f));
         normal_after = spring.normal;
         spring = spring_before;
@@ -126,8 +128,8 @@ void substitute_line(NestedLine line) {
     for (int p = 0; p <= line.last; ++p) {
         bool has_spring = p < line.last;
         NestedParticle second = next_particle(line, first, line.step);
-        vec3 normal = spring_between(line, first, second).normal;
-        normal = has_spring ? normal : vec3(0.0f, 0.0f, 0.0f);
+        LineSpring spring = spring_between(line, first, second);
+        vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
         vec4 row = imageLoad(rows_in, first.at);
         float change = substitute_spring(row.xy, change_before);
         change = has_spring ? change : 0.0f;
@@ -135,7 +137,8 @@ void substitute_line(NestedLine line) {
         vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
         STORE_VECTOR(displacement_out, first.at, vec4(moved, first.displacement.w));
         float share = share_of(line, first);
-        float tension = changed_tension(row.z, change, share, line.compliance);
+        float acting = acting_share(share, line.compression, spring.excess);
+        float tension = changed_tension(row.z, change, acting, line.compliance);
         // The spring across the box's seam is not the box's.
         if (has_spring && share > 0.0f) store_tension(line.direction, first.at, stored_tension(tension, line.followed));
         change_before = change;
@@ -152,7 +155,7 @@ void sweep_direction(NestedBox box, int direction, bool second_order) {
     NestedLine line = NestedLine(
         box.first, step, box.size.x, 0, direction, nested_seam(step, box.size.x), particle_count - 1, 0.0f, rest_length,
         second_order ? push.compliance_bdf2[direction] : push.compliance[direction],
-        second_order ? push.followed_bdf2[direction] : push.followed[direction]);
+        second_order ? push.followed_bdf2[direction] : push.followed[direction], push.compression);
     for (line.index = int(gl_LocalInvocationIndex); line.index < line_count; line.index += nested_group_width) {
         line.share = border_share(box.first + line_start(line.index, step), step, push.grid);
         eliminate_line(line);

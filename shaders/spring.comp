@@ -45,7 +45,8 @@ void main() {
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
     precise float weight_sum = weight_first + weight_second;
-    SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compliance, tension);
+    SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compression,
+                                         push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first.xyz, result.correction, -weight_first);
     vec3 moved_second = moved_by(displacement_second.xyz, result.correction, weight_second);
     STORE_VECTOR(displacement_out, first, vec4(moved_first, displacement_first.w));

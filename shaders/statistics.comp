@@ -53,7 +53,7 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, i
     float share = border_share(first, offset, push.grid);
 #endif
     return add_spring_strain(record, start, LOAD(position, second).xyz, push.rest_length[direction],
-                             push.half_stiffness[direction], share, tension, direction >= 2);
+                             push.half_stiffness[direction], share, push.compression, tension, direction >= 2);
 }
 
 StatisticsRecord statistics_of(ivec2 texel) {

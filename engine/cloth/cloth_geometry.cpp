@@ -18,6 +18,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       damping(cloth.damping),
       velocity(cloth.velocity),
       rigid(cloth.stiffness.rigid),
+      compression(static_cast<float>(cloth.stiffness.compression)),
       bend(cloth.stiffness.bend),
       stiffness_constant(stiffness_constants(cloth.stiffness, spacing)),
       shows_crumbs(std::ranges::any_of(scene.cutters, &Cutter::crumbs)) {

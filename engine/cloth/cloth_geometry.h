@@ -42,6 +42,7 @@ struct ClothGeometry {
     double damping;                         ///< 1/s
     Vec3 velocity;                          ///< m/s at the start
     bool rigid;                             ///< stretch and shear springs are inextensible
+    float compression;                      ///< share of their stiffness where they are pushed together
     double bend;                            ///< N m
     StiffnessConstants stiffness_constant;  ///< what the scene asks for
 

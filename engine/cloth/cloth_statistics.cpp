@@ -31,6 +31,7 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
     }
     push.collider_first = first_collider(model, cloth, model.scene.solver.substeps - 1);
     push.grid = cloth.grid.size();
+    push.compression = cloth.compression;
     return push;
 }
 

@@ -35,7 +35,8 @@ glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettin
             texel(scaled),
             {static_cast<float>(mean * used.bend[0]), static_cast<float>(mean * used.bend[1])},
             static_cast<float>(settings.strain_damping),
-            static_cast<float>(mean * used.twist)};
+            static_cast<float>(mean * used.twist),
+            {cloth.compression, 0, 0, 0}};
 }
 
 void note_softening(const ClothGeometry& cloth, const MethodSettings& settings, double full_substeps_factor,

@@ -80,7 +80,8 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
             followed(euler),
             followed(own),
             static_cast<float>(relative_bend),
-            static_cast<float>(relative_bend / factor)};
+            static_cast<float>(relative_bend / factor),
+            cloth.compression};
 }
 
 /// Stiffness (N/m) that a line's spring has, given the least compliance.

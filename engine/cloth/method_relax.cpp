@@ -33,7 +33,7 @@ void add_springs(const ClothGeometry& cloth, const MethodSettings& settings, Met
             {StepKind::spring,
              glsl::SpringPush{cloth.grid.size(), pass.pair_count, direction.offset, direction.parity_axis, pass.parity,
                               static_cast<float>(cloth.stiffness_constant.rest_length[index]), compliance,
-                              pass.direction, 1}});
+                              pass.direction, 1, cloth.compression, 0}});
     }
     if (!cloth.rigid) carry_tension_to_release(cloth, settings, plan);
     note_tension(cloth, plan);

@@ -88,6 +88,7 @@ std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, int ra
 glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodPlan& plan) {
     glsl::NestedPush push{};
     push.grid = cloth.grid.size();
+    push.compression = cloth.compression;
     for (const MethodStep& step : plan.iterated) {
         const auto* line = std::get_if<glsl::LinePush>(&step.constants);
         if (!line || cloth.stiffness_constant.spring[static_cast<std::size_t>(line->channel)] == 0) continue;

@@ -48,8 +48,9 @@ double SpringNetwork::gravity_energy(std::span<const Vec3> position) const {
 double SpringNetwork::spring_energy(std::span<const Vec3> position) const {
     double energy = 0;
     for (const NetworkSpring& spring : springs) {
-        const double stretch = length(position[spring.second] - position[spring.first]) - spring.rest_length;
-        energy += 0.5 * spring.stiffness * stretch * stretch;
+        const double size = length(position[spring.second] - position[spring.first]);
+        const double stretch = size - spring.rest_length;
+        energy += 0.5 * spring.stiffness_at(size) * stretch * stretch;
     }
     return energy;
 }
@@ -74,7 +75,7 @@ std::vector<Vec3> SpringNetwork::gradient(std::span<const Vec3> position) const 
         const Vec3 edge = position[spring.second] - position[spring.first];
         const double size = length(edge);
         if (size == 0) continue;  // no direction: a stationary, unstable point
-        const double factor = spring.stiffness * (1 - spring.rest_length / size);
+        const double factor = spring.stiffness_at(size) * (1 - spring.rest_length / size);
         add_scaled(result[spring.first], -factor, edge);
         add_scaled(result[spring.second], factor, edge);
     }
@@ -119,7 +120,7 @@ std::vector<HessianEntry> SpringNetwork::hessian(std::span<const Vec3> position,
         if (form == HessianForm::clamped) across = std::max(across, 0.0);
         const auto block = [&](double sign) {
             return [&, sign](std::uint32_t r, std::uint32_t c) {
-                return sign * spring.stiffness * ((1 - across) * n[r] * n[c] + (r == c ? across : 0.0));
+                return sign * spring.stiffness_at(size) * ((1 - across) * n[r] * n[c] + (r == c ? across : 0.0));
             };
         };
         add_block(entries, spring.first, spring.first, block(1));

@@ -36,6 +36,7 @@ NetworkKernel::NetworkKernel(const SpringNetwork& network) : bending_(network.be
         ++runs_.back().count;
         stiffness_.push_back(spring.stiffness);
         stiffness_times_rest_.push_back(spring.stiffness * spring.rest_length);
+        compression_.push_back(spring.compression);
     }
 }
 
@@ -44,11 +45,13 @@ void NetworkKernel::add_run(const Run& run, const Planes& position, Planes& forc
     const double *ax = &position[0][run.first], *ay = &position[1][run.first], *az = &position[2][run.first];
     const double *bx = &position[0][run.second], *by = &position[1][run.second], *bz = &position[2][run.second];
     const double *k = &stiffness_[run.constant], *kl = &stiffness_times_rest_[run.constant];
+    const double* pushed = &compression_[run.constant];
     for (std::size_t i = 0; i < run.count; ++i) {
         const double x = bx[i] - ax[i], y = by[i] - ay[i], z = bz[i] - az[i];
         // A spring without length has no direction: the bound makes its force 0 instead of NaN.
         const double size = std::max(std::sqrt(x * x + y * y + z * z), 1e-200);
-        const double factor = k[i] - kl[i] / size;
+        const double pull = k[i] - kl[i] / size;
+        const double factor = pull * (pull < 0 ? pushed[i] : 1.0);
         fx[i] = factor * x;
         fy[i] = factor * y;
         fz[i] = factor * z;

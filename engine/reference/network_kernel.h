@@ -32,7 +32,7 @@ class NetworkKernel {
     void add_run(const Run& run, const Planes& position, Planes& force) const;
 
     std::vector<Run> runs_;
-    std::vector<double> stiffness_, stiffness_times_rest_, inverse_mass_;
+    std::vector<double> stiffness_, stiffness_times_rest_, compression_, inverse_mass_;
     std::vector<BendingElement> bending_;
     Vec3 gravity_;
 };

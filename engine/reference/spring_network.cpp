@@ -104,7 +104,8 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
                 const std::uint32_t first = grid.particle(column, row);
                 const auto step = table.offset.y * static_cast<int>(grid.columns()) + table.offset.x;
                 springs.push_back({first, static_cast<std::uint32_t>(static_cast<int>(first) + step),
-                                   share * stiffness[direction], rest[direction], table.family});
+                                   share * stiffness[direction], rest[direction], table.family,
+                                   cloth.stiffness.compression});
             }
     }
 }
@@ -237,6 +238,7 @@ std::uint64_t SpringNetwork::fingerprint() const {
         hash.add(spring.stiffness);
         hash.add(spring.rest_length);
         hash.add(static_cast<std::uint64_t>(spring.family));
+        hash.add(spring.compression);
     }
     for (const BendingElement& element : bending) {
         for (const std::uint32_t p : element.particle) hash.add(std::uint64_t{p});

@@ -16,12 +16,15 @@
 
 namespace drape {
 
-/// Energy stiffness/2 (|r| - rest_length)^2: force stiffness (|r| - rest_length) along r.
+/// Energy stiffness/2 (|r| - rest_length)^2: force stiffness (|r| - rest_length) along r; both times `compression`
+/// where |r| < rest_length.
 struct NetworkSpring {
     std::uint32_t first, second;
     double stiffness;    ///< N/m, the border's half included
     double rest_length;  ///< m
     SpringFamily family;
+    double compression = 1;
+    double stiffness_at(double size) const { return size < rest_length ? compression * stiffness : stiffness; }
 };
 
 /// Energy stiffness/2 |sum_k coefficient_k x_(particle_k)|^2, coefficients summing to zero. Along an axis of spacing h

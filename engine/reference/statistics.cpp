@@ -80,7 +80,8 @@ class Reduction {
         const float tension = direction < 2 ? state_.tension(static_cast<std::size_t>(direction))[at(first)] : 0.0f;
         return add_spring_strain(record, xyz(state_[Field::position][at(first)]),
                                  xyz(state_[Field::position][at(second)]), component(push_.rest_length, direction),
-                                 component(push_.half_stiffness, direction), share, tension, direction >= 2);
+                                 component(push_.half_stiffness, direction), share, push_.compression, tension,
+                                 direction >= 2);
     }
 
     float penetration(vec3 position) const {

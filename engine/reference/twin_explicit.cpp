@@ -39,7 +39,7 @@ struct Before {
             const float relative_stiffness =
                 component(push.relative_stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
             sum = add_pull(sum, spring_pull(edge(here, there), closing, component(push.rest_length, around.z),
-                                            relative_stiffness, push.strain_damping));
+                                            relative_stiffness, push.compression.x, push.strain_damping));
         }
         return sum;
     }

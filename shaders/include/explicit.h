@@ -3,7 +3,7 @@
 #ifndef DRAPE_EXPLICIT_H
 #define DRAPE_EXPLICIT_H
 
-#include "include/vector.h"
+#include "include/spring.h"
 
 const int neighbour_count = 8;
 
@@ -22,16 +22,19 @@ SHARED ivec4 neighbour(int k) {
 }
 
 /// Pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa (du . r)/|r|^2] r, r =
-/// `edge` and du = `closing`, the change of r in the last substep (m). With the stiffness times phi h^2/m_inner it is a
+/// `edge` and du = `closing`, the change of r in the last substep (m); times `compression` where it is pushed
+/// together. With the stiffness times phi h^2/m_inner it is a
 /// displacement (m) of an inner particle. From the other end every operation sees the negated numbers, so the two pulls
 /// are opposite to the bit (but for the signs of zeros, which explicit_increment loses) and momentum is kept but for
 /// the rounding of the sums. A spring of zero length has no direction and does not pull.
-SHARED vec3 spring_pull(vec3 edge, vec3 closing, float rest_length, float stiffness, float strain_damping) {
+SHARED vec3 spring_pull(vec3 edge, vec3 closing, float rest_length, float stiffness, float compression,
+                        float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);
     precise float current = sqrt(length_squared);
-    precise float strain = (current - rest_length) / current;
+    precise float excess = current - rest_length;
+    precise float strain = excess / current;
     precise float rate = strain_damping * (ordered_dot(closing, edge) / length_squared);
-    precise float pull = stiffness * (strain + rate);
+    precise float pull = acting_share(stiffness, compression, excess) * (strain + rate);
     precise vec3 total = edge * (length_squared > 0.0f ? pull : 0.0f);
     return total;
 }

@@ -122,10 +122,10 @@ SHARED bool line_is_wrong(float largest, float rest_length) {
 /// Elimination of row e of the second system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
 ///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1),
-/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0). It starts at the line's end, where the first
-/// system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' - a' x_(e-1).
-/// `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T = -alpha lambda/s as
-/// in project_spring, m.
+/// every row times s = `share` (acting_share, in [0, 1]; 0 = no spring: x_e = 0). It starts at the line's end, where
+/// the first system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' -
+/// a' x_(e-1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T = -alpha
+/// lambda/s as in project_spring, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
                              float weight_first, float weight_second, float share, float compliance, float tension) {
     precise float before = -(share * weight_first) * ordered_dot(normal_before, spring.normal);

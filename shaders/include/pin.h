@@ -12,7 +12,7 @@
 #ifndef DRAPE_PIN_H
 #define DRAPE_PIN_H
 
-#include "include/vector.h"
+#include "include/spring.h"
 
 /// A pin's motion of a rest position; of a released pin h times the velocity that it had there.
 SHARED vec3 pin_target(PinMotion motion, vec3 rest) {
@@ -44,11 +44,11 @@ SHARED float release_mark(float surplus) {
 }
 
 /// `sum` plus a spring's pull on the particle that `edge` starts from: `tension` as the extension that would balance
-/// it, `stiffness` k h^2/m_inner.
-SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness) {
+/// it, `stiffness` k h^2/m_inner, of which a spring that pushes has `compression`.
+SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness, float compression) {
     precise float squared = ordered_dot(edge, edge);
     if (!(squared > 0.0f)) return sum;
-    precise vec3 total = sum + edge * (stiffness * tension / sqrt(squared));
+    precise vec3 total = sum + edge * (acting_share(stiffness, compression, tension) * tension / sqrt(squared));
     return total;
 }
 

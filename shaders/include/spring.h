@@ -35,25 +35,35 @@ SHARED vec3 moved_by(vec3 displacement, vec3 correction, float weight) {
     return moved;
 }
 
+/// Share of a spring's stiffness that acts: of one pushed together `compression` of it, as fabrics buckle below the
+/// grid's spacing (docs/physics.md 1). `excess`: its length over that at rest, or its tension, m.
+SHARED float acting_share(float share, float compression, float excess) {
+    precise float pushed = share * compression;
+    return excess < 0.0f ? pushed : share;
+}
+
 struct SpringResult {
     vec3 correction;  // to be added to the second particle times its w, subtracted from the first times its w
     float tension;    // m: extension that would balance the tension applied so far
 };
 
 /// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `share`
-/// in [0, 1] scales the spring's stiffness, 0 = no spring; `compliance` = m_inner / (k h^2), 0 = rigid.
+/// in [0, 1] scales the spring's stiffness, 0 = no spring, and so does `compression` where it is pushed together;
+/// `compliance` = m_inner / (k h^2), 0 = rigid.
 /// `tension`: the XPBD multiplier lambda as the extension that would balance it, T = -a lambda/s, m. In place of lambda
 /// it means the same to every solver: C - T is what a perfect solve makes zero. delta lambda = -s (C - T) /
 /// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by
 /// zero. A rigid spring between two fixed particles, and one of zero length (no direction), are left alone.
-SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float share, float compliance,
-                                   float tension) {
+SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float share, float compression,
+                                   float compliance, float tension) {
     precise float length_squared = ordered_dot(edge, edge);
-    precise float denominator = share * weight_sum + compliance;
-    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
     precise float current = sqrt(length_squared);
-    precise float residual = (current - rest_length) - tension;
-    precise float change = -(share * residual) / denominator;
+    precise float excess = current - rest_length;
+    float acting = acting_share(share, compression, excess);
+    precise float denominator = acting * weight_sum + compliance;
+    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
+    precise float residual = excess - tension;
+    precise float change = -(acting * residual) / denominator;
     precise vec3 correction = edge * (change / current);
     precise float updated = tension + compliance * (residual / denominator);
     return SpringResult(correction, updated);

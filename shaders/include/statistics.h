@@ -6,7 +6,7 @@
 #ifndef DRAPE_STATISTICS_H
 #define DRAPE_STATISTICS_H
 
-#include "include/vector.h"
+#include "include/spring.h"
 #include "shared/statistics_types.h"
 
 const float lowest_float = -3.402823466e38f;
@@ -81,18 +81,20 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float 
 }
 
 /// A particle's `record` plus the spring from it to another; `first` is finite. `rest_length`, m, and the spring's
-/// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m. Shear belongs to the diagonals. `tension`:
+/// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m, of which springs pushed together have
+/// `compression`. Shear belongs to the diagonals. `tension`:
 /// extension (m) that the tension applied to the spring would cause; what it has beyond that, over its rest length, is
 /// the stretch error, which a perfect solver makes zero. Of shear springs it is not asked.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
-                                          float half_stiffness, float share, float tension, bool shear) {
+                                          float half_stiffness, float share, float compression, float tension,
+                                          bool shear) {
     if (!(rest_length > 0.0f) || !(share > 0.0f) || !is_finite(second)) return record;
     precise vec3 edge = second - first;
     precise float current = sqrt(ordered_dot(edge, edge));
     precise float extension = current - rest_length;
     precise float strain = extension / rest_length;
     precise float square = strain * strain;
-    precise float energy = share * half_stiffness * (extension * extension);
+    precise float energy = acting_share(share, compression, extension) * half_stiffness * (extension * extension);
     record.squares =
         ordered_sum(record.squares, shear ? vec4(-0.0f, square, energy, -0.0f) : vec4(square, -0.0f, energy, -0.0f));
     record.strains = larger(record.strains, shear ? vec4(lowest_float, strain, lowest_float, -strain)

@@ -26,8 +26,9 @@ struct LinePush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)
     float followed;         // compliance asked for over the one above, 1 = nothing softened
     float followed_bdf2;
-    float bend;       // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
-    float bend_bdf2;  // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
+    float bend;         // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
+    float bend_bdf2;    // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
+    float compression;  // share of a spring's stiffness where it is pushed together
 };
 
 /// Choice of a substep's order (next_control in include/bdf2.h).

@@ -22,6 +22,7 @@ struct NestedPush {
     vec4 compliance_bdf2;
     vec4 followed;
     vec4 followed_bdf2;
+    float compression;
 };
 
 #ifdef __cplusplus

@@ -27,6 +27,8 @@ struct SpringPush {
     float compliance;     // m_inner / (k h^2), dimensionless; 0 = rigid
     int channel;          // of the spring shares: row, column, shear down-right, shear down-left
     int first_iteration;  // 1: the tension starts at zero (it is written, not read)
+    float compression;    // share of a spring's stiffness where it is pushed together
+    int unused;
 };
 
 struct ForcePush {
@@ -47,6 +49,7 @@ struct ExplicitPush {
     vec2 bend;                // phi b h^2 / m_inner: elements along columns (a row's), along rows
     float strain_damping;     // kappa: strain-rate damping is kappa k h
     float twist;              // phi t h^2 / m_inner
+    vec4 compression;         // x: share of a spring's stiffness where it is pushed together; yzw unused
 };
 
 /// One colour of the bending elements of one axis (engine/cloth/directions.h).
@@ -96,8 +99,9 @@ struct ReleasePush {
     vec4 relative_stiffness;  // k h^2/m_inner by direction, of springs whose tension is stored
     ivec2 grid;
     int particle_count;
-    int motion_first;  // first motion of this substep
-    float reach;       // the cloth's diagonal, m
+    int motion_first;   // first motion of this substep
+    float reach;        // the cloth's diagonal, m
+    float compression;  // share of a spring's stiffness where it is pushed together
 };
 
 /// Of the stretch springs: along a row (x), along a column (y).

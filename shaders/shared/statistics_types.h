@@ -19,6 +19,7 @@ struct StatisticsPush {
     vec4 half_stiffness;  // N/m, k/2; 0: rigid, stores no energy
     ivec2 grid;           // columns, rows
     int collider_first;   // first collider at the frame's end
+    float compression;    // share of the stiffness where springs are pushed together
 };
 
 struct StatisticsSumPush {

@@ -128,7 +128,8 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
                     squared_error += error * error;
                     worst_error = std::max(worst_error, std::abs(error));
                 }
-                if (!stiffness.rigid) energy += 0.5 * k * all[direction] * (length - rest) * (length - rest);
+                const double acting = length < rest ? stiffness.compression * k : k;
+                if (!stiffness.rigid) energy += 0.5 * acting * all[direction] * (length - rest) * (length - rest);
             }
     }
     strain.rms = std::sqrt(strain.rms / strain.spring_count);
@@ -214,10 +215,10 @@ SceneDescription soft_sheet(std::uint32_t columns, std::uint32_t rows) {
     return scene;
 }
 
-void compare(const SceneDescription& scene, const ModelOptions& options = {}) {
+void compare(const SceneDescription& scene, const ModelOptions& options = {}, float stretch = 1.15f) {
     const SimulationModel model(scene, options);
     const float cell = static_cast<float>(std::min(model.cloths[0].spacing[0], model.cloths[0].spacing[1]));
-    const TwinCloth state = crumpled_state(model, 1.15f, 0.1f * cell, 5);
+    const TwinCloth state = crumpled_state(model, stretch, 0.1f * cell, 5);
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
     expect_plain(statistics, plain_statistics(scene, model, state));
 }
@@ -226,6 +227,12 @@ TEST(StatisticsTest, SmallestGrid) { compare(soft_sheet(2, 2)); }
 TEST(StatisticsTest, OneColumnMoreThanAWorkgroup) { compare(soft_sheet(65, 33)); }
 TEST(StatisticsTest, ManyWorkgroupsWide) { compare(soft_sheet(300, 7)); }
 TEST(StatisticsTest, MoreWorkgroupsThanLanes) { compare(soft_sheet(40, 130)); }
+
+TEST(StatisticsTest, SpringsPushedTogetherStoreTheirShare) {
+    SceneDescription scene = soft_sheet(40, 33);
+    scene.cloths[0].stiffness.compression = 0.1;
+    compare(scene, {}, 0.97f);
+}
 
 TEST(StatisticsTest, Holes) {
     SceneDescription scene = soft_sheet(65, 33);

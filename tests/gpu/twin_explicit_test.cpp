@@ -56,6 +56,12 @@ TEST(TwinExplicitTest, SoftenedSpringsWithoutShear) {
     compare(scene);
 }
 
+TEST(TwinExplicitTest, SoftInCompression) {
+    SceneDescription scene = everything_explicit();
+    scene.cloths[0].stiffness.compression = 0.1;
+    compare(scene);
+}
+
 TEST(TwinExplicitTest, Bending) {
     SceneDescription scene = everything_explicit();
     scene.cloths[0].stiffness.bend = 1e-4;
@@ -106,6 +112,12 @@ TEST_P(TwinStreamTest, WithHoles) {
     const auto [columns, rows] = GetParam();
     if (columns < 4) GTEST_SKIP() << "no room for a hole";
     scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    compare(scene);
+}
+
+TEST_P(TwinStreamTest, SoftInCompression) {
+    SceneDescription scene = streaming(GetParam());
+    scene.cloths[0].stiffness.compression = 0.1;
     compare(scene);
 }
 

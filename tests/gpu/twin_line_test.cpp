@@ -144,6 +144,15 @@ TEST(TwinLineTest, RigidSpringsInTwoIterations) {
     compare(scene);
 }
 
+TEST(TwinLineTest, SoftInCompressionWithHolesAndBendingInTwoIterations) {
+    SceneDescription scene = everything_in_lines();
+    scene.cloths[0].stiffness = {false, 800, 60, 1e-5, 0.05};
+    compare(scene);
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}};
+    scene.solver.iterations = 2;
+    compare(scene);
+}
+
 TEST(TwinLineTest, StretchAloneInThreeIterations) {
     SceneDescription scene = free_lines();
     scene.solver.iterations = 3;
@@ -187,6 +196,12 @@ TEST(TwinLineTest, NestedSweepsAroundLonePins) {
     const SimulationModel model(lone_pins());
     ASSERT_EQ(model.cloths[0].plan.iterated.size(), 4u + 2u) << "lines, and rounds of pins";
     compare(lone_pins());
+}
+
+TEST(TwinLineTest, NestedSweepsOfSpringsSoftInCompression) {
+    SceneDescription scene = lone_pins();
+    scene.cloths[0].stiffness.compression = 0.03;
+    compare(scene);
 }
 
 TEST(TwinLineTest, NestedSweepsAndAContact) {

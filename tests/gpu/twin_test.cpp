@@ -21,6 +21,14 @@ TEST(TwinTest, IteratedCompliantSpringsThatCarryTheirTension) {
     compare(scene);
 }
 
+TEST(TwinTest, SpringsSoftInCompressionIterated) {
+    SceneDescription scene = everything();
+    scene.cloths[0].stiffness.compression = 0.1;
+    compare(scene);
+    scene.solver.iterations = 3;
+    compare(scene);
+}
+
 TEST(TwinTest, RigidSpringsIterated) {
     SceneDescription scene = everything();
     scene.cloths[0].stiffness.rigid = true;

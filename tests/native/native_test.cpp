@@ -31,6 +31,7 @@ SceneDescription scene_of(const Run& run) {
     model_scenes::set_wave_speed(cloth, 20);
     cloth.placement.v = {0.1, -0.3, 0.8};
     cloth.velocity = {0.4, 0.2, -0.3};
+    cloth.stiffness.compression = 0.6;
     cloth.damping = run.damping;
     cloth.pins = {test::pin_box(0, 0, 2, 0), test::pin_box(run.columns - 1, 0, run.columns - 1, 1)};
     return scene;

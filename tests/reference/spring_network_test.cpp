@@ -19,7 +19,7 @@ namespace {
 SceneDescription holed_sheet() {
     SceneDescription scene = test::sheet(9, 7, 1.2, 0.6, 1);
     Cloth& cloth = scene.cloths[0];
-    cloth.stiffness = {false, 50, 7, 2e-3};
+    cloth.stiffness = {false, 50, 7, 2e-3, 0.3};
     cloth.holes = {{{2, 2}, {4, 4}}, {{6, 0}, {8, 1}}};
     cloth.pins = {test::pin_box(0, 0, 2, 0)};
     return scene;

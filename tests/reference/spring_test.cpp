@@ -13,23 +13,23 @@ namespace {
 using namespace glsl;
 
 TEST(SpringTest, EqualMassesShareTheCorrection) {
-    const SpringResult result = project_spring({2, 0, 0}, 2.0f, 1.0f, 1.0f, 0.0f, 0.0f);
+    const SpringResult result = project_spring({2, 0, 0}, 2.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f);
     EXPECT_FLOAT_EQ(result.correction.x, -0.5f);  // second moves back by half, first forward by half
-    const SpringResult squeezed = project_spring({0, 0.5f, 0}, 2.0f, 1.0f, 1.0f, 0.0f, 0.0f);
+    const SpringResult squeezed = project_spring({0, 0.5f, 0}, 2.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f);
     EXPECT_FLOAT_EQ(squeezed.correction.y, 0.25f);
 }
 
 TEST(SpringTest, AFreeEndNextToAFixedOneTakesAllOfTheCorrection) {
     for (const float weight : {1.0f, 2.0f, 4.0f}) {
-        const SpringResult result = project_spring({2, 0, 0}, weight, 1.0f, 1.0f, 0.0f, 0.0f);
+        const SpringResult result = project_spring({2, 0, 0}, weight, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f);
         EXPECT_FLOAT_EQ(weight * result.correction.x, -1.0f);
     }
 }
 
 TEST(SpringTest, LeavesAloneWhatHasNoDirectionOrNoFreeEnd) {
-    for (const SpringResult& result : {project_spring({0, 0, 0}, 2.0f, 1.0f, 1.0f, 0.1f, 0.0f),
-                                       project_spring({2, 0, 0}, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f),
-                                       project_spring({2, 0, 0}, 2.0f, 1.0f, 0.0f, 0.0f, 0.0f)}) {
+    for (const SpringResult& result : {project_spring({0, 0, 0}, 2.0f, 1.0f, 1.0f, 1.0f, 0.1f, 0.0f),
+                                       project_spring({2, 0, 0}, 0.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f),
+                                       project_spring({2, 0, 0}, 2.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f)}) {
         EXPECT_EQ(result.correction.x, 0.0f);
         EXPECT_EQ(result.tension, 0.0f);
     }
@@ -41,7 +41,7 @@ TEST(SpringTest, ComplianceConvergesToTheForceBalanceOfXpbd) {
     vec3 edge{1.5f, 0, 0};
     float tension = 0;
     for (int iteration = 0; iteration < 60; ++iteration) {
-        const SpringResult result = project_spring(edge, 2.0f, 1.0f, 1.0f, compliance, tension);
+        const SpringResult result = project_spring(edge, 2.0f, 1.0f, 1.0f, 1.0f, compliance, tension);
         edge = edge + result.correction * 2.0f;
         tension = result.tension;
     }
@@ -59,7 +59,7 @@ TEST(SpringTest, TheOscillatorOfTheXpbdPaperHasItsPeriod) {
     int crossings = 0;
     for (int step = 1; crossings < 2; ++step) {
         const vec3 edge{static_cast<float>(x) + displacement.x, 0, 0};
-        displacement.x += project_spring(edge, 1.0f, 1.0f, 1.0f, compliance, 0.0f).correction.x;
+        displacement.x += project_spring(edge, 1.0f, 1.0f, 1.0f, 1.0f, compliance, 0.0f).correction.x;
         x += double(displacement.x);
         if (last > 0 && x - 1 <= 0) crossing[crossings++] = step * h;
         last = x - 1;

@@ -100,11 +100,11 @@ TEST(StepFlops, OfPredictionsAreCounted) {
 TEST(StepFlops, OfSpringsAreCounted) {
     const int closing = vector, share = 1, other_end = vector;
     EXPECT_EQ(kernel_flops.explicit_spring, closing + share + other_end + operations([] {
-                                                add_pull(a, spring_pull(spring_edge(a, b, c, c), c, w, s, s));
+                                                add_pull(a, spring_pull(spring_edge(a, b, c, c), c, w, s, s, s));
                                             }));
     EXPECT_EQ(kernel_flops.spring, operations([] {
                   const Counted first = dragged_weight(w, s), second = dragged_weight(w, s);
-                  const SpringResult result = project_spring(spring_edge(a, b, c, c), first + second, s, w, s, s);
+                  const SpringResult result = project_spring(spring_edge(a, b, c, c), first + second, s, w, s, s, s);
                   moved_by(a, result.correction, first);
                   moved_by(b, result.correction, second);
               }));
@@ -120,10 +120,10 @@ TEST(StepFlops, OfLinesAreCounted) {
               }));
     EXPECT_EQ(kernel_flops.line_spring, operations([&] {
                   line_spring(spring_edge(a, b, c, c), w);
-                  eliminate_spring({.1, .2}, a, spring, b, dragged_weight(w, s), w, w, s, s);
+                  eliminate_spring({.1, .2}, a, spring, b, dragged_weight(w, s), w, acting_share(w, s, s), s, s);
                   substitute_spring({.1, .2}, s);
                   moved_by_both(a, b, line_correction(a, s, b, s), w);
-                  stored_tension(changed_tension(s, s, s, s), s);
+                  stored_tension(changed_tension(s, s, acting_share(s, s, s), s), s);
               }));
 }
 

@@ -18,13 +18,14 @@ RowView row_of(const SheetView& sheet, int y) {
 /// exist.
 template <bool advance>
 void pull(const RowView& a, const RowView& b, int offset, int count, float rest_length, const float* stiffness,
-          float strain_damping, const Vectors& out) {
+          float compression, float strain_damping, const Vectors& out) {
 #pragma GCC ivdep
     for (int x = 0; x < count; ++x) {
         const vec3 start = load(a.position, x), end = load(b.position, x + offset);
         const vec3 moved_start = load(a.displacement, x), moved_end = load(b.displacement, x + offset);
         const vec3 edge = advance ? spring_edge(start, end, moved_start, moved_end) : end - start;
-        store(out, x, spring_pull(edge, moved_end - moved_start, rest_length, stiffness[x], strain_damping));
+        store(out, x,
+              spring_pull(edge, moved_end - moved_start, rest_length, stiffness[x], compression, strain_damping));
     }
 }
 
@@ -33,9 +34,12 @@ template <bool advance>
 void pull_down(const SheetView& sheet, const ExplicitPush& push, const RowView& a, const RowView& b,
                const ExplicitScratch& scratch, const Vectors (&out)[3]) {
     const int count = sheet.whole_vectors();
-    pull<advance>(a, b, 0, count, push.rest_length.y, scratch.stiffness[2], push.strain_damping, out[0]);
-    pull<advance>(a, b, 1, count, push.rest_length.z, scratch.stiffness[3], push.strain_damping, out[1]);
-    pull<advance>(a, b, -1, count, push.rest_length.w, scratch.stiffness[3], push.strain_damping, out[2]);
+    pull<advance>(a, b, 0, count, push.rest_length.y, scratch.stiffness[2], push.compression.x, push.strain_damping,
+                  out[0]);
+    pull<advance>(a, b, 1, count, push.rest_length.z, scratch.stiffness[3], push.compression.x, push.strain_damping,
+                  out[1]);
+    pull<advance>(a, b, -1, count, push.rest_length.w, scratch.stiffness[3], push.compression.x, push.strain_damping,
+                  out[2]);
 }
 
 /// Springs that do not exist, beyond the ends of the rows: -0 where particles start them and +0, which is subtracted,
@@ -88,8 +92,8 @@ void step_rows(const SheetView& sheet, const ExplicitPush& push, Rows rows, Expl
     for (int y = rows.first; y < rows.last; ++y) {
         const RowView here = row_of(sheet, y), copied{scratch.next_position, scratch.next_displacement};
         const float* along = scratch.stiffness[y == 0 || y == sheet.rows - 1 ? 1 : 0];
-        pull<advance>(here, here, 1, sheet.whole_vectors(), push.rest_length.x, along, push.strain_damping,
-                      scratch.along);
+        pull<advance>(here, here, 1, sheet.whole_vectors(), push.rest_length.x, along, push.compression.x,
+                      push.strain_damping, scratch.along);
         if (y + 1 < sheet.rows)
             pull_down<advance>(sheet, push, here, y + 1 < rows.last ? row_of(sheet, y + 1) : copied, scratch,
                                scratch.below);

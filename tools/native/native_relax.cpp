@@ -9,7 +9,7 @@ namespace {
 template <int stride>
 void relax(const SheetView& sheet, const SpringPush& push, std::ptrdiff_t first_at, std::ptrdiff_t to_second, int count,
            float share) {
-    const float rest_length = push.rest_length, compliance = push.compliance;
+    const float rest_length = push.rest_length, compression = push.compression, compliance = push.compliance;
 #pragma GCC ivdep
     for (int k = 0; k < count; ++k) {
         const std::ptrdiff_t first = first_at + stride * k, second = first + to_second;
@@ -18,7 +18,7 @@ void relax(const SheetView& sheet, const SpringPush& push, std::ptrdiff_t first_
         const vec3 edge =
             spring_edge(load(sheet.position, first), load(sheet.position, second), moved_first, moved_second);
         const SpringResult result =
-            project_spring(edge, weight_first + weight_second, rest_length, share, compliance, 0.0f);
+            project_spring(edge, weight_first + weight_second, rest_length, share, compression, compliance, 0.0f);
         store(sheet.displacement, first, moved_by(moved_first, result.correction, -weight_first));
         store(sheet.displacement, second, moved_by(moved_second, result.correction, weight_second));
     }

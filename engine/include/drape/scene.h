@@ -85,10 +85,11 @@ struct Placement {
 };
 
 struct Stiffness {
-    bool rigid = false;       ///< stretch and shear inextensible: the slides' springs
-    double stretch = 1000.0;  ///< N/m
-    double shear = 100.0;     ///< N/m
-    double bend = 0.0;        ///< N m
+    bool rigid = false;        ///< stretch and shear inextensible: the slides' springs
+    double stretch = 1000.0;   ///< N/m
+    double shear = 100.0;      ///< N/m
+    double bend = 0.0;         ///< N m
+    double compression = 1.0;  ///< share of stretch and shear that acts where springs are pushed together
     bool operator==(const Stiffness&) const = default;
 };
 
