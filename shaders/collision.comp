@@ -3,10 +3,11 @@
 // from what the edges of boxes left (box_edges.comp).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #pragma variants HISTORY LED BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
-#include "include/colliders.h"
+#include "include/contacts.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
@@ -25,6 +26,7 @@ layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
 #endif
 
 void main() {
+    read_colliders(push.first);
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
     vec4 start = LOAD(position, texel);

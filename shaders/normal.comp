@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
 #include "shared/simulation_types.h"
-#include "include/triangles.h"
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -17,20 +16,27 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D normal;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D cells;
 #endif
 
+#include "include/neighbourhood.h"
+
+vec3 positions[neighbourhood_count];
+
+void load_member(int place, ivec2 at) { positions[place] = LOAD(position, at).xyz; }
+
+ivec2 texel;
+vec3 sum = empty_sum();
+
+void add_triangle(int k) {
+    ivec4 around = triangle_around(k);
+    vec3 more = add_area_vector(sum, positions[corner_in_neighbourhood(around, 0)],
+                                positions[corner_in_neighbourhood(around, 1)],
+                                positions[corner_in_neighbourhood(around, 2)]);
+    if (triangle_exists(texel, around)) sum = more;
+}
+
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec3 sum = empty_sum();
-    for (int k = 0; k < triangles_around_particle; ++k) {
-        ivec4 around = triangle_around(k);
-        ivec2 cell = texel + around.xy;
-        if (!cell_inside(cell, push.grid)) continue;
-#ifdef MASKED
-        if ((imageLoad(cells, placed_cell(cell)).x & uint(around.z)) == 0u) continue;
-#endif
-        sum = add_area_vector(sum, LOAD(position, cell + triangle_corner(around.z, 0)).xyz,
-                              LOAD(position, cell + triangle_corner(around.z, 1)).xyz,
-                              LOAD(position, cell + triangle_corner(around.z, 2)).xyz);
-    }
+    FOR_NEIGHBOURHOOD(texel, load_member)
+    FOR_TRIANGLES(add_triangle)
     imageStore(normal, placed(texel), vec4(unit_or_zero(sum), 0.0f));
 }

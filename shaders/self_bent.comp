@@ -15,9 +15,11 @@ layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 vec3 at(ivec2 texel) { return imageLoad(positions, texel).xyz; }
 vec3 moved(ivec2 texel) {
-    return self_relative_motion(imageLoad(displacements, texel).xyz, record[0].carried.xyz);
+    return self_relative_motion(imageLoad(displacements, texel).xyz, carried);
 }
 
 bool lies_flat(SelfCloth cloth, ivec2 cell) {
@@ -65,6 +67,7 @@ void judge(ivec2 texel) {
 }
 
 void main() {
+    carried = record[0].carried.xyz;
     FOR_EVERY(place, push.grid.x * push.grid.y, judge(texel_of(place)))
     dispatch(self_size_primitives, reached);
 }

@@ -19,9 +19,11 @@ layout(set = 0, binding = 6, std430) writeonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Before { vec4 before[]; };
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 SelfBox particle_box(ivec2 texel) {
     return self_point_box(imageLoad(positions, texel).xyz,
-                          self_relative_motion(imageLoad(displacements, texel).xyz, record[0].carried.xyz));
+                          self_relative_motion(imageLoad(displacements, texel).xyz, carried));
 }
 
 SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
@@ -45,6 +47,7 @@ void begin(int place, int count) {
 }
 
 void main() {
+    carried = record[0].carried.xyz;
     int count = push.grid.x * push.grid.y;
     FOR_EVERY(place, count, begin(place, count))
 }

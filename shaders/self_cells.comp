@@ -17,8 +17,7 @@ layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
 
 /// Cell k (0..3) of a block.
 ivec2 cell_of(int block, int k) {
-    int across = self_tree_size(push.grid, 1).x;
-    return ivec2(2 * (block % across) + (k & 1), 2 * (block / across) + (k >> 1));
+    return 2 * texel_of(block, self_tree_size(push.grid, 1).x) + ivec2(k & 1, k >> 1);
 }
 
 bool inside(ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; }

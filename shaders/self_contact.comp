@@ -54,8 +54,8 @@ void push_apart(bool edges, uvec4 pair) {
 
 void main() {
     int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
-    FOR_EVERY(i, points, push_apart(false, pairs[i]))
     int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    FOR_EVERY(i, points, push_apart(false, pairs[i]))
     FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_room - 1 - i]))
     dispatch(self_size_push + push.round, pushes ? uint(push.grid.x * push.grid.y) : 0u);
     if (push.round + 1 < self_iterations)

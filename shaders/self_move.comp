@@ -14,12 +14,13 @@ layout(set = 0, binding = 4, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 void move(int place, float thickness) {
     float share = uintBitsToFloat(shares[(self_rounds - 1) * push.grid.x * push.grid.y + place]);
     ivec2 texel = texel_of(place);
     bool held = !(imageLoad(positions, texel).w > 0.0f);
     vec4 displacement = imageLoad(displacements, texel);
-    vec3 carried = record[0].carried.xyz;
     vec3 first = before[place].xyz;
     bool cut = share < 1.0f || (!held && self_exceeds(displacement.xyz, first, thickness));
     vec3 bounded = held ? displacement.xyz : self_bounded(displacement.xyz, first, thickness);
@@ -46,7 +47,10 @@ void count() {
 
 void move_own(int place) {
     if (owner_of(place) >= 0) move(place, cloth_at(texel_of(place)).thickness);
-    if (place == 0) count();
 }
 
-void main() { FOR_EVERY(place, push.grid.x * push.grid.y, move_own(place)) }
+void main() {
+    carried = record[0].carried.xyz;
+    FOR_EVERY(place, push.grid.x * push.grid.y, move_own(place))
+    if (gl_GlobalInvocationID.x == 0u) count();
+}

@@ -16,9 +16,11 @@ layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 vec3 where(uint corner) { return imageLoad(positions, self_texel(corner)).xyz; }
 vec3 moved(uint corner) {
-    return self_relative_motion(imageLoad(displacements, self_texel(corner)).xyz, record[0].carried.xyz);
+    return self_relative_motion(imageLoad(displacements, self_texel(corner)).xyz, carried);
 }
 
 bool is_listed(bool edges, uvec4 pair) {
@@ -47,9 +49,10 @@ void judge_edges(ivec2 which) {
 }
 
 void main() {
+    carried = record[0].carried.xyz;
     int points = self_both_listed(record[0].near_point_count, record[0].near_edge_count, push.near_room);
-    FOR_EVERY(i, points, judge_point(near[i]))
     int edges = self_both_listed(record[0].near_edge_count, record[0].near_point_count, push.near_room);
+    FOR_EVERY(i, points, judge_point(near[i]))
     FOR_EVERY(i, edges, judge_edges(near[push.near_room - 1 - i]))
     dispatch(self_size_contact, reached);
     dispatch(self_size_room, reached);

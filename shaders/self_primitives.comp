@@ -15,6 +15,8 @@ layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 /// Boxes of what a cell's first particle owns.
 struct Cell {
     ivec2 at;
@@ -24,7 +26,7 @@ struct Cell {
 
 SelfBox box_at(ivec2 texel, vec3 displacement) {
     return self_point_box(imageLoad(positions, texel).xyz,
-                          self_relative_motion(displacement, record[0].carried.xyz));
+                          self_relative_motion(displacement, carried));
 }
 SelfBox box_at(ivec2 texel) { return box_at(texel, imageLoad(displacements, texel).xyz); }
 
@@ -96,6 +98,7 @@ void judge(ivec2 pair) {
 }
 
 void main() {
+    carried = record[0].carried.xyz;
     int count = self_listed(record[0].cell_count, push.cell_room);
     FOR_EVERY(i, count, judge(cells[i]))
     dispatch(self_size_pairs, reached);

@@ -18,6 +18,8 @@ layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
 bool cuts_short = false;
 
 struct Corner {
@@ -30,7 +32,7 @@ struct Corner {
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
     if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, thickness);
-    return self_relative_motion(moved, record[0].carried.xyz);
+    return self_relative_motion(moved, carried);
 }
 
 Corner corner_of(uint which) {
@@ -68,9 +70,10 @@ void bound_pair(bool edges, uvec4 pair) {
 }
 
 void main() {
+    carried = record[0].carried.xyz;
     int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
-    FOR_EVERY(i, points, bound_pair(false, pairs[i]))
     int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    FOR_EVERY(i, points, bound_pair(false, pairs[i]))
     FOR_EVERY(i, edges, bound_pair(true, pairs[push.pair_room - 1 - i]))
     if (push.round + 1 < self_rounds)
         dispatch(self_size_room + push.round + 1, cuts_short ? uint(max(points, edges)) : 0u);

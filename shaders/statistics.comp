@@ -3,12 +3,13 @@
 // cuts). COLLIDING: the scene has colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #pragma variants MASKED COLLIDING
 #include "shared/simulation_types.h"
 #include "include/spring.h"
 #include "include/statistics.h"
 #ifdef COLLIDING
-#include "include/colliders.h"
+#include "include/contacts.h"
 #endif
 
 layout(local_size_x = workgroup_width) in;
@@ -76,6 +77,9 @@ StatisticsRecord statistics_of(ivec2 texel) {
 }
 
 void main() {
+#ifdef COLLIDING
+    read_colliders(push.collider_first);
+#endif
     ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(statistics_rows));
     StatisticsRecord record = empty_statistics();
     for (int row = 0; row < statistics_rows; ++row, ++texel.y)

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
-#include "include/triangles.h"
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -20,29 +19,36 @@ layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
 #endif
 
+#include "include/neighbourhood.h"
+
+vec3 positions[neighbourhood_count], displacements[neighbourhood_count];
+
+void load_member(int place, ivec2 at) {
+    displacements[place] = LOAD(displacement, at).xyz;
+    precise vec3 now = LOAD(position, at).xyz;
+    if (advance) now = now + displacements[place];
+    positions[place] = now;
+}
+
+vec3 wind_velocity;
+ivec2 texel;
+WindForce sum = WindForce(empty_sum(), 0.0f);
+
+void add_triangle(int k) {
+    ivec4 around = triangle_around(k);
+    int a = corner_in_neighbourhood(around, 0), b = corner_in_neighbourhood(around, 1),
+        c = corner_in_neighbourhood(around, 2);
+    WindForce more = add_wind_share(sum, positions[a], positions[b], positions[c], displacements[a], displacements[b],
+                                    displacements[c], push.inverse_step, wind_velocity, push.drag_coefficient,
+                                    push.lift_coefficient, push.area_limit);
+    if (triangle_exists(texel, around)) sum = more;
+}
+
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    wind_velocity = wind[push.substep].xyz;  // before anything branches (docs/devices.md)
+    texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec3 wind_velocity = wind[push.substep].xyz;
-    WindForce sum = WindForce(empty_sum(), 0.0f);
-    for (int k = 0; k < triangles_around_particle; ++k) {
-        ivec4 around = triangle_around(k);
-        ivec2 cell = texel + around.xy;
-        if (!cell_inside(cell, push.grid)) continue;
-#ifdef MASKED
-        if ((imageLoad(cells, placed_cell(cell)).x & uint(around.z)) == 0u) continue;
-#endif
-        vec3 corners[3];
-        vec3 moved[3];
-        for (int corner = 0; corner < 3; ++corner) {
-            ivec2 at = cell + triangle_corner(around.z, corner);
-            moved[corner] = LOAD(displacement, at).xyz;
-            precise vec3 now = LOAD(position, at).xyz;
-            if (advance) now = now + moved[corner];
-            corners[corner] = now;
-        }
-        sum = add_wind_share(sum, corners[0], corners[1], corners[2], moved[0], moved[1], moved[2], push.inverse_step,
-                             wind_velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
-    }
+    FOR_NEIGHBOURHOOD(texel, load_member)
+    FOR_TRIANGLES(add_triangle)
     STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
 }

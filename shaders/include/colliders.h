@@ -249,29 +249,6 @@ layout(constant_id = 3) const int ellipsoids_end = 0;
 layout(constant_id = 4) const int capsules_end = 0;
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 
-#define CONTACTS(kind, begin, end)                                                                            \
-    for (int i = begin; i < end; ++i) {                                                                       \
-        Contact contact =                                                                                     \
-            collider_contact(kind, colliders[first + i], start, displacement, thickness, friction, recovery); \
-        if (in_turn) displacement = contact.displacement;                                                     \
-        deepest = contact.depth > deepest ? contact.depth : deepest;                                          \
-    }
-
-/// Contact with every collider from `first` on. `in_turn`: each takes the displacement that those before it left, else
-/// the given one, and only the depth counts.
-Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
-                         bool in_turn) {
-    float deepest = 0.0f;
-    CONTACTS(kind_plane, 0, planes_end)
-    CONTACTS(kind_sphere, planes_end, spheres_end)
-    CONTACTS(kind_box, spheres_end, boxes_end)
-    if (boxes_end < ellipsoids_end) {  // else the loop within it keeps lavapipe from leaving this one out
-        CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
-    }
-    CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
-    return Contact(displacement, deepest);
-}
-
 #endif
 
 #endif

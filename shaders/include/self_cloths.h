@@ -4,7 +4,16 @@ layout(set = 0, binding = 2, std430) readonly buffer Owners { int owners[]; };  
 layout(set = 0, binding = 3, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 
 int place_of(ivec2 texel) { return texel.y * push.grid.x + texel.x; }
-ivec2 texel_of(int place) { return ivec2(place % push.grid.x, place / push.grid.x); }
+/// Row `place / columns` and what remains: the default device divides integers lane by lane. The estimate is one off at
+/// most where the row is below 2^21.
+ivec2 texel_of(int place, int columns) {
+    precise float estimate = float(place) * (1.0f / float(columns));
+    int row = int(estimate);
+    int column = place - row * columns;
+    int fewer = column < 0 ? 1 : 0, more = column >= columns ? 1 : 0;
+    return ivec2(column + (fewer - more) * columns, row - fewer + more);
+}
+ivec2 texel_of(int place) { return texel_of(place, push.grid.x); }
 int owner_of(int place) { return cloth_count == 1 ? 0 : owners[place]; }
 /// Of a place where a cloth is.
 SelfCloth cloth_at(ivec2 texel) {

@@ -37,6 +37,13 @@ TEST(TwinTest, RigidSpringsIterated) {
     compare(scene);
 }
 
+TEST(TwinTest, MoreCollidersThanAreReadEarly) {
+    SceneDescription scene = everything();
+    for (int k = 0; k < 6; ++k)
+        scene.colliders.push_back({Sphere{{-0.5 + 0.2 * k, -0.15 - 0.02 * k, 0.2 - 0.1 * k}, 0.05}});
+    compare(scene);
+}
+
 TEST(TwinTest, HolesAndTwoCloths) {
     SceneDescription scene = everything();
     scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 20}, {36, 29}}};

@@ -1,0 +1,47 @@
+// A particle and the six around it that share triangles with it. Passes load them once each, not once for each
+// triangle, and write their loops out: arrays that no loop indexes are values on every device (docs/devices.md; not
+// [[unroll]]: what spirv-opt unrolls is not precise any more). The includer has `push`, and its image of `cells` where
+// MASKED.
+#include "include/triangles.h"
+
+const int neighbourhood_count = 7;
+
+/// Place of an offset, row by row; the particle itself is the fourth. (-1, -1) and (1, 1) share no triangle with it.
+int place_in_neighbourhood(ivec2 offset) { return offset.y * 3 + offset.x + 3; }
+
+/// Place of corner (0..2) of a triangle of triangle_around.
+int corner_in_neighbourhood(ivec4 around, int corner) {
+    return place_in_neighbourhood(around.xy + triangle_corner(around.z, corner));
+}
+
+/// Of offset (x, y); past the border another that there is.
+ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) { return max(min(particle + offset, push.grid - 1), ivec2(0, 0)); }
+
+/// `load(place, texel)` for every member.
+#define FOR_NEIGHBOURHOOD(particle, load)                 \
+    load(0, neighbourhood_texel(particle, ivec2(0, -1))); \
+    load(1, neighbourhood_texel(particle, ivec2(1, -1))); \
+    load(2, neighbourhood_texel(particle, ivec2(-1, 0))); \
+    load(3, particle);                                    \
+    load(4, neighbourhood_texel(particle, ivec2(1, 0)));  \
+    load(5, neighbourhood_texel(particle, ivec2(-1, 1))); \
+    load(6, neighbourhood_texel(particle, ivec2(0, 1)));
+
+bool triangle_exists(ivec2 particle, ivec4 around) {
+    ivec2 cell = particle + around.xy;
+    if (!cell_inside(cell, push.grid)) return false;
+#ifdef MASKED
+    return (imageLoad(cells, placed_cell(cell)).x & uint(around.z)) != 0u;
+#else
+    return true;
+#endif
+}
+
+/// `add(k)` for every triangle around a particle, in the order of all sums over them.
+#define FOR_TRIANGLES(add) \
+    add(0);                \
+    add(1);                \
+    add(2);                \
+    add(3);                \
+    add(4);                \
+    add(5);
