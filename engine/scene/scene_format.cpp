@@ -111,7 +111,8 @@ const Object<Stiffness> stiffness{
          "width, and a sheet bends and twists like the plate of Poisson's ratio 0. Fabrics: 1e-6 to 1e-3. 0: none."},
         {"compression", &Stiffness::compression, number({1e-3, 1.0, false}),
          "Share of stretch and shear that acts where springs are pushed together. 1: cloth gives way by the folds that "
-         "the grid resolves. Less: by finer ones too, as fabrics buckle long before their threads give way (Choi and Ko "
+         "the grid resolves. Less: by finer ones too, as fabrics buckle long before their threads give way (Choi and "
+         "Ko "
          "2002); 0.02 to 0.2 lets a coarse grid collapse. Sheared cloth, whose diagonals one way are pushed together, "
          "keeps (1 + compression)/2 of its shear stiffness."},
     }};

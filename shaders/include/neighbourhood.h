@@ -15,7 +15,9 @@ int corner_in_neighbourhood(ivec4 around, int corner) {
 }
 
 /// Of offset (x, y); past the border another that there is.
-ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) { return max(min(particle + offset, push.grid - 1), ivec2(0, 0)); }
+ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) {
+    return max(min(particle + offset, push.grid - 1), ivec2(0, 0));
+}
 
 /// `load(place, texel)` for every member.
 #define FOR_NEIGHBOURHOOD(particle, load)                 \
