@@ -102,22 +102,37 @@ std::string schedule_obstacle(const vulkan::Device& device, const SimulationMode
     return {};
 }
 
-/// Buffers on a CPU that can, streams where a method has micro-steps. On GPUs nothing was measured; images there, since
-/// LINEAR ones may load more slowly.
-Schedule chosen(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
-    if (asked == Schedule::images) return asked;
-    if (asked == Schedule::automatic && device_kind(device.info()) != DeviceKind::cpu) return Schedule::images;
-    const bool gathers =
+/// What a kind of device takes for scenes with micro-steps and without, the first that it can: what
+/// `drape bench speed --tune` finds the fastest. Else images: on GPUs nothing was measured, and LINEAR images may load
+/// more slowly there.
+struct PreferredSchedule {
+    DeviceKind device;
+    bool micro_steps;
+    Schedule schedule;
+};
+constexpr PreferredSchedule preferred_schedules[] = {
+    {DeviceKind::cpu, true, Schedule::streams},
+    {DeviceKind::cpu, true, Schedule::buffers},
+    {DeviceKind::cpu, false, Schedule::buffers},
+};
+
+Schedule chosen(const vulkan::Device& device, const SimulationModel& model) {
+    const bool micro_steps =
         std::ranges::any_of(model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state; });
-    for (const Schedule schedule : {Schedule::streams, Schedule::buffers}) {
-        if (asked != Schedule::automatic && asked != schedule) continue;
-        if (schedule == Schedule::streams && !gathers && asked != schedule) continue;
-        const std::string obstacle = schedule_obstacle(device, model, schedule);
-        if (obstacle.empty()) return schedule;
-        if (asked == schedule)
-            throw vulkan::VulkanError(fmt::format("schedule '{}', {}", spelling(schedule_spellings, asked), obstacle));
-    }
+    for (const PreferredSchedule& row : preferred_schedules)
+        if (row.device == device_kind(device.info()) && row.micro_steps == micro_steps &&
+            schedule_obstacle(device, model, row.schedule).empty())
+            return row.schedule;
     return Schedule::images;
+}
+
+/// Throws VulkanError where the device has not what it needs.
+Schedule possible(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
+    if (asked == Schedule::automatic) return chosen(device, model);
+    const std::string obstacle = asked == Schedule::images ? "" : schedule_obstacle(device, model, asked);
+    if (!obstacle.empty())
+        throw vulkan::VulkanError(fmt::format("schedule '{}', {}", spelling(schedule_spellings, asked), obstacle));
+    return asked;
 }
 
 }  // namespace
@@ -127,7 +142,7 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
 }
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule)
-    : model_(model), run_(&model), schedule_(chosen(device, model, schedule)), pipelines_(device) {
+    : model_(model), run_(&model), schedule_(possible(device, model, schedule)), pipelines_(device) {
     for (const ClothModel& cloth : model.cloths) {
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());

@@ -100,6 +100,25 @@ TEST(SpeedReport, SkipsSayWhatTheySave) {
     EXPECT_THAT(speed_json(report), HasSubstr("\"skipped\": \"a.json: pictures\""));
 }
 
+TEST(SpeedReport, SchedulesSayWhichIsTakenAndWhichIsTheFastest) {
+    SpeedCase about{.name = "schedule/line/64", .kind = SpeedKind::schedule};
+    const SpeedReport report =
+        report_of({{about, "images", {time_of("frame", 8), time_of("images", 8), time_of("buffers", 4)}}});
+    EXPECT_THAT(speed_text(report),
+                testing::ContainsRegex("schedule/line/64 +1.0000 +0.5000 +- +images +buffers +2.00"));
+    EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"images\""));
+}
+
+TEST(SpeedCases, OfSchedulesAreThoseOfSheetsAndCloths) {
+    std::set<std::string> names;
+    for (const SpeedCase& each : schedule_cases(true)) {
+        EXPECT_EQ(each.kind, SpeedKind::schedule);
+        EXPECT_TRUE(names.insert(each.name).second) << each.name;
+    }
+    for (const char* name : {"schedule/explicit/32", "schedule/relax/256", "schedule/line/32/64 cloths"})
+        EXPECT_TRUE(names.contains(name)) << name;
+}
+
 TEST(SpeedReport, JsonAndCsvHaveEveryTime) {
     const SpeedReport report = report_of({sheet_result(64, 4, 2)});
     EXPECT_THAT(speed_json(report), AllOf(HasSubstr("\"format\": \"drape bench speed 1\""),

@@ -102,6 +102,18 @@ std::vector<SpeedCase> speed_cases(bool is_short) {
     return cases;
 }
 
+std::vector<SpeedCase> schedule_cases(bool is_short) {
+    std::vector<SpeedCase> cases;
+    add_sizes(short_sizes, cases);
+    if (!is_short) add_sizes(long_sizes, cases);
+    add_cloths(cases);
+    for (SpeedCase& each : cases) {
+        each.kind = SpeedKind::schedule;
+        each.name.insert(0, "schedule/");
+    }
+    return cases;
+}
+
 SceneDescription scene_of(const SpeedCase& speed_case) {
     SceneDescription scene = model_scenes::sheet(speed_case.size, speed_case.size, 1, 1, speed_case.substeps());
     scene.name = speed_case.name;

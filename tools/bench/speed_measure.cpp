@@ -188,6 +188,28 @@ SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, 
     return result;
 }
 
+SpeedResult measure_schedules(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                              const BenchRequest& request) {
+    const SceneDescription scene = scene_of(speed_case);
+    std::vector<std::pair<std::string, std::unique_ptr<DeviceSide>>> sides;
+    for (const Spelling<Schedule>& each : schedule_spellings) {
+        SimulationOptions options = plain_options(false);
+        options.schedule = each.value;
+        const bool is_chosen = each.value == Schedule::automatic;
+        try {
+            sides.emplace_back(is_chosen ? "frame" : each.name,
+                               std::make_unique<DeviceSide>(devices.of(scene, false), scene, options, request));
+        } catch (const DeviceError&) {  // it has not what that schedule needs
+            if (is_chosen) throw;
+        }
+    }
+    for (int round = 0; round < effort.rounds; ++round)
+        for (const auto& [name, side] : sides) side->round(effort);
+    SpeedResult result{speed_case, sides[0].second->simulation().facts().schedule};
+    for (const auto& [name, side] : sides) put(result, {name, side->means()[0].milliseconds});
+    return result;
+}
+
 SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, const SkipCase& skip,
                          const SceneDescription& scene, const SpeedEffort& effort, const BenchRequest& request) {
     std::vector<std::unique_ptr<DeviceSide>> sides;
@@ -211,7 +233,7 @@ SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, con
 
 double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort) {
     constexpr double particle_step = 5e-7;  // s
-    const double sides = speed_case.kind == SpeedKind::solve ? 4 : 2;
+    const double sides = speed_case.kind == SpeedKind::solve || speed_case.kind == SpeedKind::schedule ? 4 : 2;
     const double least = 3 * speed_case.particles() * speed_case.substeps() * particle_step;
     return 1 + effort.rounds * std::max(sides * effort.seconds, least);
 }
