@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -10,6 +11,7 @@
 #include "device_run.h"
 #include "frame_loop.h"
 #include "gpu_test.h"
+#include "scene/vectors.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
 #include "support/twin_with_cuts.h"
@@ -261,6 +263,60 @@ TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
             EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
         });
     EXPECT_EQ(cut_frames, std::vector<std::uint32_t>{0});
+}
+
+/// The surface that a triangle sweeps on its way: where it ends, where it began, two triangles per side.
+std::vector<std::array<Vec3, 3>> prism(const std::array<Vec3, 3>& from, const Vec3& way) {
+    std::array<Vec3, 3> to = from;
+    for (Vec3& corner : to)
+        for (std::size_t k = 0; k < 3; ++k) corner[k] += way[k];
+    std::vector<std::array<Vec3, 3>> faces{to, from};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        faces.push_back({from[k], from[next], to[next]});
+        faces.push_back({from[k], to[next], to[k]});
+    }
+    return faces;
+}
+
+TEST(CutTest, EveryFaceOfWhatABladeSweepsCuts) {
+    const std::array<Vec3, 3> triangle{{{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}}};
+    const Vec3 way{0.3, -0.2, 0.9};
+    for (const auto& [a, b, c] : prism(triangle, way)) {
+        SceneDescription scene = test::sheet(6, 6, 0.02, 0.02, 2);  // far smaller, across the middle of the face
+        scene.time.frame_count = 3;
+        scene.gravity = {0, 0, 0};
+        const double begin = 0.2 / scene.time.fps, end = 0.8 / scene.time.fps;
+        Cutter cutter = blade(triangle[0], triangle[1], triangle[2], begin, end);
+        cutter.path.keys = {{begin, {0, 0, 0}, {}}, {end, way, {}}};
+        scene.cutters = {cutter};
+        Vec3 along, beside, middle;
+        for (std::size_t k = 0; k < 3; ++k) {
+            along[k] = b[k] - a[k];
+            beside[k] = c[k] - a[k];
+            middle[k] = (a[k] + b[k] + c[k]) / 3;
+        }
+        const Vec3 across = cross(along, beside);
+        Placement& place = scene.cloths[0].placement;
+        for (std::size_t k = 0; k < 3; ++k) {
+            place.u[k] = across[k] / length(across);
+            place.v[k] = along[k] / length(along);
+            place.origin[k] = middle[k] - 0.01 * (place.u[k] + place.v[k]);
+        }
+        test::TwinWithCuts twin(scene);
+        std::uint32_t springs = 0;
+        FrameLoopOptions options = positions_only();
+        options.on_cut = [&](const CutEvent& event, const CutTopology&) { springs += event.counts.springs; };
+        FrameLoop loop(test::gpu().device, twin.model(), options);
+        loop.run(
+            2, [](std::uint32_t) { return true; },
+            [&](const FinishedFrame& frame) {
+                twin.run_frame(frame.frame);
+                std::string where;
+                EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
+            });
+        EXPECT_GE(springs, 6u);  // of every row the middle one, and diagonals
+    }
 }
 
 TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
