@@ -93,7 +93,13 @@ std::vector<SceneError> ErrorList::told() const {
     std::ranges::sort(sorted, earlier);
     std::vector<SceneError> errors;
     for (Found& found : sorted) errors.push_back(std::move(found.error.error));
-    if (count_ > most) errors.push_back({errors.front().file, 0, 0, "", fmt::format("and {} more", count_ - most)});
+    return first_errors(std::move(errors), count_);
+}
+
+std::vector<SceneError> first_errors(std::vector<SceneError> errors, std::size_t count) {
+    if (count <= ErrorList::most) return errors;
+    errors.erase(errors.begin() + ErrorList::most, errors.end());
+    errors.push_back({errors.front().file, 0, 0, "", fmt::format("and {} more", count - ErrorList::most)});
     return errors;
 }
 

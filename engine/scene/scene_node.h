@@ -43,6 +43,9 @@ class ErrorList {
     std::size_t count_ = 0;
 };
 
+/// `count` errors, in order, as far as they are told: beyond ErrorList::most one without a place counts them.
+std::vector<SceneError> first_errors(std::vector<SceneError> errors, std::size_t count);
+
 /// A key that is not there, which has a published default.
 struct MissingKey {
     std::string object;  ///< JSON pointer

@@ -64,7 +64,7 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
         for (const std::string& override_text : overrides) document.apply_override(override_text);
     SceneResult result;
     if (!document.errors().empty()) {
-        result.errors = in_text_order(document.errors());
+        result.errors = first_errors(in_text_order(document.errors()), document.errors().size());
         return result;
     }
     SceneReport report{document, {}, {}};

@@ -103,5 +103,13 @@ TEST(SceneOverride, RepairsAFaultOfTheFile) {
     EXPECT_EQ(scene_with({"/time/fps=25"}, R"({"cloths": [{}], "time": {"fps": -1}})").time.fps, 25.0);
 }
 
+TEST(SceneOverride, OfManyErrorsTheFirstHundredAreTold) {
+    const Texts errors = errors_with(Texts(150, "wrong"));
+    ASSERT_EQ(errors.size(), 101u);
+    EXPECT_EQ(errors[99], "--set 'wrong': expected /json/pointer=value");
+    EXPECT_EQ(errors[100], "--set 'wrong': and 50 more");
+    EXPECT_EQ(errors_with(Texts(100, "wrong")).size(), 100u);
+}
+
 }  // namespace
 }  // namespace drape
