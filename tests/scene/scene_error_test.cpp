@@ -41,6 +41,16 @@ TEST_P(SceneErrors, AreExactlyThese) {
     EXPECT_EQ(texts, expected) << GetParam().text.substr(0, 400);
 }
 
+TEST(SceneErrorPlaces, OfKeysWithEscapesAreTheirs) {
+    const SceneResult result =
+        read_scene_text("{\"cloths\": [{\"\\u00e9\": 1,\n  \"\\u20ac\": 2, \"a\\tb\": 3,\n \"c\\/d\": 4}]}", "s");
+    std::vector<std::string> places;
+    for (const SceneError& error : result.errors)
+        places.push_back(error.text().substr(0, error.text().find(": expected")));
+    EXPECT_EQ(places, (std::vector<std::string>{"s:1:14: /cloths/0/\xc3\xa9", "s:2:3: /cloths/0/\xe2\x82\xac",
+                                                "s:2:16: /cloths/0/a\tb", "s:3:2: /cloths/0/c~1d"}));
+}
+
 const auto name_of = [](const auto& info) { return std::string(info.param.name); };
 
 const Malformed syntax_cases[] = {
@@ -65,6 +75,10 @@ const Malformed syntax_cases[] = {
     {"TextAfterTheEnd", "{\"cloths\": [{}]} x", {"1:18: Extra non-whitespace after JSON value"}},
     {"TwoDocuments", "{\"cloths\": [{}]}\n{}", {"2:1: Extra non-whitespace after JSON value"}},
     {"DuplicateKey", "{\"cloths\": [{}],\r\n \"cloths\": [{}]}", {"2:2: Duplicate key: 'cloths'"}},
+    // A key is what its escapes say: by that its place is found.
+    {"DuplicateKeyOnceEscaped",
+     "{\"cloths\": [{}],\n \"\xc3\xa9\": 1, \"\\u00e9\": 2}",
+     {"2:11: Duplicate key: '\xc3\xa9'"}},
     {"NotANumber", scene("\"gravity\": [0, NaN, 0]"), {"2:16: Syntax error: value, object or array expected"}},
     {"LeadingZero", scene("\"gravity\": [0, 01, 0]"), {"2:16: expected a JSON number, got 01"}},
     {"LoneMinus", scene("\"gravity\": [0, -, 0]"), {"2:16: expected a JSON number, got -"}},
