@@ -8,7 +8,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
-layout(set = 0, binding = 0, std430) readonly buffer Boxes { SelfBox boxes[]; };
+#include "include/self_tree.h"
 layout(set = 0, binding = 1, std430) buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
@@ -36,13 +36,13 @@ void main() {
     int level = searches ? push.top : push.top + 1;
     int first = 0, visits = 0;  // first: box of the level
     for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
-    SelfBox box = boxes[begin + index];
+    SelfBox box = box_at(begin + index);
     bool entered = true;
     while (level <= push.top) {
         ivec2 size = self_tree_size(push.grid, level);
         int place = first + node.y * size.x + node.x;
         bool open = entered && ((node.y + 1) << (level - 1)) > own.y && (level > 1 || place > begin + index) &&
-                    self_boxes_meet(box, boxes[place], push, most, push.margin);
+                    self_boxes_meet(box, box_at(place), push, most, push.margin);
         ++visits;
         if (visits > self_visit_limit) {
             atomicAdd(record[0].block_count, uint(push.cell_room));
@@ -52,7 +52,7 @@ void main() {
         }
         bool found = open && level == 1;
         // One cloth is in question at all because it meets itself, and the way here judged it by its own thickness.
-        if (cloth_count > 1) found = found && meets(owner, box, node, boxes[place]);
+        if (cloth_count > 1) found = found && meets(owner, box, node, box_at(place));
         if (found) {
             uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
             if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);

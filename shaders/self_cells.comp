@@ -7,7 +7,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
-layout(set = 0, binding = 0, std430) readonly buffer Boxes { SelfBox boxes[]; };
+#include "include/self_tree.h"
 layout(set = 0, binding = 1, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Candidates { ivec2 candidates[]; };
@@ -30,8 +30,8 @@ struct Block {
 };
 
 Block block_of(int block) {
-    return Block(cell_of(block, 0), boxes[index_of(cell_of(block, 0))], boxes[index_of(cell_of(block, 1))],
-                 boxes[index_of(cell_of(block, 2))], boxes[index_of(cell_of(block, 3))]);
+    return Block(cell_of(block, 0), box_at(index_of(cell_of(block, 0))), box_at(index_of(cell_of(block, 1))),
+                 box_at(index_of(cell_of(block, 2))), box_at(index_of(cell_of(block, 3))));
 }
 
 /// Whether cell k of one block may come near cell l of another, and neither lies past an edge nor are they neighbours.

@@ -80,7 +80,7 @@ enum class FieldLife : std::uint8_t {
 };
 
 /// How shaders may see a field.
-enum class FieldView : std::uint8_t { image, buffer, image_and_buffer };
+enum class FieldView : std::uint8_t { image, buffer, texel_buffer, image_and_buffer };
 
 /// What a frame is for, beside simulating.
 struct FrameNeeds {
@@ -111,7 +111,7 @@ struct FieldRow {
     FieldExtent (*extent)(const FieldContext&);
     /// Bytes at the start, or since the last cut, at most as many as the extent holds; null: zeros.
     std::vector<std::byte> (*start)(const FieldContext&) = nullptr;
-    bool is_image() const { return view != FieldView::buffer; }
+    bool is_image() const { return view == FieldView::image || view == FieldView::image_and_buffer; }
     /// Of contact between cloths: kept with the first cloth, for all.
     bool is_shared() const { return field >= Field::self_owners && field <= Field::self_sizes; }
     /// Cloths that are simulated together (cloth/together.h) have it in one image.

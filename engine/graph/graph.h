@@ -69,6 +69,8 @@ struct BufferDeclaration {
     Lifetime lifetime = Lifetime::transient;
     /// What it is an array of (glsl::layout_of); none: no shader may bind it.
     const glsl::StructLayout* element = nullptr;
+    /// Shaders may bind it as a buffer of rgba32f texels too, an imageBuffer, by the kind of the variable.
+    bool texels = false;
 };
 
 /// A resource, or a slice of it, at a version. Writing returns a new handle and retires the old ones.

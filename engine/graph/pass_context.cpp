@@ -59,6 +59,12 @@ void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_v
     const ReflectedDescriptor* const descriptor = find(pipeline, variable);
     if (!descriptor) return unfit("is bound to it, but the shader has no such variable");
     const bool as_image = descriptor->kind == DescriptorKind::storage_image;
+    if (descriptor->kind == DescriptorKind::texel_buffer) {
+        if (resource.is_image || !resource.buffer.texels) unfit("is no buffer of texels");
+        if (descriptor->format != VK_FORMAT_R32G32B32A32_SFLOAT)
+            unfit(fmt::format("is rgba32f, the shader has {}", format_name(descriptor->format)));
+        return;
+    }
     if (!as_image && resource.image.buffer_view) {
         if (descriptor->element || descriptor->stride != vulkan::texel_size(resource.image.format))
             unfit(fmt::format("is a buffer of {} texels, the shader has other elements",
@@ -128,6 +134,7 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
     if (bindings.size() > descriptors.size()) refuse(pipeline, bindings.back().variable, "bound twice");
     std::vector<VkDescriptorImageInfo> images(descriptors.size());
     std::vector<VkDescriptorBufferInfo> buffers(descriptors.size());
+    std::vector<VkBufferView> texels(descriptors.size());
     std::vector<VkWriteDescriptorSet> writes(descriptors.size());
     for (std::size_t d = 0; d < descriptors.size(); ++d) {
         const auto bound = std::ranges::find(bindings, descriptors[d].name, &Binding::variable);
@@ -139,6 +146,9 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
         if (descriptors[d].kind == DescriptorKind::storage_image) {
             images[d] = {VK_NULL_HANDLE, image(bound->handle).view(), layout(bound->handle)};
             writes[d].pImageInfo = &images[d];
+        } else if (descriptors[d].kind == DescriptorKind::texel_buffer) {
+            texels[d] = buffer(bound->handle).texels();
+            writes[d].pTexelBufferView = &texels[d];
         } else {
             const bool is_view = graph_.resources()[bound->handle.resource].is_image;
             buffers[d] = {is_view ? image(bound->handle).buffer() : buffer(bound->handle).handle(), 0, VK_WHOLE_SIZE};

@@ -119,6 +119,7 @@ vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t co
     description.name = copy_count(resource) > 1 ? fmt::format("{} (slot {})", resource.name, copy) : resource.name;
     description.byte_count = resource.buffer.byte_count;
     description.usage = wanted.buffer_usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (resource.buffer.texels) description.usage |= VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     if (resource.lifetime == Lifetime::host_input) description.home = vulkan::BufferHome::upload;
     if (resource.lifetime == Lifetime::host_output) description.home = vulkan::BufferHome::readback;
     return description;

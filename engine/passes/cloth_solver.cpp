@@ -70,7 +70,8 @@ graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const Fiel
     const FieldExtent extent = row.extent(about);
     const std::string name = resource_name(about.cloth, row);
     if (!row.is_image())
-        return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element});
+        return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element,
+                             row.view == FieldView::texel_buffer});
     return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
                         static_cast<std::uint32_t>(extent.height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
                         buffered && row.view == FieldView::image_and_buffer});

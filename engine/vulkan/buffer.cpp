@@ -26,6 +26,10 @@ void require_possible(const Device& device, const BufferDescription& description
     if ((description.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) && description.byte_count > range) {
         refuse(description, fmt::format("the device's limit for a storage buffer is {} bytes", range));
     }
+    const std::uint64_t texels = device.limits().maxTexelBufferElements;
+    if ((description.usage & VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT) && description.byte_count / 16 > texels) {
+        refuse(description, fmt::format("the device's limit for a texel buffer is {} texels", texels));
+    }
     device.budget().require(description.byte_count, "buffer " + description.name);
 }
 
@@ -61,6 +65,15 @@ Buffer::Buffer(const Device& device, const BufferDescription& description) : Buf
     allocated_ = requirements.size;
     check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "vkBindBufferMemory", description.name);
     if (description.home != BufferHome::device) map();
+    if (description.usage & VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT) make_texels();
+}
+
+void Buffer::make_texels() {
+    auto info = structure<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+    info.buffer = handle_;
+    info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    info.range = VK_WHOLE_SIZE;
+    create_handle(vkCreateBufferView, device_->handle(), info, texels_, "vkCreateBufferView", description_.name);
 }
 
 void Buffer::map() {
@@ -71,6 +84,7 @@ void Buffer::map() {
 
 Buffer::~Buffer() {
     if (!handle_) return;
+    vkDestroyBufferView(device_->handle(), texels_, nullptr);
     vkDestroyBuffer(device_->handle(), handle_, nullptr);
     device_->free(memory_, allocated_);  // freeing unmaps
 }
@@ -79,6 +93,7 @@ Buffer::Buffer(Buffer&& other) noexcept
     : device_(other.device_),
       description_(std::move(other.description_)),
       handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
+      texels_(std::exchange(other.texels_, VK_NULL_HANDLE)),
       memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
       mapped_(std::exchange(other.mapped_, nullptr)),
       allocated_(std::exchange(other.allocated_, 0)) {}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "vulkan/api.h"
 #include "vulkan/shader_stage.h"
@@ -15,9 +16,9 @@ namespace {
 /// `pipeline` may push this many storage images and buffers per stage.
 void require_counts(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
     const std::vector<ReflectedDescriptor>& all = stage.reflected().descriptors;
-    const auto images = static_cast<std::uint32_t>(
-        std::ranges::count(all, std::optional(DescriptorKind::storage_image), &ReflectedDescriptor::kind));
-    const auto buffers = static_cast<std::uint32_t>(all.size()) - images;
+    const auto buffers = static_cast<std::uint32_t>(
+        std::ranges::count(all, std::optional(DescriptorKind::storage_buffer), &ReflectedDescriptor::kind));
+    const auto images = static_cast<std::uint32_t>(all.size()) - buffers;  // Vulkan counts texel buffers as images
     const VkPhysicalDeviceLimits& limits = device.limits();
     if (images > limits.maxPerStageDescriptorStorageImages) {
         throw VulkanError(fmt::format("pipeline {}: {} has {} storage images, the device's limit is {}", pipeline,
@@ -32,7 +33,15 @@ void require_counts(const Device& device, const std::string& pipeline, const Sha
 }  // namespace
 
 VkDescriptorType descriptor_type(DescriptorKind kind) {
-    return kind == DescriptorKind::storage_image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    switch (kind) {
+        case DescriptorKind::storage_image:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case DescriptorKind::storage_buffer:
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        case DescriptorKind::texel_buffer:
+            return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    }
+    throw std::logic_error("no such kind of descriptor");
 }
 
 Pipeline::Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point)

@@ -155,6 +155,10 @@ class Reflector {
         const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
         result.is_array = spvc_type_get_num_array_dimensions(type) > 0;
         if (kind.kind == DescriptorKind::storage_image) {
+            if (spvc_type_get_image_dimension(type) == SpvDimBuffer) {
+                result.kind_name = "storage texel buffer";
+                result.kind = DescriptorKind::texel_buffer;
+            }
             result.format = image_format(spvc_type_get_image_storage_format(type));
             result.readable = !spvc_compiler_has_decoration(compiler_, resource.id, SpvDecorationNonReadable);
             result.writable = !spvc_compiler_has_decoration(compiler_, resource.id, SpvDecorationNonWritable);

@@ -16,7 +16,7 @@
 
 namespace drape::vulkan {
 
-enum class DescriptorKind { storage_image, storage_buffer };
+enum class DescriptorKind { storage_image, storage_buffer, texel_buffer };
 
 struct ReflectedMember {
     std::string name;
@@ -39,7 +39,7 @@ struct ReflectedDescriptor {
     std::optional<DescriptorKind> kind;  ///< none: a kind that Drape does not use
     bool is_array = false;               ///< of descriptors
     bool readable = true, writable = true;
-    VkFormat format = VK_FORMAT_UNDEFINED;   ///< images
+    VkFormat format = VK_FORMAT_UNDEFINED;   ///< images, texel buffers
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
     std::uint32_t stride = 0;                ///< of that array, bytes
     std::optional<ReflectedStruct> element;  ///< when that array's elements are structs

@@ -98,6 +98,9 @@ class Buffer {
 
     VkBuffer handle() const { return handle_; }
     const BufferDescription& description() const { return description_; }
+    /// Of a buffer with the usage STORAGE_TEXEL_BUFFER: rgba32f texels, all of it. On the default device they are
+    /// loaded several times as fast as what is in a storage buffer (docs/devices.md).
+    VkBufferView texels() const { return texels_; }
     /// The mapped bytes; empty for BufferHome::device.
     std::span<std::byte> mapped() const { return {mapped_, mapped_ ? description_.byte_count : 0}; }
 
@@ -105,10 +108,12 @@ class Buffer {
     struct Empty {};
     Buffer(const Device& device, const BufferDescription& description, Empty);
     void map();
+    void make_texels();
 
     const Device* device_;
     BufferDescription description_;
     VkBuffer handle_ = VK_NULL_HANDLE;
+    VkBufferView texels_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     std::byte* mapped_ = nullptr;
     std::uint64_t allocated_ = 0;

@@ -36,7 +36,8 @@ void require_known(const std::string& pipeline, const std::string& module, const
         if (descriptor.is_array) add("is an array of descriptors; only single ones are used");
         if (descriptor.kind == DescriptorKind::storage_buffer && !descriptor.is_runtime_array)
             add("is no block of one runtime array");
-        if (descriptor.kind == DescriptorKind::storage_image && descriptor.format == VK_FORMAT_UNDEFINED)
+        if (descriptor.kind && descriptor.kind != DescriptorKind::storage_buffer &&
+            descriptor.format == VK_FORMAT_UNDEFINED)
             add("has no format, or one that is not used");
         if (!descriptor.readable && !descriptor.writable) add("is neither read nor written");
     }

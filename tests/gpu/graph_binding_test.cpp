@@ -124,18 +124,24 @@ struct GraphLayouts : GraphExecution {
 
     /// What recording says of a pass with these elements and push constants; empty when it is content.
     template <class Constants>
-    std::string error(Handle elements, const Constants& push) {
+    std::string error(Handle elements, const Constants& push, bool texels = true) {
         Handle sums = graph.buffer<glsl::vec2>("sums", width * height, Lifetime::persistent);
         Handle flags = graph.buffer<glsl::uint>("flags", width * height, Lifetime::persistent);
         Handle target =
             graph.image({"target", VK_FORMAT_R32_SFLOAT, width, height, VK_SAMPLE_COUNT_1_BIT, Lifetime::persistent});
         const Handle source = image("source", Lifetime::constant);
+        const Handle boxes = graph.buffer({.name = "boxes",
+                                           .byte_count = width * height * sizeof(glsl::vec4),
+                                           .lifetime = Lifetime::constant,
+                                           .element = &glsl::layout_of<glsl::vec4>(),
+                                           .texels = texels});
         graph.add_pass(
             {"pass", "s", "pass"},
             [&](PassSetup& setup) {
                 setup.read(source, Access::compute_read, "source");
                 target = setup.write(target, Access::compute_write, "target");
                 setup.read(elements, Access::compute_read, "elements");
+                setup.read(boxes, Access::compute_read, "boxes");
                 setup.read(sums, Access::compute_read);
                 sums = setup.write(sums, Access::compute_write, "sums");
                 flags = setup.write(flags, Access::compute_write, "flags");
@@ -166,6 +172,10 @@ TEST_F(GraphLayouts, AnElementOfAnotherLayoutIsRefused) {
 
 TEST_F(GraphLayouts, AnElementOfNoDeclaredTypeIsRefused) {
     EXPECT_THAT(error(buffer("elements", Lifetime::constant), Push{}), HasSubstr("without the type of its elements"));
+}
+
+TEST_F(GraphLayouts, TexelsOfABufferThatHasNoneAreRefused) {
+    EXPECT_THAT(error(elements<Element>(), Push{}, false), HasSubstr("'boxes' is no buffer of texels"));
 }
 
 TEST_F(GraphLayouts, PushConstantsOfAnotherLayoutAreRefused) {

@@ -106,11 +106,12 @@ std::string push_difference() {
 
 TEST(VulkanReflection, reads_every_descriptor_that_is_used) {
     // Binding 7 is declared in the GLSL and never used: only what is statically used counts.
-    EXPECT_EQ(interface_module().descriptors.size(), 5u);
-    const auto image = [](std::string_view name, std::uint32_t binding, bool readable, bool writable, VkFormat format) {
+    EXPECT_EQ(interface_module().descriptors.size(), 6u);
+    const auto image = [](std::string_view name, std::uint32_t binding, bool readable, bool writable, VkFormat format,
+                          DescriptorKind kind = DescriptorKind::storage_image) {
         const ReflectedDescriptor& it = descriptor(name);
         EXPECT_EQ(it.binding, binding) << name;
-        EXPECT_EQ(it.kind, DescriptorKind::storage_image) << name;
+        EXPECT_EQ(it.kind, kind) << name;
         EXPECT_EQ(it.readable, readable) << name;
         EXPECT_EQ(it.writable, writable) << name;
         EXPECT_EQ(it.format, format) << name;
@@ -118,6 +119,7 @@ TEST(VulkanReflection, reads_every_descriptor_that_is_used) {
     };
     image("source", 0, true, false, VK_FORMAT_R32G32B32A32_SFLOAT);
     image("target", 1, false, true, VK_FORMAT_R32_SFLOAT);
+    image("boxes", 5, true, false, VK_FORMAT_R32G32B32A32_SFLOAT, DescriptorKind::texel_buffer);
     const auto buffer = [](std::string_view name, std::uint32_t binding, bool readable, bool writable,
                            std::uint32_t stride) {
         const ReflectedDescriptor& it = descriptor(name);

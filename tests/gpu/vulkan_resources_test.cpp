@@ -224,6 +224,11 @@ TEST(VulkanBuffer, beyond_limits_or_budget_is_refused) {
     if (range < gpu().device.max_buffer_size()) {
         EXPECT_THAT(make(range + 1, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT), HasSubstr("limit for a storage buffer"));
     }
+    const std::uint64_t texels = gpu().device.limits().maxTexelBufferElements;
+    if (16 * (texels + 1) <= gpu().device.max_buffer_size()) {
+        EXPECT_THAT(make(16 * (texels + 1), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
+                    HasSubstr("limit for a texel buffer"));
+    }
     const TightBudget tight(1000);
     EXPECT_THAT(make(1001, copied_buffer), HasSubstr("buffer pins needs 1001 bytes"));
 }

@@ -19,6 +19,7 @@ layout(set = 0, binding = 1, r32f) uniform writeonly image2D target;
 layout(set = 0, binding = 2, std430) readonly buffer Elements { Element elements[]; };
 layout(set = 0, binding = 3, std430) buffer Sums { vec2 sums[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Flags { uint flags[]; };
+layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer boxes;
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D never_used;
 
 void main() {
@@ -27,5 +28,5 @@ void main() {
     int i = texel.y * push.grid.x + texel.x;
     imageStore(target, texel, imageLoad(source, texel) * push.scale);
     sums[i] += vec2(elements[i].mass, elements[i].position.x);
-    flags[i] = uint(elements[i].cell.x);
+    flags[i] = uint(elements[i].cell.x) + uint(imageLoad(boxes, i).x);
 }
