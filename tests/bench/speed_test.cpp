@@ -1,4 +1,5 @@
 // Cases, tables, fits and plots of `drape bench speed`, on made-up times.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
