@@ -198,7 +198,8 @@ TEST(VulkanReflection, push_constants_may_be_padded_as_cpp_pads_them) {
 
 TEST(VulkanReflection, what_drape_does_not_use_is_refused_by_name) {
     try {
-        vulkan::ComputePipeline(gpu().device, "broken", {"refused.comp", test_shader("refused.comp")}, {});
+        const vulkan::ComputePipeline pipeline(gpu().device, "broken", {"refused.comp", test_shader("refused.comp")},
+                                               {});
         FAIL() << "not refused";
     } catch (const VulkanError& error) {
         EXPECT_THAT(error.what(), AllOf(HasSubstr("pipeline broken: shader module refused.comp"),
