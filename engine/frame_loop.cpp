@@ -50,7 +50,10 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     if (model_.self_contact) {
         self_contact_.emplace();
         for (const StartCrossing& each : model_.self_contact->crossed)
-            self_contact_->crossed.emplace_back(each.first, each.second);
+            if (each.first != each.second)
+                self_contact_->crossed.emplace_back(each.first, each.second);
+            else
+                self_contact_->first_unproved = 0;
     }
     build_graphs();
     allocate_and_record();

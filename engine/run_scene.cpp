@@ -300,7 +300,7 @@ std::optional<std::string> missed_limits(const SimulationFacts& facts, const Run
 /// What a run is told whose cloths met and may have crossed; those that started so were told of before.
 std::optional<std::string> lost_proof(const Simulation& simulation) {
     const std::optional<SelfContactReport> told = simulation.self_contact();
-    if (!told || !told->first_unproved) return std::nullopt;
+    if (!told || !told->first_unproved || *told->first_unproved == 0) return std::nullopt;
     return fmt::format(
         "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
         "shown to cross nothing, or cloth touched; slower pins or more substeps may help",

@@ -89,7 +89,8 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
             meetings.push_back(k != other || cloth.self_collision ? 1 : 0);
     }
     for (const StartCrossing& each : crossed)
-        meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = 0;
+        if (each.first != each.second)
+            meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = 0;
     push.grid = lay_out(cloths);
     push.recovery = static_cast<float>(recovery_speed * models[0].substep_length);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates

@@ -26,7 +26,8 @@ struct SelfContact {
     glsl::SelfContactPush push{};         ///< level, last, first and round are set per step
     std::vector<glsl::SelfCloth> cloths;  ///< where each lies on the sheet
     std::vector<glsl::uint> meetings;     ///< by cloth and cloth: 1 where they meet
-    std::vector<StartCrossing> crossed;   ///< those that do not because they start through each other
+    std::vector<StartCrossing> crossed;   ///< those that do not because they start through each other, or who do so
+                                          ///< through themselves, which meet all the same
     std::vector<int> owners() const;      ///< by place on the sheet: its cloth, or -1
     glsl::SelfClothPush cloth_push(std::size_t cloth) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }

@@ -95,10 +95,12 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
 
 std::string certificate_of(const Manifest::SelfCollision& told) {
     std::string met = "no crossing in any substep";
-    if (told.first_unproved)
+    if (told.first_unproved == 0u)
+        met = "not proved from frame 0 on: a cloth started through itself";
+    else if (told.first_unproved)
         met = fmt::format(
-            "not proved from frame {} on: a held particle moved farther than was shown to cross nothing, or "
-            "cloth touched",
+            "not proved from frame {} on: a held particle moved farther than was shown to cross nothing, or cloth "
+            "touched",
             *told.first_unproved);
     if (told.crossed.empty()) return met;
     return "not proved from frame 0 on: cloths that started through each other do not meet; of the others: " + met;

@@ -177,8 +177,8 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
     }
 }
 
-/// Of each two cloths that start through each other, where cloths meet: a warning, or an error where the scene refuses
-/// that.
+/// Of cloths that start through each other or themselves, where cloths meet: a warning, or an error where the scene
+/// refuses that.
 void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartCrossing& crossing : start_crossings(scene)) {
         const SceneNode cloth = cloths.element(crossing.second), placement = cloth.member("placement");
@@ -187,7 +187,9 @@ void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
         if (scene.overlap == Overlap::refuse)
             blamed.fail("expected cloths that start apart (/overlap is \"refuse\"): " + text);
         else
-            blamed.warn(text + ": the two will not meet, and no frame is proved; place one of them elsewhere");
+            blamed.warn(text + (crossing.first == crossing.second
+                                    ? ": no frame is proved; less jitter, or no scale of 0, would help"
+                                    : ": the two will not meet, and no frame is proved; place one of them elsewhere"));
     }
 }
 

@@ -93,6 +93,19 @@ bool touches(const Sheet& a, const Sheet& b, double within) {
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
 
+/// Whether a cloth that should be flat is not: where jitter turns no triangle over, seen along the normal, none can
+/// cross another. Triangles lower than rounding are taken to cross; few others have to be looked at.
+bool crosses_itself(const Sheet& sheet) {
+    const Cloth& cloth = *sheet.cloth;
+    double side[2];
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        side[axis] = std::abs(cloth.placement.scale[axis]) * cloth.size[axis] / (cloth.grid[axis] - 1);
+    const double longest = std::hypot(side[0], side[1]), height = longest > 0 ? side[0] * side[1] / longest : 0;
+    const double moved = start_jitter(cloth), rounding = sheet.doubt - cloth.placement.jitter;
+    if (height > 4 * moved && height > rounding) return false;
+    return !(height > rounding) || TriangleCrossings({sheet.mesh()}).any();
+}
+
 }  // namespace
 
 bool cloths_meet(const SceneDescription& scene) {
@@ -103,6 +116,8 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
     std::vector<Sheet> sheets;
     for (const Cloth& cloth : scene.cloths) sheets.emplace_back(cloth);
     std::vector<StartCrossing> all;
+    for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth)
+        if (scene.cloths[cloth].self_collision && crosses_itself(sheets[cloth])) all.push_back({cloth, cloth});
     for (std::size_t second = 1; second < sheets.size(); ++second)
         for (std::size_t first = 0; first < second; ++first) {
             const Sheet &a = sheets[first], &b = sheets[second];
@@ -121,6 +136,8 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
 }
 
 std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing) {
+    if (crossing.first == crossing.second)
+        return fmt::format("cloth \"{}\" starts through itself", scene.cloths[crossing.first].name);
     const char *are = crossing.triangles == 1 ? "" : "s", *cross = crossing.triangles == 1 ? "es" : "";
     const std::string off = fmt::format("moved by {:.3g} m one would be off the other", crossing.depth);
     const std::string how = crossing.triangles > 0

@@ -1,4 +1,4 @@
-// Cloths that start through each other.
+// Cloths that start through each other, or through themselves.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@ namespace drape {
 bool cloths_meet(const SceneDescription& scene);
 
 struct StartCrossing {
-    std::size_t first = 0, second = 0;  ///< indices of the scene's cloths
+    std::size_t first = 0, second = 0;  ///< indices of the scene's cloths; the same: it starts through itself
     std::size_t triangles = 0;          ///< pairs of them that cross; 0: the two only touch, as along a line of both
     double depth = 0;  ///< m: the least by which one of the two, moved along a normal of either, would be off the other
 };
 
-/// Every two cloths that at time 0 cross, or are somewhere nearer to each other than single precision can tell. Exact
-/// in double precision; holes count as such.
+/// Every two cloths that at time 0 cross, or are somewhere nearer to each other than single precision can tell, and
+/// every cloth that meets itself and crosses itself then, by its jitter or gathered on a line. Exact in double
+/// precision; holes count as such.
 std::vector<StartCrossing> start_crossings(const SceneDescription& scene);
 
 /// `cloths "a" and "b" start through each other (37 pairs of triangles cross; moved by 0.2 m one would be off the

@@ -46,6 +46,13 @@ class TriangleCrossings {
             crossings += crossings_of(0, triangle, box_of(triangle), counts);
         return crossings;
     }
+    /// Whether there is any.
+    bool any() const {
+        const auto all = [](std::size_t, std::size_t) { return true; };
+        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
+            if (crossings_of(0, triangle, box_of(triangle), all) > 0) return true;
+        return false;
+    }
     std::size_t count() const {
         return count([](std::size_t, std::size_t) { return true; });
     }

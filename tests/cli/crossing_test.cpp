@@ -64,5 +64,16 @@ TEST(Crossings, AtTheStartAreToldByNameNumberAndDepthOrRefused) {
     }
 }
 
+TEST(Crossings, OfAClothThatStartsThroughItselfLeaveNothingProved) {
+    const SceneFolder folder(R"({"name": "crushed", "time": {"frames": 3}, "solver": {"method": "line", "substeps": 4},
+"cloths": [{"name": "sheet", "grid": [9, 9], "self_collision": true, "placement": {"jitter": 0.2}}]})");
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--on-failure", "keep"});
+    EXPECT_THAT(outcome.err, HasSubstr("cloth \"sheet\" starts through itself"));
+    const Json::Value manifest = lasting_manifest(folder / "out"), &contact = manifest["self_collision"];
+    EXPECT_FALSE(contact["proved"].asBool());
+    EXPECT_EQ(contact["certificate"].asString(), "not proved from frame 0 on: a cloth started through itself");
+    EXPECT_EQ(drape({"check", folder.scene(), "--set", "/overlap=\"refuse\""}).code, 3);
+}
+
 }  // namespace
 }  // namespace drape

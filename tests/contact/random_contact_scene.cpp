@@ -108,7 +108,7 @@ class SceneDraw {
                                        listed(pose.u), listed(pose.v));
         // Pressed together it crumples at once.
         if (chance(0.35)) text += fmt::format(R"(, "scale": [{:.9g}, {:.9g}])", uniform(0.5, 1.05), uniform(0.5, 1.05));
-        if (chance(0.5)) text += fmt::format(R"(, "jitter": {:.9g}, "seed": {})", log_uniform(1e-5, 4e-3), below(1000));
+        if (chance(0.5)) text += fmt::format(R"(, "jitter": {:.9g}, "seed": {})", log_uniform(1e-5, 4e-2), below(1000));
         return text + fmt::format(R"(}}, "velocity": {})", listed(velocity));
     }
 

@@ -171,6 +171,25 @@ TEST(StartCrossingTest, IsSaidOfClothsThatMeet) {
                 ElementsAre(HasSubstr("are set to touch, but will pass through each other")));
 }
 
+TEST(StartCrossingTest, OfAClothWithItselfIsSaid) {
+    const auto warned = [](const std::string& placement) {
+        const SceneResult read =
+            crossing(beside, {"/cloths/0/placement/" + placement, "/cloths/1/placement/origin=[9,9,9]"});
+        std::string texts;
+        for (const SceneError& warning : read.warnings) texts += warning.text() + "\n";
+        return texts;
+    };
+    const auto through_itself =
+        HasSubstr("/cloths/0/placement: cloth \"sheet\" starts through itself: no frame is proved");
+    EXPECT_THAT(warned("jitter=0.3"), through_itself);
+    EXPECT_THAT(warned("scale=[1,0]"), through_itself);
+    EXPECT_THAT(warned("scale=[0.01,0.01]"), IsEmpty());
+    EXPECT_THAT(warned("scale=[-1,1]"), IsEmpty());
+    EXPECT_THAT(warned("jitter=0.03"), IsEmpty());
+    // Looked at, and found to be apart.
+    EXPECT_THAT(warned("jitter=0.06"), IsEmpty());
+}
+
 TEST(StartCrossingTest, IsAnErrorWhereTheSceneRefusesIt) {
     const SceneResult refused = crossing(upright, {"/overlap=\"refuse\""});
     ASSERT_EQ(refused.errors.size(), 1u);

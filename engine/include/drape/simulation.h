@@ -108,8 +108,8 @@ struct SimulationFacts {
 /// What was proved of the cloths of a scene in which one meets itself, and all each other, of all frames simulated so
 /// far.
 struct SelfContactReport {
-    /// Frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; nothing:
-    /// no triangle that meets another passed through it in any substep.
+    /// Frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; 0 where
+    /// a cloth started through itself; nothing: no triangle that meets another passed through it in any substep.
     std::optional<std::uint32_t> first_unproved;
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, near each other
     std::uint64_t truncated = 0;   ///< motions cut short because they would have crossed
