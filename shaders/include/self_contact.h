@@ -273,9 +273,11 @@ SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, floa
 /// A component of a correction in units; what is not a number is none.
 SHARED int self_units(float correction, float units_per_metre) {
     precise float units = correction * units_per_metre;
+    bool above = units > -self_correction_units, below = units < self_correction_units;
+    int inside = int(above && below ? units : 0.0f);
     int least = units <= -self_correction_units ? -int(self_correction_units) : 0;
-    int most = units < self_correction_units ? int(units) : int(self_correction_units);
-    return units > -self_correction_units ? most : least;
+    int most = below ? inside : int(self_correction_units);
+    return above ? most : least;
 }
 
 /// The corrections of all pairs that a particle is in: xyz in units, w the sum of its weights. Where it is in several
