@@ -61,7 +61,7 @@ void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, 
     add_twists(cloth, compliance, compliance, plan);
     if (share == 1) return;
     plan.used_bend *= share;
-    plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
+    plan.following_substeps = whole_substeps(substeps_for(share, settings));
     note_compromise(cloth, settings, "bending",
                     fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m", plan.used_bend, cloth.bend),
                     substeps_for(share, settings), plan);
@@ -79,7 +79,7 @@ void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings,
     add_twists(cloth, compliance(1), compliance(factors.bdf2), plan);
     const double share = followed(factors.least);
     if (share == 1) return;
-    plan.following_substeps = static_cast<std::uint32_t>(substeps_for(share, settings));
+    plan.following_substeps = whole_substeps(substeps_for(share, settings));
     note_compromise(cloth, settings, "twist",
                     fmt::format("one sweep per substep follows {:.3g} of {:.3g} N m where the cloth twists; "
                                 "rows and columns bend in full",

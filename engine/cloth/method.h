@@ -86,6 +86,9 @@ std::span<const Method> methods();
 /// The row of a method; `automatic` has none: std::logic_error.
 const Method& row_of(SolverMethod method);
 
+/// A number of substeps rounded up, 1e9 at most: more than any run takes, and what an integer holds.
+std::uint32_t whole_substeps(double substeps);
+
 /// Every number of a plan, in a fixed order: what two plans that do the same have in common.
 std::vector<std::byte> bytes_of(const MethodPlan& plan);
 

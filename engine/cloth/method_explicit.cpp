@@ -66,8 +66,7 @@ MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& setti
     plan.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
                            used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
     plan.used_bend = used.bend_share * cloth.bend;
-    plan.following_substeps =
-        static_cast<std::uint32_t>(std::min(std::ceil(settings.substeps * used.full_substeps_factor), 1e9));
+    plan.following_substeps = whole_substeps(settings.substeps * used.full_substeps_factor);
     if (wanted.spring[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     if (used.softened()) note_softening(cloth, settings, used.full_substeps_factor, plan);
     return plan;

@@ -89,6 +89,8 @@ struct ByteList {
 
 }  // namespace
 
+std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t>(std::min(std::ceil(substeps), 1e9)); }
+
 std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     // A binding names every member: one that is added does not compile until it is added here.
     const auto& [prediction, once, iterated, start, spare_state, second_order, line_scratch, nested_table,

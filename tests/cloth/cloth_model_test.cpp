@@ -185,6 +185,15 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
     EXPECT_EQ(ClothModel(scene, 0).plan.compromises[0].enough_substeps, 0u);
 }
 
+TEST(ClothModelTest, BendingThatNoNumberOfSubstepsFollowsAsksForTheMostThatCanBeSaid) {
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::line, SolverMethod::explicit_steps}) {
+        SceneDescription scene = test::sheet(5, 5, 0.01, 0.01, 4);
+        scene.solver.method = method;
+        scene.cloths[0].stiffness.bend = 1e30;
+        EXPECT_EQ(ClothModel(scene, 0).plan.following_substeps, 1'000'000'000u);
+    }
+}
+
 TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
     SceneDescription scene = test::sheet(9, 9, 1, 1, 4);
     scene.solver.method = SolverMethod::line;
