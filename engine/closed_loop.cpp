@@ -14,13 +14,21 @@
 
 namespace drape {
 
+std::span<const AttemptStep> FrameLoop::attempt_steps() const {
+    using enum AttemptStep;
+    static constexpr std::array all{keep, restore, change_step, remember, compare};
+    static_assert(all.size() == attempt_step_count);
+    if (model_.closed_loop()) return all;
+    return std::span(all).first(model_.self_contact ? 2 : 0);
+}
+
 void FrameLoop::build_attempts() {
-    for (std::size_t step = 0; step < attempt_step_count; ++step) {
+    for (const AttemptStep step : attempt_steps()) {
         Frame frame;
         solver_.declare(frame.graph, {});
-        solver_.add_attempt(frame.graph, static_cast<AttemptStep>(step));
+        solver_.add_attempt(frame.graph, step);
         frame.plan = graph::make_plan(frame.graph);
-        attempts_[step] = std::move(frame);
+        attempts_[static_cast<std::size_t>(step)] = std::move(frame);
     }
 }
 
@@ -56,6 +64,9 @@ FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t subst
     for (graph::Timing& timing : rung.frame.recorded->timings(slot))
         judged.timings.push_back({std::move(timing.name), timing.milliseconds});
     judged.self_record = solver_.self_record(*pool_, slot);
+    fullest_.most_pairs = std::max(fullest_.most_pairs, judged.self_record.most_pairs);
+    fullest_.most_near = std::max(fullest_.most_near, judged.self_record.most_near);
+    fullest_.most_cells = std::max(fullest_.most_cells, judged.self_record.most_cells);
     return judged;
 }
 
@@ -104,7 +115,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_record);
         const double implausible =
-            std::max(watch_.excess(frame + k, judged.statistics), self_list_use(judged.self_record));
+            std::max(watch_.excess(frame + k, judged.statistics), solver_.self_list_use(judged.self_record));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
         if (judgement.stretch > 1 && !control_->at_top()) return judged;
@@ -122,6 +133,18 @@ void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
                   asked.finished);
 }
 
+void FrameLoop::drop_withheld() {
+    deliver_all([](const FinishedFrame&) {});
+    withheld_.clear();
+}
+
+bool FrameLoop::lengthen_lists() {
+    if (solver_.self_list_use(fullest_) <= 1 || !solver_.grow_lists(fullest_)) return false;
+    if (control_->segment().probes) drop_withheld();
+    begin_anew();
+    return true;
+}
+
 void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (sleep_.asleep(frame)) return sleep_through(frame, asked);
     const Segment& begun = control_->begin(probe_room(model_, frame), drive_.eventful(frame));
@@ -129,19 +152,20 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (begun.probes) deliver_all(asked.finished);  // then only what is withheld is in flight
     FrameEffort effort{.attempts = 0};
     Judged judged;
-    for (bool first = true;; first = false) {
-        ++effort.attempts;
+    for (bool first = true;;) {
         Judgement judgement;
+        fullest_ = {};
         if (control_->segment().probes) run_coarse(frame, first, judgement);
         judged = run_fine(frame, first, judgement, asked);
+        first = lengthen_lists();  // what was kept is gone
+        if (first) continue;
+        ++effort.attempts;
         const SubstepControl::Verdict verdict = control_->judge(judgement);
         if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);
         effort.within_limits = verdict != SubstepControl::Verdict::give_up || !judgement.plausible;
         effort.predictable = verdict != SubstepControl::Verdict::unpredictable;
         if (verdict != SubstepControl::Verdict::again) break;
-        if (!control_->segment().probes) continue;
-        deliver_all([](const FinishedFrame&) {});
-        withheld_.clear();
+        if (control_->segment().probes) drop_withheld();
     }
     effort.substeps = control_->segment().substeps;
     if (control_->segment().probes) effort.motion_error = motion_error_;

@@ -86,14 +86,16 @@ void FrameLoop::build_graphs() {
 
 void FrameLoop::allocate_and_record() {
     rungs_.clear();
-    if (model_.closed_loop()) build_attempts();
+    build_attempts();
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
     for (const FrameKind kind : kinds()) {
         const Frame& frame = frames_[static_cast<std::size_t>(kind)];
         plans.emplace_back(&frame.graph, &frame.plan);
     }
-    if (model_.closed_loop())
-        for (const Frame& frame : attempts_) plans.emplace_back(&frame.graph, &frame.plan);
+    for (const AttemptStep step : attempt_steps()) {
+        const Frame& frame = attempts_[static_cast<std::size_t>(step)];
+        plans.emplace_back(&frame.graph, &frame.plan);
+    }
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     record();
@@ -106,9 +108,9 @@ void FrameLoop::record() {
         Frame& frame = frames_[static_cast<std::size_t>(kind)];
         frame.recorded = recording(frame);
     }
-    if (!model_.closed_loop()) return;
-    for (Frame& frame : attempts_)
-        if (!frame.recorded) frame.recorded = recording(frame);
+    for (const AttemptStep step : attempt_steps())
+        if (Frame& frame = attempts_[static_cast<std::size_t>(step)]; !frame.recorded)
+            frame.recorded = recording(frame);
 }
 
 std::unique_ptr<graph::RecordedPlan> FrameLoop::recording(const Frame& frame) const {
@@ -231,25 +233,45 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     if (has.simulates || needs(kind).statistics) solver_.write_inputs(*pool_, slot, frame);
     if (has.searches_cuts) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
     if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
-    slots_.submit(slot, frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
+    std::vector<VkCommandBuffer> commands;
+    if (has.simulates && model_.self_contact)
+        commands.push_back(attempts_[static_cast<std::size_t>(AttemptStep::keep)].recorded->commands(slot));
+    commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
+    slots_.submit(slot, commands);
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
-}
-
-double FrameLoop::self_list_use(const glsl::SelfRecord& record) const {
-    return model_.self_contact ? drape::self_list_use(model_.self_contact->push, record) : 0;
 }
 
 void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record) {
     if (!self_contact_) return;
-    if (const double use = self_list_use(record); use > 1)
+    if (const double use = solver_.self_list_use(record); use > 1)
         throw vulkan::VulkanError(fmt::format(
-            "cloth meets {} in more places than there is memory for: frame {} has {:.3g} times as many pairs "
-            "of triangles and edges near each other; more substeps or a smaller "
+            "cloth meets {} in more places than a buffer of the device can list: frame {} has {:.3g} times as many "
+            "pairs of triangles and edges near each other; more substeps or a smaller "
             "self_collision.thickness make them fewer",
             model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
     self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
     self_contact_->truncated += record.truncated;
     if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
+}
+
+void FrameLoop::begin_anew() {
+    const std::uint32_t slot = next_slot_;
+    slots_.submit(slot, {attempts_[static_cast<std::size_t>(AttemptStep::restore)].recorded->commands(slot)});
+    slots_.wait(slot);
+    rebuild_resources(solver_.download_state(*pool_));
+}
+
+void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
+    deliver(next_slot_, finished);  // the frame before, while this one is simulated
+    for (;;) {
+        slots_.wait(slot);
+        const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
+        // Lists that cannot grow are told of when the frame is delivered.
+        if (solver_.self_list_use(record) <= 1 || !solver_.grow_lists(record)) return;
+        begin_anew();
+        const InFlight again = *in_flight_[slot];
+        submit(slot, again.frame, again.kind, again.output);
+    }
 }
 
 void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
@@ -350,6 +372,7 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
         }
         const std::uint32_t slot = take_slot(finished);
         submit(slot, frame, kind_of(frame, output, cutting), output);
+        if (model_.self_contact && frame > 0) fit_lists(slot, finished);
         if (cutting) take_cuts_of(slot, frame, finished);
     }
     deliver_all(finished);

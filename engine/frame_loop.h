@@ -158,10 +158,12 @@ class FrameLoop {
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
-    /// How full the fullest list came.
-    double self_list_use(const glsl::SelfRecord& record) const;
     /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
     void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
+    /// A named method's frame whose lists of contact were too short is done again with longer ones.
+    void fit_lists(std::uint32_t slot, const Finished& finished);
+    /// Back to what the frame or segment started from, with new resources. Nothing may be in flight.
+    void begin_anew();
     void deliver(std::uint32_t slot, const Finished& finished);
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
@@ -171,6 +173,8 @@ class FrameLoop {
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
     // closed_loop.cpp
+    /// Those that the loop takes: all, or where only lists may be too short, keep and restore.
+    std::span<const AttemptStep> attempt_steps() const;
     void build_attempts();
     Rung& rung(std::uint32_t substeps);
     struct Asked {
@@ -187,6 +191,9 @@ class FrameLoop {
     /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
     void simulate_segment(std::uint32_t frame, const Asked& asked);
     void sleep_through(std::uint32_t frame, const Asked& asked);
+    /// Whether the segment's lists of contact were too short and now are longer, at its start.
+    bool lengthen_lists();
+    void drop_withheld();
     void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
     Judged run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked);
     double motion_of(std::uint32_t slot);
@@ -213,6 +220,7 @@ class FrameLoop {
     /// Of the frames of the last attempt, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     std::vector<glsl::SelfRecord> attempt_self_records_;  ///< likewise
+    glsl::SelfRecord fullest_{};                          ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
     std::uint32_t state_substeps_;    ///< that the state's history is of
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated

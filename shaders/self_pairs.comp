@@ -10,10 +10,11 @@
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 #include "include/self_sheet.h"
-layout(set = 0, binding = 4, std430) readonly buffer Near { ivec2 near[]; };
-layout(set = 0, binding = 5, std430) buffer Pairs { uvec4 pairs[]; };
-layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Near { uint near[]; };
+layout(set = 0, binding = 6, std430) buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 7, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
@@ -32,16 +33,21 @@ bool is_listed(bool edges, uvec4 pair) {
                             self_mean_thickness(one, other));
 }
 
-void judge_point(ivec2 which) {
-    uvec4 pair = self_point_pair(texel_of(which.x), texel_of(which.y >> 1), (which.y & 1) + 1);
+void judge_point(uint entry) {
+    ivec2 met = cells[self_near_cells(entry)];
+    int k = self_near_kind(entry);
+    ivec2 own = k < 2 ? met : met.yx;
+    uvec4 pair = self_point_pair(texel_of(own.x), texel_of(own.y), (k & 1) + 1);
     if (is_listed(false, pair)) {
         uint place = place_after(atomicAdd(record[0].point_count, 1u), 1u);
         if (place < uint(push.pair_room)) pairs[place] = pair;
     }
 }
 
-void judge_edges(ivec2 which) {
-    uvec4 pair = self_edge_pair(texel_of(which.x >> 2), which.x & 3, texel_of(which.y >> 2), which.y & 3);
+void judge_edges(uint entry) {
+    ivec2 met = cells[self_near_cells(entry)];
+    int k = self_near_kind(entry), one = self_first_edge(k);
+    uvec4 pair = self_edge_pair(texel_of(met.x), one, texel_of(met.y), k - 3 * one);
     if (is_listed(true, pair)) {
         uint place = place_after(atomicAdd(record[0].edge_count, 1u), 1u);
         if (place < uint(push.pair_room)) pairs[uint(push.pair_room) - 1u - place] = pair;

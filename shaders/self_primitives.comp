@@ -10,7 +10,7 @@ layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
-layout(set = 0, binding = 5, std430) buffer Near { ivec2 near[]; };
+layout(set = 0, binding = 5, std430) buffer Near { uint near[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
@@ -24,20 +24,41 @@ struct Cell {
     SelfBox particle, upper, lower, along, across, diagonal;
 };
 
-SelfBox box_at(ivec2 texel, vec3 displacement) {
-    return self_point_box(imageLoad(positions, texel).xyz,
-                          self_relative_motion(displacement, carried));
+/// Where a particle is and how it moves.
+struct Corner {
+    vec3 at, motion;
+};
+Corner corner_at(ivec2 texel, vec3 displacement) {
+    return Corner(imageLoad(positions, texel).xyz, self_relative_motion(displacement, carried));
 }
-SelfBox box_at(ivec2 texel) { return box_at(texel, imageLoad(displacements, texel).xyz); }
+Corner corner_at(ivec2 texel) { return corner_at(texel, imageLoad(displacements, texel).xyz); }
 
-Cell cell_of(int place) {
+struct Corners {
+    ivec2 at;
+    uint bits;
+    Corner first, right, below, last;
+};
+
+Corners corners_of(int place) {
     ivec2 own = texel_of(place);
     vec4 displacement = imageLoad(displacements, own);
-    SelfBox first = box_at(own, displacement.xyz), right = box_at(own + ivec2(1, 0)),
-            below = box_at(own + ivec2(0, 1)), last = box_at(own + ivec2(1, 1));
-    SelfBox diagonal = self_joined(right, below);
-    return Cell(own, uint(displacement.w), first, self_joined(first, diagonal), self_joined(last, diagonal),
-                self_joined(first, right), self_joined(first, below), diagonal);
+    return Corners(own, uint(displacement.w), corner_at(own, displacement.xyz), corner_at(own + ivec2(1, 0)),
+                   corner_at(own + ivec2(0, 1)), corner_at(own + ivec2(1, 1)));
+}
+
+/// Past the last column or row of a cloth a cell has no triangle, and not all of its corners.
+vec3 normal_of(Corners of) {
+    return self_cell_normal((of.bits & 3u) != 0u, of.first.at, of.right.at, of.below.at, of.last.at);
+}
+
+SelfBox box_of(Corner corner, vec3 axis) { return self_slab(corner.at, corner.motion, axis); }
+
+Cell cell_of(Corners of, vec3 axis) {
+    SelfBox first = box_of(of.first, axis), right = box_of(of.right, axis), below = box_of(of.below, axis),
+            last = box_of(of.last, axis);
+    SelfBox diagonal = self_slabs_joined(right, below);
+    return Cell(of.at, of.bits, first, self_slabs_joined(first, diagonal), self_slabs_joined(last, diagonal),
+                self_slabs_joined(first, right), self_slabs_joined(first, below), diagonal);
 }
 
 uint meets(SelfBox one, SelfBox other, float thickness) {
@@ -66,40 +87,42 @@ uint met(Cell one, Cell other, float thickness) {
     return bits & self_disjoint(other.at.x - one.at.x, other.at.y - one.at.y);
 }
 
-void list_points(ivec2 pair, uint bits) {
+void list_points(int entry, uint bits) {
     uint count = uint(bitCount(bits)), place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].near_point_count, count), count);
     for (int k = 0; k < self_first_edge_pair; ++k) {
         bool listed = (bits & (1u << k)) != 0u;
-        ivec2 own = k < 2 ? pair : pair.yx;
-        if (listed && place < uint(push.near_room)) near[place] = ivec2(own.x, own.y * 2 + (k & 1));
+        if (listed && place < uint(push.near_room)) near[place] = self_near_entry(entry, k);
         place += listed ? 1u : 0u;
     }
 }
 
-void list_edges(ivec2 pair, uint bits) {
+void list_edges(int entry, uint bits) {
     uint count = uint(bitCount(bits)), place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].near_edge_count, count), count);
     for (;;) {
         int k = findLSB(bits);
         if (k >= 0 && place < uint(push.near_room))
-            near[uint(push.near_room) - 1u - place] = pair * 4 + ivec2(k / 3, k % 3);
+            near[uint(push.near_room) - 1u - place] = self_near_entry(entry, k);
         ++place;
         bits &= max(bits, 1u) - 1u;
         if (bits == 0u) break;
     }
 }
 
-void judge(ivec2 pair) {
-    Cell one = cell_of(pair.x), other = cell_of(pair.y);
+void judge(int entry) {
+    ivec2 pair = cells[entry];
+    Corners first = corners_of(pair.x), second = corners_of(pair.y);
+    vec3 axis = normal_of(first);
+    Cell one = cell_of(first, axis), other = cell_of(second, axis);
     uint bits = met(one, other, self_mean_thickness(cloth_at(one.at), cloth_at(other.at)));
-    list_points(pair, bits & ((1u << self_first_edge_pair) - 1u));
-    list_edges(pair, bits >> self_first_edge_pair);
+    list_points(entry, bits & ((1u << self_first_edge_pair) - 1u));
+    list_edges(entry, bits >> self_first_edge_pair);
 }
 
 void main() {
     carried = record[0].carried.xyz;
     int count = self_listed(record[0].cell_count, push.cell_room);
-    FOR_EVERY(i, count, judge(cells[i]))
+    FOR_EVERY(i, count, judge(i))
     dispatch(self_size_pairs, reached);
 }

@@ -56,10 +56,11 @@ FieldExtent self_sheet(Context c) {
 }
 FieldExtent self_place_list(Context c) { return {c.model.self_contact->place_count()}; }
 FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.model.self_contact->push.grid)}; }
-FieldExtent self_pair_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.pair_room)}; }
-FieldExtent self_near_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.near_room)}; }
+SelfRoom self_room(Context c) { return c.room.value_or(c.model.self_contact->room); }
+FieldExtent self_pair_list(Context c) { return {self_room(c).pairs}; }
+FieldExtent self_near_list(Context c) { return {self_room(c).near}; }
 FieldExtent self_size_list(Context) { return {glsl::self_size_count}; }
-FieldExtent self_cell_list(Context c) { return {static_cast<std::uint64_t>(c.model.self_contact->push.cell_room)}; }
+FieldExtent self_cell_list(Context c) { return {self_room(c).cells}; }
 FieldExtent self_share_list(Context c) { return {c.model.self_contact->place_count() * glsl::self_rounds}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
@@ -101,7 +102,7 @@ std::vector<FieldRow> self_contact_rows() {
          self_box_list},
         {Field::self_candidates, "self candidates", buffer, pair, device, keeps_contact, self_cell_list},
         {Field::self_cells, "self cells", buffer, pair, device, keeps_contact, self_cell_list},
-        {Field::self_near, "self near", buffer, pair, device, keeps_contact, self_near_list},
+        {Field::self_near, "self near", buffer, integer, device, keeps_contact, self_near_list},
         {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_pair_list},
         {Field::self_corrections, "self corrections", buffer, layout_of<glsl::ivec4>(), device, keeps_contact,
          self_place_list},

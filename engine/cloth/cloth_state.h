@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -94,6 +95,7 @@ struct FieldContext {
     const ClothModel& cloth;
     const CutTopology& topology;
     FrameNeeds needs{};
+    std::optional<SelfRoom> room{};  ///< of contact's lists; nothing: what they begin with
 };
 
 struct FieldExtent {

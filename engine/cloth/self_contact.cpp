@@ -7,6 +7,10 @@ namespace drape {
 
 namespace {
 
+/// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
+/// signed integers.
+constexpr std::uint32_t most_entries = (1u << 28) - 1;
+
 /// m, by how much more than it needs to the search for cells looks. Cells of flat cloth that are no neighbours are a
 /// spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
@@ -95,9 +99,9 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.recovery = static_cast<float>(recovery_speed * models[0].substep_length);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
-    push.pair_room = static_cast<int>(particles * self_pairs_per_particle);
-    push.near_room = static_cast<int>(particles * self_near_per_particle);
-    push.cell_room = static_cast<int>(particles * self_cells_per_particle);
+    const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits
+    room = {places * self_room_per_particle.pairs, places * self_room_per_particle.near,
+            places * self_room_per_particle.cells};
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
     push.cloth = cloths.front();
@@ -118,10 +122,27 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
     return {cloths[cloth].grid, cloths[cloth].first, push.grid.x};
 }
 
-double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record) {
-    const auto use = [](std::uint32_t most, int room) { return static_cast<double>(most) / room; };
-    return std::max({use(record.most_pairs, push.pair_room), use(record.most_near, push.near_room),
-                     use(record.most_cells, push.cell_room)});
+double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record) {
+    const auto use = [](std::uint32_t most, std::uint32_t entries) { return static_cast<double>(most) / entries; };
+    return std::max(
+        {use(record.most_pairs, room.pairs), use(record.most_near, room.near), use(record.most_cells, room.cells)});
+}
+
+SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record) {
+    const auto more = [](std::uint32_t most, std::uint32_t entries) {
+        const std::uint64_t wanted = std::max(std::uint64_t{entries} * 2, std::uint64_t{most} + most / 4);
+        return most <= entries ? entries : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_entries));
+    };
+    return {more(record.most_pairs, room.pairs), more(record.most_near, room.near),
+            more(record.most_cells, room.cells)};
+}
+
+SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes) {
+    const auto least = [most_bytes](std::uint32_t entries, std::uint32_t size) {
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, most_bytes / size, most_entries}));
+    };
+    return {least(room.pairs, self_entry_size.pairs), least(room.near, self_entry_size.near),
+            least(room.cells, self_entry_size.cells)};
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

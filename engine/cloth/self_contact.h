@@ -11,8 +11,17 @@
 
 namespace drape {
 
-/// Per particle: pairs that their list has room for, pairs whose boxes are near each other, and pairs of cells.
-inline constexpr std::uint32_t self_pairs_per_particle = 96, self_near_per_particle = 192, self_cells_per_particle = 48;
+/// Entries that the lists have room for: pairs, pairs whose boxes are near each other, pairs of cells. What a frame
+/// makes does not depend on it, as long as it suffices.
+struct SelfRoom {
+    std::uint32_t pairs = 0, near = 0, cells = 0;
+    bool operator==(const SelfRoom&) const = default;
+};
+
+/// Per particle, in the beginning: crumpled cloth takes 10, 30 and 50.
+inline constexpr SelfRoom self_room_per_particle{32, 64, 64};
+/// Bytes of an entry of each.
+inline constexpr SelfRoom self_entry_size{sizeof(glsl::uvec4), sizeof(glsl::uint), sizeof(glsl::ivec2)};
 /// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
 /// the lower nodes of its tree of boxes are of one cloth each.
 inline constexpr int self_sheet_step = 8;
@@ -23,7 +32,8 @@ struct SelfContact {
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};         ///< level, last, first and round are set per step
+    glsl::SelfContactPush push{};         ///< level, last, first, round and the lists' room are set per step
+    SelfRoom room;                        ///< to begin with
     std::vector<glsl::SelfCloth> cloths;  ///< where each lies on the sheet
     std::vector<glsl::uint> meetings;     ///< by cloth and cloth: 1 where they meet
     std::vector<StartCrossing> crossed;   ///< those that do not because they start through each other, or who do so
@@ -34,7 +44,12 @@ struct SelfContact {
 };
 
 /// How full the fullest of the lists came in a frame; above 1 something found no room in it.
-double self_list_use(const glsl::SelfContactPush& push, const glsl::SelfRecord& record);
+double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record);
+/// At least twice as much where a list found none; of a list that is filled from another one that was too short not
+/// everything is known yet.
+SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record);
+/// No more than what fits a buffer of so many bytes each.
+SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes);
 
 /// Boxes of the tree over a sheet: of one level, of all.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);

@@ -143,7 +143,12 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
 }
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule)
-    : model_(model), run_(&model), schedule_(possible(device, model, schedule)), pipelines_(device) {
+    : model_(model),
+      run_(&model),
+      schedule_(possible(device, model, schedule)),
+      pipelines_(device),
+      most_list_bytes_(std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.max_buffer_size())) {
+    if (model.self_contact) self_room_ = limited(model.self_contact->room, most_list_bytes_);
     for (const ClothModel& cloth : model.cloths) {
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
@@ -325,7 +330,12 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
     }
 }
 
-void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const Step& step) {
+void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const Step& planned) {
+    Step step = planned;
+    auto& push = std::get<glsl::SelfContactPush>(step.constants);
+    push.pair_room = static_cast<int>(self_room_.pairs);
+    push.near_room = static_cast<int>(self_room_.near);
+    push.cell_room = static_cast<int>(self_room_.cells);
     switch (step.kind) {
         case StepKind::self_common:
             return add_self_common(graph, pipelines_, state, step);
@@ -413,6 +423,16 @@ glsl::SelfRecord ClothSolver::self_record(const graph::ResourcePool& pool, std::
     glsl::SelfRecord record{};
     if (model_.self_contact) std::memcpy(&record, pool.buffer(self_readback_name, slot).mapped().data(), sizeof record);
     return record;
+}
+
+double ClothSolver::self_list_use(const glsl::SelfRecord& record) const {
+    return model_.self_contact ? drape::self_list_use(self_room_, record) : 0;
+}
+
+bool ClothSolver::grow_lists(const glsl::SelfRecord& record) {
+    const SelfRoom before = self_room_;
+    self_room_ = limited(more_self_room(before, record), most_list_bytes_);
+    return self_room_ != before;
 }
 
 void ClothSolver::upload(const graph::ResourcePool& pool) const {

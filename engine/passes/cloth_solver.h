@@ -82,6 +82,10 @@ class ClothSolver {
 
     /// What contact between the cloths was in the slot's last simulated frame; where there is none, nothing.
     glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
+    /// How full its fullest list came, 0 where there is none; above 1 the frame is no result.
+    double self_list_use(const glsl::SelfRecord& record) const;
+    /// Gives the lists of that frame room for more, from the next `declare` on; false: the device cannot.
+    bool grow_lists(const glsl::SelfRecord& record);
 
     const SimulationModel& model() const { return model_; }
     std::size_t pipeline_count() const { return pipelines_.size(); }
@@ -91,7 +95,7 @@ class ClothSolver {
         return context(cloth, needs, model_);
     }
     FieldContext context(std::size_t cloth, const FrameNeeds& needs, const SimulationModel& run) const {
-        return {run, run.cloths[cloth], topologies_[cloth], needs};
+        return {run, run.cloths[cloth], topologies_[cloth], needs, self_room_};
     }
     /// Cloths that are simulated together: fields that are images lie below each other in one image each, and are known
     /// here. A cloth's own handles to them are slices, and old until `take` renews them.
@@ -122,7 +126,7 @@ class ClothSolver {
     std::vector<Step> steps() const;
     void add_step(graph::Graph& graph, ClothState& state, const Step& step);
     /// One of contact between the cloths.
-    void add_contact_step(graph::Graph& graph, ClothState& state, const Step& step);
+    void add_contact_step(graph::Graph& graph, ClothState& state, const Step& planned);
 
     const SimulationModel& model_;
     const SimulationModel* run_;  ///< of the graph being built
@@ -135,6 +139,8 @@ class ClothSolver {
     std::vector<Together> together_;
     std::vector<std::size_t> together_of_;  ///< by cloth: index into `together_`, its size: none
     SceneInputs inputs_;
+    std::uint64_t most_list_bytes_;
+    SelfRoom self_room_;  ///< of contact's lists, where there is any
 };
 
 }  // namespace drape

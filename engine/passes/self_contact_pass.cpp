@@ -222,6 +222,7 @@ void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
     add_sized_pass(graph, contact, step, "self pairs", listing_pipeline(pipelines, "self_pairs.comp", step),
                    glsl::self_size_pairs, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
+                       read(setup, contact, Field::self_cells, "cells");
                        read(setup, contact, Field::self_near, "near");
                        fill(setup, contact, Field::self_pairs, "pairs");
                    });

@@ -32,7 +32,7 @@ void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
 void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, cells; writes the list of primitives near each other, counts them in the record.
 void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, that list; writes the list of pairs, counts them in the record.
+/// Reads position, displacement, the two lists; writes the list of pairs, counts them in the record.
 void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, pairs; adds to the corrections.
 void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);

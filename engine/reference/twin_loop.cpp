@@ -93,10 +93,7 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
         twin.run_frame(frame + k);
         const std::vector<ClothStatistics> found = statistics(twin, frame + k, at(substeps));
         attempt_statistics_.push_back(found);
-        double implausible = watch_.excess(frame + k, found);
-        if (const auto& contact = model_.self_contact)
-            implausible = std::max(implausible, self_list_use(contact->push, twin.contact().record));
-        return std::pair(stretch_judgement(model_, found), implausible);
+        return std::pair(stretch_judgement(model_, found), watch_.excess(frame + k, found));
     };
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
     for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)

@@ -77,19 +77,23 @@ class ContactStep {
                                    self_texel(all.z), self_texel(all.w));
     }
     SelfBox point_box(uint place) const { return self_point_box(position(place), motion(place)); }
+    SelfBox slab(uint corner, vec3 axis) const {
+        return self_slab(position(place(corner)), motion(place(corner)), axis);
+    }
     template <class... Corners>
-    SelfBox box_of(Corners... corners) const {
-        SelfBox box = self_no_box();
-        for (const uint corner : {corners...}) box = self_joined(box, point_box(place(corner)));
+    SelfBox slab(vec3 axis, uint first, Corners... others) const {
+        SelfBox box = slab(first, axis);
+        for (const uint corner : {others...}) box = self_slabs_joined(box, slab(corner, axis));
         return box;
     }
+    vec3 cell_normal(ivec2 own) const;
     SelfBox cell_box(ivec2 own) const;
     bool lies_flat(ivec2 cell) const;
     void add_between(ivec2 a, ivec2 b);
     bool triangle_exists(ivec2 cell, int which) const;
     bool edge_exists(ivec2 particle, int k) const;
-    void add_triangles(ivec2 particle, ivec2 cell);
-    void add_pair(const TwinPair& pair);
+    void add_triangles(ivec2 particle, ivec2 cell, vec3 axis);
+    void add_pair(const TwinPair& pair, vec3 axis);
     void add_correction(std::size_t place, vec3 impulse, float mass, float weight);
     void move_to(std::size_t place, vec3 displacement) {
         contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
@@ -176,14 +180,21 @@ void ContactStep::pairs() {
     }
 }
 
+vec3 ContactStep::cell_normal(ivec2 own) const {
+    if (!triangle_exists(own, 1) && !triangle_exists(own, 2)) return {};
+    const auto at = [&](int columns, int rows) { return position(place(ivec2{own.x + columns, own.y + rows})); };
+    return self_cell_normal(true, at(0, 0), at(1, 0), at(0, 1), at(1, 1));
+}
+
 /// The pairs of what two particles own.
 void ContactStep::add_between(ivec2 a, ivec2 b) {
-    add_triangles(a, b);
+    const vec3 axis = cell_normal(a);
+    add_triangles(a, b, axis);
     if (a == b) return;
-    add_triangles(b, a);
+    add_triangles(b, a, axis);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            if (edge_exists(a, i) && edge_exists(b, k)) add_pair({true, self_edge_pair(a, i, b, k)});
+            if (edge_exists(a, i) && edge_exists(b, k)) add_pair({true, self_edge_pair(a, i, b, k)}, axis);
 }
 
 bool ContactStep::triangle_exists(ivec2 cell, int which) const {
@@ -199,17 +210,17 @@ bool ContactStep::edge_exists(ivec2 particle, int k) const {
     return false;
 }
 
-void ContactStep::add_triangles(ivec2 particle, ivec2 cell) {
+void ContactStep::add_triangles(ivec2 particle, ivec2 cell, vec3 axis) {
     for (int which = 1; which <= 2; ++which)
-        if (triangle_exists(cell, which)) add_pair({false, self_point_pair(particle, cell, which)});
+        if (triangle_exists(cell, which)) add_pair({false, self_point_pair(particle, cell, which)}, axis);
 }
 
-void ContactStep::add_pair(const TwinPair& pair) {
+void ContactStep::add_pair(const TwinPair& pair, vec3 axis) {
     const uvec4& all = pair.corners;
     if (self_shares_corner(pair.edges, all)) return;
     const float mean = self_mean_thickness(cloth_of(all.x), cloth_of(all.w));
-    const SelfBox one = pair.edges ? box_of(all.x, all.y) : box_of(all.x),
-                  other = pair.edges ? box_of(all.z, all.w) : box_of(all.y, all.z, all.w);
+    const SelfBox one = pair.edges ? slab(axis, all.x, all.y) : slab(all.x, axis),
+                  other = pair.edges ? slab(axis, all.z, all.w) : slab(axis, all.y, all.z, all.w);
     if (!self_primitives_meet(one, other, push_, mean)) return;
     const SelfGap gap = self_gap(pair.edges, positions(pair));
     const SelfCorners motions = corners(pair, [this](uint place) { return motion(place); });

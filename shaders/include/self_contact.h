@@ -402,10 +402,49 @@ SHARED uint self_disjoint(int columns, int rows) {
     return rows == 0 ? beside : rows == 1 ? below : 0x1fffu;
 }
 
-/// Whether two primitives that are in these boxes may be listed. A pair whose boxes are farther apart than that cannot
-/// come as near as its thickness, whatever part of their motions its corners make.
+/// An entry of the list of those near each other: which of the list of cells, and which of their pairs of particles and
+/// triangles, or of edges.
+SHARED uint self_near_entry(int cells, int kind) { return (uint(cells) << 4) | uint(kind); }
+SHARED int self_near_cells(uint entry) { return int(entry >> 4); }
+SHARED int self_near_kind(uint entry) { return int(entry & 15u); }
+/// A third of the number of a pair of edges.
+SHARED int self_first_edge(int kind) { return (kind * 11) >> 5; }
+
+/// The fourth axis of a pair of cells: the normal of the first of them. Layers of a stack that lies aslant are apart
+/// along it, and along no other. Zero, by which nothing is apart, where the cell is none or has no area.
+SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, vec3 last) {
+    precise vec3 down = last - first;
+    precise vec3 up = right - below;
+    vec3 across = ordered_cross(down, up);
+    precise float area = sqrt(self_squared(across));
+    precise vec3 unit = across / area;
+    return exists && area > 1.0e-15f ? unit : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// Of a particle, with that axis as the fourth, by w.
+SHARED SelfBox self_slab(vec3 at, vec3 motion, vec3 axis) {
+    precise vec3 end = at + motion;
+    float along = ordered_dot(axis, at), then = ordered_dot(axis, end);
+    return SelfBox(
+        vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), self_least(along, then)),
+        vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z),
+             self_largest(along, then)));
+}
+
+SHARED SelfBox self_slabs_joined(SelfBox a, SelfBox b) {
+    return SelfBox(vec4(self_least(a.lower.x, b.lower.x), self_least(a.lower.y, b.lower.y),
+                        self_least(a.lower.z, b.lower.z), self_least(a.lower.w, b.lower.w)),
+                   vec4(self_largest(a.upper.x, b.upper.x), self_largest(a.upper.y, b.upper.y),
+                        self_largest(a.upper.z, b.upper.z), self_largest(a.upper.w, b.upper.w)));
+}
+
+/// Whether two primitives that are in these boxes of four axes may be listed. A pair whose boxes are farther apart than
+/// that cannot come as near as its thickness, whatever part of their motions its corners make.
 SHARED bool self_primitives_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness) {
-    return self_boxes_meet(a, b, push, thickness, 0.0f);
+    precise float ahead = b.lower.w - a.upper.w;
+    precise float behind = a.lower.w - b.upper.w;
+    float apart = self_largest(self_box_distance(a, b), self_largest(ahead, behind));
+    return apart <= self_reach(a, push, thickness);
 }
 
 /// Boxes along columns and rows of a level of the tree, and all of them.

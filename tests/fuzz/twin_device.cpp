@@ -68,9 +68,7 @@ bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceR
             twin_finite = twin_finite && is_finite(twin.cloth(cloth).bytes(field));
             device_finite = device_finite && is_finite(device.bytes(cloth, field));
         }
-    if (model.self_contact &&
-        self_list_use(model.self_contact->push, device.solver().self_record(device.pool(), 0)) > 1)
-        return false;
+    if (device.solver().self_list_use(device.solver().self_record(device.pool(), 0)) > 1) return false;
     require(twin_finite == device_finite, "finite on the twin or on the device alone");
     return twin_finite;
 }
