@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "byte_stream.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/together.h"
 #include "frame_checks.h"
@@ -128,6 +129,8 @@ const SceneDescription& checked(const SceneDescription& scene) {
 
 }  // namespace
 
+constexpr const char* watch_part = "watch";
+
 struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
         : device(given),
@@ -173,8 +176,24 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
 
 std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame(); }
 bool Simulation::can_save() const { return parts_->loop.can_save(); }
-SimulationState Simulation::save() const { return parts_->loop.save(); }
-void Simulation::restore(const SimulationState& state) { parts_->loop.restore(state); }
+
+SimulationState Simulation::save() const {
+    SimulationState state = parts_->loop.save();
+    ByteWriter writer;
+    parts_->watch.transfer(writer);
+    state[watch_part] = writer.take();
+    return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+    const auto part = state.find(watch_part);
+    if (part == state.end()) throw Error("the saved state is not of this scene: it has no part 'watch'");
+    ByteReader reader(part->second), again(part->second);
+    if (!Watch(parts_->model).transfer(reader) || reader.left() > 0)
+        throw Error("the saved state is not of this scene: its part 'watch' is of something else");
+    parts_->loop.restore(state);
+    parts_->watch.transfer(again);
+}
 
 const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
 

@@ -1,6 +1,7 @@
 // What no result of a scene exceeds: bounds from what acts on the cloth, far above what it ever does. Pure.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,21 +38,35 @@ class Watch {
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// What makes a frame no result: the same and, for methods whose frames are not judged, a stretch error: the first
-    /// cloth's worst. Nothing: it is plausible. Bounds, or the scene's own tolerance where that is more:
+    /// cloth's worst. Nothing: it is plausible. To be asked of each frame once, in order. Bounds, or the scene's own
+    /// tolerance where that is more:
     ///   0.25 RMS, 1 in a single spring   of any frame; for 5 s what the cloth starts strained by, and for good what
     ///                                    pins hold strained
     ///   1/3 in a single spring           of a cloth at rest (below 1 % of its diagonal in a second): no force that
     ///                                    the scene has keeps it there
-    ///   3 (0.02 + 0.12 Lambda)           at most 1; in the scene's last six frames, of a cloth that started strained
-    ///                                    by more than half: it has not settled. Lambda = g D^2 N^2/(h K) of N edges of
-    ///                                    length h, substep D and K iterations
+    ///   3 (0.02 + 0.12 Lambda)           at most 1, and at least what a cloth starts strained by; of six frames in a
+    ///                                    row. Lambda = a D^2 N^2/(h K) of N edges of length h, substep D, K iterations
+    ///                                    and the acceleration a of gravity, wind and what moves the cloth
+    ///   the same without what moves it   of any of the scene's last six frames: it has not settled
+    /// The last two are never less than three times what method `auto` keeps, where that chose the substeps or cloths
+    /// meet themselves or each other: what lies between layers is pressed together by more than a law of springs knows.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
+    /// What it remembers of earlier frames, by a ByteWriter or a ByteReader. False where what was read is nothing that
+    /// it can come to.
+    template <class Archive>
+    bool transfer(Archive& archive) {
+        archive(recent_);
+        return recent_.size() <= frames_in_a_row;
+    }
+
   private:
+    static constexpr std::size_t frames_in_a_row = 6;  ///< one may be a snap
     /// What moves a cloth, from the start to the end of each frame.
     struct Drive {
         std::vector<double> speed;   ///< m/s, largest so far
         std::vector<double> travel;  ///< m
+        std::vector<double> pace;    ///< m/s, largest so far, of a frame as a whole and of centres alone
     };
     /// Of a cloth, at rest.
     struct Start {
@@ -64,14 +79,18 @@ class Watch {
     };
     void extend(std::uint32_t frame);
     double drive_speed(std::size_t cloth, double from, double to) const;
+    double pace(std::size_t cloth, double from, double to) const;
     Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
-    double settled_stretch(std::size_t cloth) const;
+    double stretch_law(std::size_t cloth, double speed) const;
+    double allowed_stretch(std::uint32_t frame, bool driven) const;
+    std::optional<Implausible> lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     const SimulationModel& model_;
     std::vector<Start> starts_;
     std::vector<Drive> drives_;
     bool passive_;
+    std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 
 }  // namespace drape

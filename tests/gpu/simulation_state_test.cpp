@@ -179,7 +179,7 @@ TEST(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     ASSERT_TRUE(state.contains("cuts/cloth"));
     EXPECT_THROW(simulation_of(relaxed).restore(state), Error);
     EXPECT_THROW(simulation_of(cut_by_line).restore(state), Error);
-    for (const std::string name : {"loop", "field/cloth/position", "cuts/cloth"}) {
+    for (const std::string name : {"loop", "watch", "field/cloth/position", "cuts/cloth"}) {
         const auto& bytes = state.at(name);
         SimulationState without = state, shorter = state, longer = state;
         without.erase(name);
@@ -222,6 +222,31 @@ TEST(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
         EXPECT_THROW(restored(with_number(state, 4, substeps + 1)), Error);
         EXPECT_THROW(restored(with_number(state, 4, any)), Error);
         EXPECT_THROW(restored(with_number(with_number(state, 0, any), 8, any)), Error);
+    }
+}
+
+/// Explicit steps do not follow inextensible cloth in eight substeps; what lasts for six frames is no result.
+TEST(SimulationState, TheWatchRemembersWhatWasSeenBefore) {
+    const SceneDescription scene = parse_scene(R"({"time": {"frames": 60}, "solver": {"method": "explicit",
+  "substeps": 8}, "cloths": [{"name": "cloth", "grid": [17, 17], "size": [1, 1], "stiffness": "rigid",
+  "placement": {"u": [1, 0, 0], "v": [0, 0, 1]}, "pins": [{"box": [[0, 0], [16, 0]]}]}]})");
+    const auto failing_frame = [](Simulation& simulation) {
+        try {
+            while (simulation.step()) {
+            }
+        } catch (const Diverged&) {
+        }
+        return simulation.next_frame();
+    };
+    Simulation whole(scene, {}, validated());
+    const std::uint32_t failed = failing_frame(whole);
+    ASSERT_GT(failed, 10u);
+    ASSERT_LT(failed, 60u);
+    for (const std::uint32_t before : {1u, 3u, 5u}) {
+        Simulation first(scene, {}, validated()), second(scene, {}, validated());
+        while (first.next_frame() < failed - before) first.step();
+        second.restore(first.save());
+        EXPECT_EQ(failing_frame(second), failed) << before;
     }
 }
 
