@@ -251,8 +251,7 @@ SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
 /// is a particle near an edge, and so near a triangle, a pair of its own that pushes the same way. On flat layers that
 /// leaves out most of all pairs; planes are kept between them nevertheless.
 SHARED bool self_pushes(bool edges, SelfGap gap) {
-    bool between =
-        gap.weights.x != 0.0f && gap.weights.y != 0.0f && gap.weights.z != 0.0f && gap.weights.w != 0.0f;
+    bool between = gap.weights.x != 0.0f && gap.weights.y != 0.0f && gap.weights.z != 0.0f && gap.weights.w != 0.0f;
     return !edges || between;
 }
 
