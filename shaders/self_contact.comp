@@ -2,6 +2,11 @@
 // runs only where something was pushed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants WIDE
+#ifdef WIDE  // two sums in an atomic of 64 bits: half as many, of which most of the pass consists
+#extension GL_EXT_shader_atomic_int64 : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/self_contact.h"
@@ -11,11 +16,33 @@ layout(push_constant) uniform Push { SelfContactPush push; };
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 6, std430) buffer Corrections { ivec4 corrections[]; };
+layout(set = 0, binding = 6, std430) buffer Corrections {
+#ifdef WIDE
+    u64vec2 corrections[];
+#else
+    ivec4 corrections[];
+#endif
+};
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
 bool pushes = false;
+
+#ifdef WIDE
+/// Two sums in one, the second in the upper half, which the first one's sign is carried into (self_sums).
+uint64_t both(int lower, int upper) { return uint64_t(int64_t(lower)) + (uint64_t(uint(upper)) << 32); }
+void add_units(int place, int x, int y, int z, int weight) {
+    atomicAdd(corrections[place].x, both(x, y));
+    atomicAdd(corrections[place].y, both(z, weight));
+}
+#else
+void add_units(int place, int x, int y, int z, int weight) {
+    atomicAdd(corrections[place].x, x);
+    atomicAdd(corrections[place].y, y);
+    atomicAdd(corrections[place].z, z);
+    atomicAdd(corrections[place].w, weight);
+}
+#endif
 
 /// Adds to what a corner is pushed by.
 void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
@@ -23,12 +50,9 @@ void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
     precise float moves = mass * weight;
     precise float per_metre = self_correction_units / thickness;
     precise vec3 correction = impulse * moves;
-    if (weight != 0.0f) {
-        atomicAdd(corrections[place].x, self_units(correction.x, per_metre));
-        atomicAdd(corrections[place].y, self_units(correction.y, per_metre));
-        atomicAdd(corrections[place].z, self_units(correction.z, per_metre));
-        atomicAdd(corrections[place].w, self_weight(weight));
-    }
+    if (weight != 0.0f)
+        add_units(place, self_units(correction.x, per_metre), self_units(correction.y, per_metre),
+                  self_units(correction.z, per_metre), self_weight(weight));
 }
 
 vec3 moved(ivec2 texel) { return imageLoad(displacements, texel).xyz; }

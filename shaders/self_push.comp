@@ -1,6 +1,7 @@
 // Moves the particles by what the pairs push them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants WIDE
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/self_contact.h"
@@ -17,6 +18,9 @@ void move(int place) {
     ivec2 texel = texel_of(place);
     vec4 moved = imageLoad(displacements, texel);
     ivec4 sum = corrections[place];
+#ifdef WIDE
+    sum = self_sums(sum);
+#endif
     if (owner_of(place) >= 0 && sum.w != 0 && imageLoad(positions, texel).w > 0.0f) {
         corrections[place] = ivec4(0, 0, 0, 0);
         float thickness = cloth_at(texel).thickness;

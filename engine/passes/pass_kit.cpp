@@ -21,6 +21,7 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
     return *pipeline;
 }
 
+bool PipelineCache::wide_atomics() const { return device_.wide_atomics(); }
 std::uint32_t PipelineCache::entries_each() const { return device_.info().type == "cpu" ? 8 : 1; }
 
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {

@@ -25,6 +25,8 @@ class PipelineCache {
     /// Entries of a list that an invocation takes in turn: on a CPU, where one costs as much to begin as some entries,
     /// several.
     std::uint32_t entries_each() const;
+    /// As the device's.
+    bool wide_atomics() const;
 
   private:
     const vulkan::Device& device_;

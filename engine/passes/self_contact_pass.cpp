@@ -44,15 +44,20 @@ int over_sheet(const PipelineCache& pipelines, const Step& step) {
 }
 
 /// Of a pass that looks up which cloth a place is of (shaders/include/self_cloths.h).
-const vulkan::ComputePipeline& pipeline_of(PipelineCache& pipelines, const char* module, const Step& step) {
+const vulkan::ComputePipeline& pipeline_of(PipelineCache& pipelines, const std::string& module, const Step& step) {
     const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
     return pipelines.get(module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}});
 }
 /// Likewise of one that says how far those after it run (shaders/include/self_lists.h).
-const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const char* module, const Step& step) {
+const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const std::string& module, const Step& step) {
     const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
     return pipelines.get(
         module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
+}
+
+/// Of one that makes or takes sums of corrections.
+std::string summing_module(const PipelineCache& pipelines, const char* module) {
+    return vulkan::variant_name(module, {{"wide", pipelines.wide_atomics()}});
 }
 
 void read(PassSetup& setup, const ClothState& contact, Field field, const char* name) {
@@ -229,7 +234,8 @@ void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
 }
 
 void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_sized_pass(graph, contact, step, "self contact", listing_pipeline(pipelines, "self_contact.comp", step),
+    const std::string module = summing_module(pipelines, "self_contact.comp");
+    add_sized_pass(graph, contact, step, "self contact", listing_pipeline(pipelines, module, step),
                    glsl::self_size_contact + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
                        read(setup, contact, Field::self_pairs, "pairs");
@@ -240,7 +246,8 @@ void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 }
 
 void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, "self_push.comp", step),
+    const std::string module = summing_module(pipelines, "self_push.comp");
+    add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, module, step),
                    glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        move_on_sheet(setup, contact);
                        update_in_place(setup, contact, Field::self_corrections, "corrections");

@@ -64,10 +64,11 @@ std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory
 
 Device::Device(const Instance& instance, DeviceInfo info, Empty) : instance_(instance), info_(std::move(info)) {}
 
-Device::Device(const Instance& instance, std::string_view selector)
+Device::Device(const Instance& instance, std::string_view selector, WideAtomics wide)
     : Device(instance, select_device(instance.devices(), selector), Empty{}) {
     physical_ = instance.physical_device(info_.index);
     read_limits();
+    read_features(wide);
     create();
     vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
     auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
@@ -112,14 +113,29 @@ void Device::read_limits() {
     timestamp_valid_bits_ = families[queue_family_].timestampValidBits;
 }
 
+void Device::read_features(WideAtomics wide) {
+    auto features12 =
+        structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+    auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    all.pNext = &features12;
+    vkGetPhysicalDeviceFeatures2(physical_, &all);
+    wide_atomics_ = wide == WideAtomics::where_there_are && all.features.shaderInt64 == VK_TRUE &&
+                    features12.shaderBufferInt64Atomics == VK_TRUE;
+}
+
 void Device::create() {
+    auto features12 =
+        structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+    features12.shaderBufferInt64Atomics = wide_atomics_ ? VK_TRUE : VK_FALSE;
     auto features13 =
         structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
+    features13.pNext = &features12;
     VkPhysicalDeviceFeatures features{};
     features.shaderClipDistance = VK_TRUE;
+    features.shaderInt64 = features12.shaderBufferInt64Atomics;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;

@@ -32,12 +32,15 @@ class MemoryBudget {
 /// 75 % of what the system says is available.
 std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu);
 
+/// `none`: as on devices without, for tests of what is done there.
+enum class WideAtomics : std::uint8_t { where_there_are, none };
+
 class Device {
   public:
     /// `selector`: empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive
     /// part), UUID or "cpu". Throws VulkanError listing the devices and why each was rejected.
     /// The instance must outlive the device.
-    Device(const Instance& instance, std::string_view selector);
+    Device(const Instance& instance, std::string_view selector, WideAtomics wide = WideAtomics::where_there_are);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -50,6 +53,8 @@ class Device {
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
+    /// Whether shaders may add integers of 64 bits in buffers atomically.
+    bool wide_atomics() const { return wide_atomics_; }
     /// Whether subgroups of compute shaders have so many invocations and can shuffle.
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
     std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
@@ -81,6 +86,7 @@ class Device {
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Device(const Instance& instance, DeviceInfo info, Empty);
     void read_limits();
+    void read_features(WideAtomics wide);
     void create();
 
     const Instance& instance_;
@@ -94,6 +100,7 @@ class Device {
     std::uint32_t queue_family_ = 0;
     std::uint32_t timestamp_valid_bits_ = 0;
     std::uint32_t max_push_descriptors_ = 0;
+    bool wide_atomics_ = false;
     std::uint32_t shuffling_lanes_ = 0;  ///< of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;
     std::uint64_t max_allocation_size_ = 0;

@@ -288,6 +288,11 @@ SHARED int self_units(float correction, float units_per_metre) {
     return above ? most : least;
 }
 
+/// Sums that were added up two at a time, in integers of 64 bits: a first one below zero has taken 1 off the second.
+SHARED ivec4 self_sums(ivec4 halves) {
+    return ivec4(halves.x, halves.y + (halves.x < 0 ? 1 : 0), halves.z, halves.w + (halves.z < 0 ? 1 : 0));
+}
+
 /// The corrections of all pairs that a particle is in: xyz in units, w the sum of its weights. Where it is in several
 /// they are averaged by weight, so that layers that lie on each other corner on corner get what one pair would.
 SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {

@@ -65,12 +65,13 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 }
 
 /// On every schedule. Returns the record of the last frame's contact between cloths, if they meet.
-inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {}) {
+inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
+                                const vulkan::Device& on = gpu().device) {
     const SimulationModel model(scene, options);
     Twin twin(model);
     std::vector<std::unique_ptr<DeviceRun>> devices;
-    for (const Schedule schedule : schedules(gpu().device, model))
-        devices.push_back(std::make_unique<DeviceRun>(gpu().device, model, graph::BarrierFilter{}, schedule));
+    for (const Schedule schedule : schedules(on, model))
+        devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, schedule));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
         for (const auto& device : devices) device->run_frame(frame);

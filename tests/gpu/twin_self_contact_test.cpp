@@ -22,6 +22,14 @@ SceneDescription crumpling(std::uint32_t n, SolverMethod method, std::uint32_t s
 TEST(TwinSelfContactTest, Explicit) { expect_contact(crumpling(17, SolverMethod::explicit_steps, 40)); }
 TEST(TwinSelfContactTest, Line) { expect_contact(crumpling(17, SolverMethod::line, 16)); }
 
+/// Sums are added up in integers of 64 bits, two at a time, where a device has them: with the same result.
+TEST(TwinSelfContactTest, WithoutWideAtomics) {
+    const vulkan::Device narrow(test::gpu().instance, test::gpu().device.info().uuid_text(), vulkan::WideAtomics::none);
+    EXPECT_FALSE(narrow.wide_atomics());
+    const glsl::SelfRecord last = compare(crumpling(15, SolverMethod::line, 16), {}, narrow);
+    EXPECT_GT(last.most_pairs, 20u) << "nothing met";
+}
+
 TEST(TwinSelfContactTest, WithHolesOnAGridOfNoPowerOfTwo) {
     SceneDescription scene = crumpling(21, SolverMethod::line, 12);
     scene.cloths[0].grid = {21, 13};
