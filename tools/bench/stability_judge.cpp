@@ -91,6 +91,8 @@ StabilityJudge::StabilityJudge(const SimulationModel& model) : model_(model) {
         const double wave = cloth.rigid ? cloth.reach() * scene.time.fps
                                         : std::sqrt(described.stiffness.stretch / described.areal_density);
         start.strain_speed = cloth.start_strain * wave;
+        start.wave = wave;
+        start.shorter = std::min(described.size[0], described.size[1]);
         const double moving = 0.5 * dot(cloth.velocity, cloth.velocity);
         start.energy = start.mass * (moving - dot(scene.gravity, start.mean) + start.strain_speed * start.strain_speed);
         start.scale = start.mass * (moving + length(scene.gravity) * cloth.reach() +
@@ -105,8 +107,10 @@ double StabilityJudge::bound_of_distance(std::size_t index, double time, const C
     const Start& start = starts_[index];
     const double stretched = cloth.reach() * (1 + std::max(statistics.stretch.largest, 0.0));
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
-    const double speed =
-        length(cloth.velocity) + start.strain_speed + (model_.windy ? wind : 0) + travel_ / std::max(time, 1e-9);
+    // What moves may have strained the cloth, which flies when it is let go: at that share of the speed of waves.
+    const double recoil = std::min(travel_ / start.shorter, 1.0) * start.wave;
+    const double speed = length(cloth.velocity) + start.strain_speed + recoil + (model_.windy ? wind : 0) +
+                         travel_ / std::max(time, 1e-9);
     const double flown = start.held ? 0 : speed * time + 0.5 * length(model_.scene.gravity) * time * time;
     return 1.001 * (start.distance + travel_ + 2 * stretched + flown) + 1e-3;
 }
