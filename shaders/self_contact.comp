@@ -67,8 +67,7 @@ void push_apart(bool edges, uvec4 pair) {
     vec3 impulse = self_impulse(gap, SelfCorners(moved(a), moved(b), moved(c), moved(d)), mass,
                                 self_pair_thickness(one, other, edges, a, b, c, d), self_pair_friction(one, other),
                                 push.recovery);
-    bool pushed = impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f;
-    if (pushed && self_pushes(edges, gap)) {
+    if (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f) {
         add(a, one.thickness, impulse, mass.x, gap.weights.x);
         add(b, edges ? one.thickness : other.thickness, impulse, mass.y, gap.weights.y);
         add(c, other.thickness, impulse, mass.z, gap.weights.z);

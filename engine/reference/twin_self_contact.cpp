@@ -249,7 +249,6 @@ void ContactStep::contact() {
         const SelfCorners displacements = corners(pair, [this](uint place) { return displacement(place); });
         const vec3 impulse =
             self_impulse(gap, displacements, mass, thickness(pair), self_pair_friction(one, other), push_.recovery);
-        if (!self_pushes(pair.edges, gap)) continue;
         if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) continue;
         for (std::size_t k = 0; k < 4; ++k)
             add_correction(corner[k], impulse, component(mass, k), component(gap.weights, k));

@@ -247,14 +247,6 @@ SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
-/// Whether a pair pushes: two edges only where they pass each other between their ends. One that is nearest at an end
-/// is a particle near an edge, and so near a triangle, a pair of its own that pushes the same way. On flat layers that
-/// leaves out most of all pairs; planes are kept between them nevertheless.
-SHARED bool self_pushes(bool edges, SelfGap gap) {
-    bool between = gap.weights.x != 0.0f && gap.weights.y != 0.0f && gap.weights.z != 0.0f && gap.weights.w != 0.0f;
-    return !edges || between;
-}
-
 /// What pushes a pair's corners: corner i, of inverse mass w_i and weight g_i, moves by w_i g_i times this. Zero where
 /// they stay apart. Of a thickness that is missing already only `recovery` is given back. Friction is Coulomb's, on
 /// the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
