@@ -195,6 +195,15 @@ Field tension_of(std::size_t direction) {
     return static_cast<Field>(static_cast<std::size_t>(Field::tension_row) + direction);
 }
 
+SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes) {
+    const auto least = [most_bytes](std::uint32_t entries, Field list) {
+        const std::uint64_t fitting = most_bytes / row_of(list).element.size;
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, fitting, most_self_entries}));
+    };
+    return {least(room.pairs, Field::self_pairs), least(room.near, Field::self_near),
+            least(room.cells, Field::self_cells)};
+}
+
 std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::max<std::size_t>(count, 64)); }
 
 FieldExtent line_scratch_extent(const Grid& grid) {

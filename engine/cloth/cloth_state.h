@@ -126,6 +126,8 @@ inline const FieldRow& row_of(Field field) { return cloth_fields()[static_cast<s
 /// The tension of the springs of one direction (engine/cloth/directions.h).
 Field tension_of(std::size_t direction);
 
+/// As far as a buffer of so many bytes has room for each of contact's lists.
+SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes);
 /// Elements that a draw list of `count` elements has room for: it grows in powers of two, so that few cuts need
 /// new buffers.
 std::size_t draw_list_capacity(std::size_t count);

@@ -64,10 +64,14 @@ bool held_by_lone_pins(const Cloth& cloth) {
 
 }  // namespace
 
-double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
+double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
     if (!scene.wind.blows()) return 0;
     const double pressure = 0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (speed * speed);
-    return wind_share * pressure / cloth.areal_density;
+    return pressure / cloth.areal_density;
+}
+
+double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
+    return wind_share * most_wind_acceleration(scene, cloth, speed);
 }
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {

@@ -19,7 +19,9 @@ struct Hang {
     double longest_line;  ///< particles
 };
 
-/// m/s^2, of wind at a speed (m/s): the share of its pressure on a plate that stretches a cloth. 0 without wind.
+/// m/s^2, of wind at a speed (m/s), its pressure on a plate across it. 0 without wind.
+double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
+/// The share of it that stretches a cloth.
 double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth);

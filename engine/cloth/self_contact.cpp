@@ -7,10 +7,6 @@ namespace drape {
 
 namespace {
 
-/// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
-/// signed integers.
-constexpr std::uint32_t most_entries = (1u << 28) - 1;
-
 /// m, by how much more than it needs to the search for cells looks. Cells of flat cloth that are no neighbours are a
 /// spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
@@ -131,18 +127,11 @@ double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record) {
 SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record) {
     const auto more = [](std::uint32_t most, std::uint32_t entries) {
         const std::uint64_t wanted = std::max(std::uint64_t{entries} * 2, std::uint64_t{most} + most / 4);
-        return most <= entries ? entries : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_entries));
+        return most <= entries ? entries
+                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_self_entries));
     };
     return {more(record.most_pairs, room.pairs), more(record.most_near, room.near),
             more(record.most_cells, room.cells)};
-}
-
-SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes) {
-    const auto least = [most_bytes](std::uint32_t entries, std::uint32_t size) {
-        return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, most_bytes / size, most_entries}));
-    };
-    return {least(room.pairs, self_entry_size.pairs), least(room.near, self_entry_size.near),
-            least(room.cells, self_entry_size.cells)};
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

@@ -20,8 +20,9 @@ struct SelfRoom {
 
 /// Per particle, in the beginning: crumpled cloth takes 10, 30 and 50.
 inline constexpr SelfRoom self_room_per_particle{32, 64, 64};
-/// Bytes of an entry of each.
-inline constexpr SelfRoom self_entry_size{sizeof(glsl::uvec4), sizeof(glsl::uint), sizeof(glsl::ivec2)};
+/// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
+/// signed integers.
+inline constexpr std::uint32_t most_self_entries = (1u << 28) - 1;
 /// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
 /// the lower nodes of its tree of boxes are of one cloth each.
 inline constexpr int self_sheet_step = 8;
@@ -48,8 +49,6 @@ double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record);
 /// At least twice as much where a list found none; of a list that is filled from another one that was too short not
 /// everything is known yet.
 SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record);
-/// No more than what fits a buffer of so many bytes each.
-SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes);
 
 /// Boxes of the tree over a sheet: of one level, of all.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);

@@ -8,6 +8,7 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/hang.h"
 #include "scene/collider_pose.h"
 #include "scene/vectors.h"
 
@@ -199,15 +200,12 @@ double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cl
 /// What the springs of a cloth may be wrong by that moves at this speed (m/s).
 double Watch::stretch_law(std::size_t index, double speed) const {
     const ClothModel& cloth = model_.cloths[index];
-    const Cloth& described = model_.scene.cloths[index];
     const SolverSettings& solver = model_.scene.solver;
     const Wind& wind = model_.scene.wind;
     const double step = 1 / (model_.scene.time.fps * solver.substeps);
     const double sweeps = model_.method().iterates() ? solver.iterations : 1;
     const double blows = length(wind.velocity) + std::abs(wind.gust.amplitude);
-    const double blown =
-        model_.windy ? 0.5 * wind.air_density * std::max(wind.drag, wind.lift) * blows * blows / described.areal_density
-                     : 0;
+    const double blown = most_wind_acceleration(model_.scene, model_.scene.cloths[index], blows);
     const double acceleration = length(model_.scene.gravity) + speed * speed / cloth.reach() + blown;
     double most = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
