@@ -1,5 +1,5 @@
-// What a substep's contact begins with: the motion that all particles are measured against, the mean of those of a
-// few or, where some are always held, none, and records for the passes to come. One invocation works.
+// What a substep's contact begins with: the motion that all particles are measured against, what a few have in common
+// or, where some are always held, none, and records for the passes to come. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -22,8 +22,11 @@ void main() {
     int count = push.held == 0 && gl_GlobalInvocationID.x == 0u ? samples : 0;
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < count; ++k) sum = sum + sample_of(k);
+    vec3 mean = self_mean(sum, push.cloth_count);
+    float least = 1.0f;
+    for (int k = 0; k < count; ++k) least = self_least(least, self_part_made(sample_of(k), mean));
     if (gl_GlobalInvocationID.x > 0u) return;
-    record[0].carried = vec4(self_mean(sum, push.cloth_count), 0.0f);
+    record[0].carried = vec4(self_common_motion(mean, least), 0.0f);
     record[0].point_count = 0u;
     record[0].edge_count = 0u;
     record[0].near_point_count = 0u;

@@ -108,14 +108,19 @@ class ContactStep {
 void ContactStep::common() {
     SelfRecord& record = contact_.record;
     if (push_.first != 0) record = {};
-    vec3 sum{};
+    std::vector<vec3> samples;
     for (const SelfCloth& cloth : model_.cloths)
         for (int k = 0; push_.held == 0 && k < self_samples * self_samples; ++k) {
             const ivec2 sample = self_sample(cloth.grid, k);
-            sum = sum + displacement(place(ivec2{cloth.first.x + sample.x, cloth.first.y + sample.y}));
+            samples.push_back(displacement(place(ivec2{cloth.first.x + sample.x, cloth.first.y + sample.y})));
         }
+    vec3 sum{};
+    for (const vec3& sample : samples) sum = sum + sample;
     const vec3 mean = self_mean(sum, push_.cloth_count);
-    record.carried = {mean.x, mean.y, mean.z, 0};
+    float least = 1;
+    for (const vec3& sample : samples) least = self_least(least, self_part_made(sample, mean));
+    const vec3 common = self_common_motion(mean, least);
+    record.carried = {common.x, common.y, common.z, 0};
     record.point_count = record.edge_count = 0;
     record.cell_count = 0;
 }

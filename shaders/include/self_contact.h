@@ -134,6 +134,19 @@ SHARED vec3 self_mean(vec3 sum, int cloth_count) {
     return mean;
 }
 
+/// How much of a mean motion a particle makes along it.
+SHARED float self_part_made(vec3 motion, vec3 mean) {
+    precise float part = self_ratio(ordered_dot(motion, mean), ordered_dot(mean, mean));
+    return part;
+}
+
+/// What particles have in common of their mean motion: as much as the one makes that makes least of it. What rests on a
+/// collider is not carried into it by what falls on it.
+SHARED vec3 self_common_motion(vec3 mean, float least_part) {
+    precise vec3 made = mean * self_limited(least_part);
+    return made;
+}
+
 /// Whether two cells are the same or neighbours, and so of one cloth: those are judged by how flat the cloth is about
 /// them.
 SHARED bool self_neighbours(ivec2 a, ivec2 b) {
