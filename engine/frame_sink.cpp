@@ -3,10 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "contacts.h"
 
 namespace drape {
+
+namespace {
+
+constexpr const char* whole_frame = "frame";  // beside the stages, none of which has that name
+
+}  // namespace
 
 std::vector<const OutputFormat*> output_formats(const std::vector<std::string>& names) {
     std::vector<const OutputFormat*> formats;
@@ -20,10 +27,15 @@ std::vector<const OutputFormat*> output_formats(const std::vector<std::string>& 
 
 Sink::Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const SceneDescription& scene,
            const WrittenRun& run, const std::map<std::uint32_t, KeptFrame>& kept, Journal* journal)
-    : scene_(scene), kept_(kept), journal_(journal), details_(request.details()) {
+    : scene_(scene),
+      kept_(kept),
+      journal_(journal),
+      details_(request.details()),
+      statistics_(std::make_shared<RunStatistics>(folder ? &*folder : nullptr)) {
+    if (folder) times_.emplace(*folder);
     for (const OutputFormat* format : output_formats(request.formats))
         writers_.push_back({format, folder ? format->open(*folder, run) : format->stream(request.stream, run)});
-    for (const auto& [frame, picture] : kept) statistics_.add(frame, picture.values);
+    for (const auto& [frame, picture] : kept) statistics_->add(frame, picture.values);
 }
 
 Sink::Contacts Sink::touched(std::uint32_t frame, const std::vector<std::span<const float>>& positions) const {
@@ -34,7 +46,8 @@ Sink::Contacts Sink::touched(std::uint32_t frame, const std::vector<std::span<co
 }
 
 void Sink::write(const WrittenFrame& frame) {
-    statistics_.add(frame.number, frame.values);
+    if (!kept_.contains(frame.number)) statistics_->add(frame.number, frame.values);
+    latest_ = frame.values;
     for (const Writer& writer : writers_)
         if (!writer.format->resumes || !kept_.contains(frame.number)) writer.files->add(frame);
 }
@@ -54,10 +67,11 @@ void Sink::add(const FinishedFrame& frame) {
         for (const auto& cloth : frame.velocities) record.velocities.emplace_back(cloth.begin(), cloth.end());
         journal_->add(record);
     }
-    for (const StageTime& timing : frame.timings) stages_[timing.name].push_back(timing.milliseconds);
     const auto now = std::chrono::steady_clock::now();
-    frame_ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
+    FrameValues times{{whole_frame, std::chrono::duration<double, std::milli>(now - last_).count()}};
     last_ = now;
+    for (const StageTime& timing : frame.timings) times[timing.name] = timing.milliseconds;
+    if (times_) times_->add(frame.frame, times);
 }
 
 void Sink::repeat(const JournalRecord& frame) {
@@ -104,9 +118,16 @@ std::vector<FileRecord> Sink::finish(bool complete, std::vector<std::string>& dr
 }
 
 void Sink::add_timings(Manifest& manifest) const {
-    manifest.frame_time = summarize_frame_times(frame_ms_);
-    for (const auto& [stage, times] : stages_)
-        if (const auto summary = summarize_frame_times(times)) manifest.stage_median_ms[stage] = summary->median;
+    if (!times_) return;
+    for (const std::string& name : times_->names()) {
+        std::vector<double> known = times_->column(name);
+        std::erase_if(known, [](double time) { return std::isnan(time); });
+        const auto summary = summarize_frame_times(known);
+        if (name == whole_frame)
+            manifest.frame_time = summary;
+        else if (summary)
+            manifest.stage_median_ms[name] = summary->median;
+    }
 }
 
 }  // namespace drape

@@ -37,7 +37,9 @@ class Sink {
 
     const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
     /// Of the frames added, and of those that a resumed run keeps.
-    const RunStatistics& statistics() const { return statistics_; }
+    std::shared_ptr<const RunStatistics> statistics() const { return statistics_; }
+    /// What the progress line says of the frame added last.
+    std::string note() const { return statistics_->note(latest_); }
 
     /// The files of all formats, those kept included; of a run that was stopped only the files of single frames, as
     /// the others would look complete: `dropped` says which.
@@ -60,9 +62,9 @@ class Sink {
     bool details_;
     std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;
-    RunStatistics statistics_;
-    std::map<std::string, std::vector<double>> stages_;
-    std::vector<double> frame_ms_;
+    std::shared_ptr<RunStatistics> statistics_;
+    std::optional<FrameTable> times_;  ///< ms, of the stages and of the whole frame; nothing of a stream
+    FrameValues latest_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

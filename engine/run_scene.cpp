@@ -176,7 +176,7 @@ bool write_frames(const RunParts& run, std::uint32_t last) {
             if (frame.failure && frame.failure->kind == FrameFailure::Kind::not_finite) raise(*frame.failure);
             if (frame.failure && !run.failure) run.failure = kept_failure(*frame.failure);
             run.sink.add(frame);
-            progress.frame_done(frame.frame, run.sink.statistics().note(frame.frame));
+            progress.frame_done(frame.frame, run.sink.note());
             if (!run.missing.kept.contains(frame.frame)) ++summary.frame_count;
         });
     } catch (const Diverged& error) {
@@ -310,10 +310,11 @@ std::optional<std::string> lost_proof(const Simulation& simulation) {
 /// The files of a run that is done, or of one that failed as far as it came.
 void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
     manifest.cuts = sink.cuts();
-    manifest.statistics = sink.statistics().frames();
-    manifest.solver.stretch_error = sink.statistics().worst_of_run("/stretch_error_rms");
-    sink.add_timings(manifest);
+    const std::shared_ptr<const RunStatistics> statistics = sink.statistics();
+    manifest.statistics = [statistics](const Manifest::FrameVisitor& take) { statistics->for_each_frame(take); };
+    manifest.solver.stretch_error = statistics->worst_of_run("/stretch_error_rms");
     try {
+        sink.add_timings(manifest);
         // Arrays of a run that something broke are no result; those before a frame that fails again are.
         const bool whole =
             summary.complete || (failure && failure->frame && summary.frame_count + summary.kept_count > 0);
@@ -336,17 +337,14 @@ void leave_capsule(OutputFolder& folder, const RunRequest& request, const Loaded
     capsule.status = failure.status;
     capsule.reason = failure.reason;
     capsule.failed = failure.frame;
-    const auto before = [&](const Manifest::FrameStatistics& each) {
-        return !failure.frame || each.frame < failure.frame->frame;
-    };
-    const auto& frames = manifest.statistics;
-    const auto last = std::ranges::find_if(frames.rbegin(), frames.rend(), before);
-    if (last != frames.rend()) capsule.last_frame = *last;
     capsule.checkpoint = checkpoints.last();
     // In a run that went on, later ones are of no use.
     if (capsule.checkpoint && failure.frame && capsule.checkpoint->next_frame > failure.frame->frame)
         capsule.checkpoint.reset();
     try {
+        manifest.statistics([&](const Manifest::FrameStatistics& each) {
+            if (!failure.frame || each.frame < failure.frame->frame) capsule.last_frame = each;
+        });
         write_capsule(folder, capsule);
         manifest.capsule = capsule_file_name;
         if (request.message)
@@ -417,7 +415,7 @@ RunSummary run_scene(const RunRequest& request) {
         const RunParts run{request, missing, simulation,         sink,  checkpoints ? &*checkpoints : nullptr,
                            summary, failure, earlier_validation, device};
         summary.complete = run_missing(run, from, range);
-        if (const auto warning = missed_limits(simulation.facts(), sink.statistics())) warn(*warning);
+        if (const auto warning = missed_limits(simulation.facts(), *sink.statistics())) warn(*warning);
         if (const auto warning = lost_proof(simulation)) warn(*warning);
         manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);

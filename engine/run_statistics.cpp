@@ -35,14 +35,6 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
     if (statistics.penetration) values[cloth + "/penetration_m"] = *statistics.penetration;
 }
 
-/// The largest value of that name over the cloths.
-std::optional<double> worst(const FrameValues& values, std::string_view name) {
-    std::optional<double> largest;
-    for (const auto& [key, value] : values)
-        if (key.ends_with(name)) largest = std::max(largest.value_or(value), value);
-    return largest;
-}
-
 std::optional<double> energy(const FrameValues& values) {
     const auto found = values.find("energy_j");
     return found == values.end() ? std::nullopt : std::optional(found->second);
@@ -73,7 +65,11 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         potential += cloths[cloth].potential_energy;
         elastic += cloths[cloth].elastic_energy;
     }
-    if (const auto penetration = worst(values, "/penetration_m")) values["penetration_m"] = *penetration;
+    for (const ClothStatistics& cloth : cloths) {
+        if (!cloth.penetration) continue;
+        double& deepest = values.try_emplace("penetration_m", *cloth.penetration).first->second;
+        deepest = std::max(deepest, *cloth.penetration);
+    }
     values["kinetic_energy_j"] = kinetic;
     values["potential_energy_j"] = potential;
     values["elastic_energy_j"] = elastic;
@@ -82,37 +78,47 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
     return values;
 }
 
-std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
-    const auto now = energy(values), first = energy(frames_.begin()->second);
-    return now && first ? std::optional(*now - *first) : std::nullopt;
+RunStatistics::RunStatistics(OutputFolder* folder) {
+    if (folder) frames_.emplace(*folder);
 }
 
-std::optional<double> RunStatistics::worst_of_run(std::string_view name) const {
+void RunStatistics::add(std::uint32_t frame, const FrameValues& values) {
+    if (!first_ || frame <= first_->first) first_ = {frame, energy(values)};
+    ++count_;
+    for (const auto& [name, value] : values) {
+        double& largest = largest_.try_emplace(name, value).first->second;
+        largest = std::max(largest, value);
+    }
+    if (values.contains("motion_unpredictable")) {
+        unpredictable_.first = unpredictable_.count++ == 0 ? frame : std::min(unpredictable_.first, frame);
+        if (const auto error = values.find("motion_error_m_s"); error != values.end())
+            unpredictable_.worst_error = std::max(unpredictable_.worst_error, error->second);
+    }
+    if (frames_) frames_->add(frame, values);
+}
+
+/// Over the cloths.
+std::optional<double> RunStatistics::worst(const FrameValues& values, std::string_view name) {
     std::optional<double> largest;
-    for (const auto& [frame, values] : frames_)
-        if (const auto error = worst(values, name)) largest = std::max(largest.value_or(*error), *error);
+    for (const auto& [key, value] : values)
+        if (key.ends_with(name)) largest = std::max(largest.value_or(value), value);
     return largest;
 }
 
+std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
+    const auto now = energy(values);
+    return now && first_ && first_->second ? std::optional(*now - *first_->second) : std::nullopt;
+}
+
 std::optional<std::string> RunStatistics::unpredictable() const {
-    std::size_t count = 0;
-    std::uint32_t first = 0;
-    double worst_error = 0;
-    for (const auto& [frame, values] : frames_) {
-        if (!values.contains("motion_unpredictable")) continue;
-        if (count++ == 0) first = frame;
-        if (const auto error = values.find("motion_error_m_s"); error != values.end())
-            worst_error = std::max(worst_error, error->second);
-    }
-    if (count == 0) return std::nullopt;
+    if (unpredictable_.count == 0) return std::nullopt;
     return fmt::format(
         "in {} of {} frames, from frame {} on, method auto did not keep the limit of the motion's error (it came to "
         "{:.3g} m/s): more substeps do not reduce it, as where cloth crumples; the stretch error is kept",
-        count, frames_.size(), first, worst_error);
+        unpredictable_.count, count_, unpredictable_.first, unpredictable_.worst_error);
 }
 
-std::string RunStatistics::note(std::uint32_t frame) const {
-    const FrameValues& values = frames_.at(frame);
+std::string RunStatistics::note(const FrameValues& values) const {
     std::vector<std::string> parts;
     if (const auto rms = worst(values, "/stretch_rms"), max = worst(values, "/stretch_max"); rms && max)
         parts.push_back(fmt::format("stretch {:.3g} % RMS, {:.3g} % max", 100 * *rms, 100 * *max));
@@ -124,18 +130,18 @@ std::string RunStatistics::note(std::uint32_t frame) const {
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (values.contains("asleep")) parts.push_back("asleep");
     if (const auto drift = energy_drift(values))
-        parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, frames_.begin()->first));
+        parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, first_->first));
     if (const auto depth = worst(values, "/penetration_m")) parts.push_back(penetration_text(*depth));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::vector<Manifest::FrameStatistics> RunStatistics::frames() const {
-    std::vector<Manifest::FrameStatistics> list;
-    for (const auto& [frame, values] : frames_) {
-        list.push_back({frame, values});
-        if (const auto drift = energy_drift(values)) list.back().values["energy_drift_j"] = *drift;
-    }
-    return list;
+void RunStatistics::for_each_frame(const Manifest::FrameVisitor& take) const {
+    if (!frames_) return;
+    frames_->for_each([&](std::uint32_t frame, const FrameValues& values) {
+        Manifest::FrameStatistics each{frame, values};
+        if (const auto drift = energy_drift(values)) each.values["energy_drift_j"] = *drift;
+        take(each);
+    });
 }
 
 }  // namespace drape

@@ -1,14 +1,14 @@
 // The statistics of a run, frame by frame, as the manifest and the progress line say them.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "drape/scene.h"
 #include "drape/simulation.h"
+#include "output/frame_table.h"
 #include "output/manifest.h"
 
 namespace drape {
@@ -19,28 +19,43 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
 
 class RunStatistics {
   public:
-    /// In any order.
-    void add(std::uint32_t frame, FrameValues values) { frames_[frame] = std::move(values); }
+    /// `folder`: where the numbers of a long run wait for its manifest, and must outlive this; null: of a stream, which
+    /// has none.
+    explicit RunStatistics(OutputFolder* folder);
 
-    /// "stretch 0.52 % RMS, 3.1 % max, stretch error 0.47 % RMS, energy -0.0012 J since frame 0, penetration 0.03 mm":
-    /// the worst cloth's; what is not known of the frame is left out.
-    std::string note(std::uint32_t frame) const;
+    /// In any order, each once. Throws OutputError.
+    void add(std::uint32_t frame, const FrameValues& values);
+
+    /// "stretch 0.52 % RMS, 3.1 % max, stretch error 0.47 % RMS, energy -0.0012 J since frame 0, penetration 0.03 mm"
+    /// of the values of a frame: the worst cloth's; what is not known is left out.
+    std::string note(const FrameValues& values) const;
 
     /// In order of frames, each with "energy_drift_j": kinetic, potential and elastic energy together, minus that
     /// of the first frame. It is the solver's error where nothing does work on the cloth; wind, damping, contact and
-    /// moving pins do.
-    std::vector<Manifest::FrameStatistics> frames() const;
+    /// moving pins do. Of a stream none. Throws OutputError.
+    void for_each_frame(const Manifest::FrameVisitor& take) const;
 
     /// The largest value, of any frame and cloth, of "<cloth>" + `name`.
-    std::optional<double> worst_of_run(std::string_view name) const;
+    std::optional<double> worst_of_run(std::string_view name) const { return worst(largest_, name); }
 
     /// What to say of the frames in which method `auto` did not keep the motion's error, since more substeps do not
     /// reduce it; nothing when there is none.
     std::optional<std::string> unpredictable() const;
 
   private:
+    struct Unpredictable {
+        std::size_t count = 0;
+        std::uint32_t first = 0;  ///< frame
+        double worst_error = 0;   ///< m/s
+    };
+    static std::optional<double> worst(const FrameValues& values, std::string_view name);
     std::optional<double> energy_drift(const FrameValues& values) const;
-    std::map<std::uint32_t, FrameValues> frames_;
+
+    std::optional<FrameTable> frames_;
+    std::size_t count_ = 0;
+    std::optional<std::pair<std::uint32_t, std::optional<double>>> first_;  ///< frame, its energy
+    FrameValues largest_;                                                   ///< of every name
+    Unpredictable unpredictable_;
 };
 
 }  // namespace drape

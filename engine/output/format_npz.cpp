@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <map>
 
+#include "output/frame_table.h"
 #include "output/frame_writer.h"
 #include "output/npy.h"
 #include "output/zip_file.h"
@@ -21,32 +20,17 @@ struct ParticleArray {
 constexpr ParticleArray positions{"positions"}, velocities{"velocities"}, contacts{"contacts", {"<i2", 2, 1}};
 constexpr std::array<const ParticleArray*, 3> particle_arrays{&positions, &velocities, &contacts};
 
-/// Numbers about the frames, by name; NaN where a frame has none.
-class FrameNumbers {
-  public:
-    /// Those of a cloth, and those of a frame's effort, which is all cloths'.
-    void add(const FrameValues& values, const std::string& label) {
-        const std::string own = label + "/";
-        for (const auto& [name, value] : values) {
-            if (name.starts_with(own)) set(name.substr(own.size()), value);
-            for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "asleep"})
-                if (name == effort) set(name, value);
-        }
-        ++count_;
-        for (auto& [name, column] : columns_) column.resize(count_, std::numeric_limits<double>::quiet_NaN());
+/// Those of a cloth, under its own names, and those of a frame's effort, which is all cloths'.
+FrameValues numbers_of(const FrameValues& values, const std::string& label) {
+    const std::string own = label + "/";
+    FrameValues numbers;
+    for (const auto& [name, value] : values) {
+        if (name.starts_with(own)) numbers[name.substr(own.size())] = value;
+        for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "asleep"})
+            if (name == effort) numbers[name] = value;
     }
-
-    const std::map<std::string, std::vector<double>>& columns() const { return columns_; }
-
-  private:
-    void set(const std::string& name, double value) {
-        columns_[name].resize(count_, std::numeric_limits<double>::quiet_NaN());
-        columns_[name].push_back(value);
-    }
-
-    std::size_t count_ = 0;
-    std::map<std::string, std::vector<double>> columns_;
-};
+    return numbers;
+}
 
 template <class T>
 std::string list_array(const char* type, const std::vector<T>& values) {
@@ -57,7 +41,7 @@ std::string list_array(const char* type, const std::vector<T>& values) {
 class NpzFile {
   public:
     NpzFile(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)
-        : folder_(folder), run_(run), cloth_(cloth) {
+        : folder_(folder), run_(run), cloth_(cloth), numbers_(folder) {
         for (std::size_t i = 0; i < particle_arrays.size(); ++i) {
             const ParticleArray& array = *particle_arrays[i];
             waiting_[i] = std::make_unique<NpyWriter>(folder, cloth_file_name(waiting_stem(array), cloth, "npz"),
@@ -72,9 +56,7 @@ class NpzFile {
         waiting_[0]->append_frame_xyzw(frame.positions[cloth]);
         waiting_[1]->append_frame_xyzw(frame.velocities[cloth]);
         waiting_[2]->append_bytes(std::as_bytes(frame.contacts[cloth]));
-        frames_.push_back(frame.number);
-        times_.push_back(frame.number / run_.fps);
-        numbers_.add(frame.values, cloth_.label);
+        numbers_.add(frame.number, numbers_of(frame.values, cloth_.label));
     }
 
     void set_faces(std::uint32_t frame, const std::vector<std::uint32_t>& faces) {
@@ -88,9 +70,13 @@ class NpzFile {
         archive.add("faces.npy", face_array(cloth_.faces));
         for (const auto& [name, array] : cut_faces_) archive.add(name, array);
         archive.add("uv.npy", uv_array());
-        archive.add("frames.npy", list_array("<i8", frames_));
-        archive.add("times.npy", list_array("<f8", times_));
-        for (const auto& [name, column] : numbers_.columns()) archive.add(name + ".npy", list_array("<f8", column));
+        const std::vector<std::uint32_t> numbers = numbers_.frames();
+        archive.add("frames.npy", list_array("<i8", std::vector<std::int64_t>(numbers.begin(), numbers.end())));
+        std::vector<double> times;
+        for (const std::uint32_t number : numbers) times.push_back(number / run_.fps);
+        archive.add("times.npy", list_array("<f8", times));
+        for (const std::string& name : numbers_.names())
+            archive.add(name + ".npy", list_array("<f8", numbers_.column(name)));
         const std::int64_t seed = run_.seed;
         archive.add("seed.npy", npy_array("<i8", "", std::as_bytes(std::span(&seed, 1))));
         archive.add("parameters.npy", text_array(run_.parameters));
@@ -111,9 +97,7 @@ class NpzFile {
     WrittenCloth cloth_;
     std::array<std::unique_ptr<NpyWriter>, particle_arrays.size()> waiting_;
     std::vector<std::pair<std::string, std::string>> cut_faces_;  ///< name, array
-    std::vector<std::int64_t> frames_;
-    std::vector<double> times_;  ///< s
-    FrameNumbers numbers_;
+    FrameTable numbers_;
 };
 
 class NpzFiles : public FrameWriter {

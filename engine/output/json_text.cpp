@@ -88,6 +88,12 @@ std::string json_text(const Json::Value& value) {
     return text + "\n";
 }
 
+std::string json_text(const Json::Value& value, std::size_t indentation) {
+    std::string text;
+    append_value(text, value, "", indentation, indentation);
+    return text;
+}
+
 std::string json_line(const Json::Value& value) { return one_line(value, ""); }
 
 }  // namespace drape

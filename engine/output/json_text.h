@@ -11,6 +11,9 @@ namespace drape {
 // for all numbers). Ends with a newline. Throws OutputError naming the key when a double is not finite.
 std::string json_text(const Json::Value& value);
 
+// The same of a value in another whose lines it begins with so many spaces, without the newline.
+std::string json_text(const Json::Value& value, std::size_t indentation);
+
 // The same on one line, without the newline.
 std::string json_line(const Json::Value& value);
 

@@ -13,6 +13,8 @@ namespace drape {
 
 namespace {
 
+constexpr std::size_t write_size = std::size_t{1} << 16;
+
 Json::Value texts(const std::vector<std::string>& values) {
     Json::Value array(Json::arrayValue);
     for (const std::string& value : values) array.append(value);
@@ -65,18 +67,14 @@ Json::Value files_json(const std::vector<FileRecord>& files) {
     return array;
 }
 
-Json::Value statistics_json(const std::vector<Manifest::FrameStatistics>& statistics) {
-    Json::Value array(Json::arrayValue);
-    for (const auto& [frame, values] : statistics) {
-        Json::Value json;
-        json["frame"] = Json::Int64(frame);
-        for (const auto& [name, value] : values) {
-            if (name == "frame") throw OutputError("manifest: a statistic may not be named 'frame'");
-            json[name] = number(value, fmt::format("statistic '{}' of frame {}", name, frame));
-        }
-        array.append(std::move(json));
+Json::Value statistics_json(const Manifest::FrameStatistics& statistics) {
+    Json::Value json;
+    json["frame"] = Json::Int64(statistics.frame);
+    for (const auto& [name, value] : statistics.values) {
+        if (name == "frame") throw OutputError("manifest: a statistic may not be named 'frame'");
+        json[name] = number(value, fmt::format("statistic '{}' of frame {}", name, statistics.frame));
     }
-    return array;
+    return json;
 }
 
 Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
@@ -208,7 +206,8 @@ Json::Value solver_json(const Manifest::Solver& solver) {
     return json;
 }
 
-std::string manifest_json(const Manifest& manifest) {
+/// All but the statistics, which are an empty array.
+Json::Value frameless_json(const Manifest& manifest) {
     Json::Value json;
     json["format"] = std::string(manifest_format);
     json["program_version"] = manifest.program_version;
@@ -237,15 +236,40 @@ std::string manifest_json(const Manifest& manifest) {
     json["warnings"] = Json::Value(Json::arrayValue);
     for (const std::string& warning : manifest.warnings) json["warnings"].append(warning);
     json["files"] = files_json(manifest.files);
-    json["statistics"] = statistics_json(manifest.statistics);
+    json["statistics"] = Json::Value(Json::arrayValue);
     json["run"] = run_json(manifest);
-    return json_text(json);
+    return json;
+}
+
+void put_manifest(const Manifest& manifest, const std::function<void(std::string_view)>& append) {
+    const std::string text = json_text(frameless_json(manifest));
+    const std::string_view whole(text), array = "\n  \"statistics\": [";
+    const std::size_t inside = whole.find(array) + array.size();
+    append(whole.substr(0, inside));
+    bool any = false;
+    const auto put = [&](const Manifest::FrameStatistics& statistics) {
+        append((any ? ",\n    " : "\n    ") + json_text(statistics_json(statistics), 4));
+        any = true;
+    };
+    if (manifest.statistics) manifest.statistics(put);
+    if (any) append("\n  ");
+    append(whole.substr(inside));
 }
 
 void write_manifest(OutputFolder& folder, const Manifest& manifest) {
-    const std::string text = manifest_json(manifest);
     folder.sync();  // "done" must not reach the disk before the names of the files it lists
-    write_file(folder, std::string(manifest_file_name), bytes_of(text));
+    AtomicFile file(folder, std::string(manifest_file_name));
+    std::string waiting;
+    const auto write = [&] {
+        file.append(bytes_of(waiting));
+        waiting.clear();
+    };
+    put_manifest(manifest, [&](std::string_view piece) {
+        waiting += piece;
+        if (waiting.size() > write_size) write();
+    });
+    write();
+    file.commit();
     folder.sync();
 }
 

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drape/error.h"
@@ -95,6 +97,7 @@ struct Manifest {
         std::int64_t frame = 0;
         FrameValues values;  // names carry the unit where there is one: "kinetic_energy_j"
     };
+    using FrameVisitor = std::function<void(const FrameStatistics&)>;
 
     std::string program_version;
     // "diverged", "tolerance missed": ended before its end, with what came before, or went on as it was asked to;
@@ -116,7 +119,8 @@ struct Manifest {
     std::optional<SelfCollision> self_collision;
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
-    std::vector<FrameStatistics> statistics;
+    // Calls the visitor for every frame, in order: of a long run they are not all in memory. Null: there are none.
+    std::function<void(const FrameVisitor&)> statistics;
 
     // Under "run":
     std::string created;  // utc_timestamp()
@@ -131,9 +135,10 @@ std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double>
 // "2024-05-31T12:00:00Z"
 std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chrono::system_clock::now());
 
-// UTF-8 JSON; doubles with the fewest digits that read back as the same double. Throws OutputError naming the
-// number when one is not finite (JSON has no such numbers, and a run that has one is not done).
-std::string manifest_json(const Manifest& manifest);
+// UTF-8 JSON, handed to `append` piece by piece; doubles with the fewest digits that read back as the same double.
+// Throws OutputError naming the number when one is not finite (JSON has no such numbers, and a run that has one is not
+// done).
+void put_manifest(const Manifest& manifest, const std::function<void(std::string_view)>& append);
 
 // Writes manifest.json after all files of the run have reached the disk. Throws OutputError.
 void write_manifest(OutputFolder& folder, const Manifest& manifest);

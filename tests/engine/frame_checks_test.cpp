@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "output/temporary_folder.h"
 #include "run_statistics.h"
 #include "support/sheets.h"
 
@@ -57,7 +60,9 @@ TEST(FrameChecks, TheToleranceIsTheScenesAndEveryCloths) {
 
 TEST(RunStatisticsTest, TheWorstIsTheLargestOfAnyClothAndFrame) {
     const SceneDescription scene = two_sheets();
-    RunStatistics run;
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary / "out");
+    RunStatistics run(&folder);
     const auto add = [&](std::uint32_t number, double first, double second) {
         FinishedFrame frame;
         frame.frame = number;
@@ -67,20 +72,42 @@ TEST(RunStatisticsTest, TheWorstIsTheLargestOfAnyClothAndFrame) {
             frame.statistics[k].stretch_error_rms = k == 0 ? first : second;
             frame.statistics[k].penetration = k == 0 ? first : second;
         }
-        run.add(number, frame_values(scene, frame));
+        const FrameValues values = frame_values(scene, frame);
+        run.add(number, values);
+        return run.note(values);
     };
-    add(0, 0.01, 0.03);
-    add(1, 0.05, 0.02);
+    EXPECT_THAT(add(0, 0.01, 0.03), HasSubstr("stretch error 3 % RMS"));
+    EXPECT_THAT(add(1, 0.05, 0.02), AllOf(HasSubstr("stretch error 5 % RMS"), HasSubstr("penetration 50 mm")));
     add(2, 0.01, 0.01);
-    add(3, 0, 0);
-    add(4, 0, 5e-7);
+    EXPECT_THAT(add(3, 0, 0), HasSubstr("no penetration"));
+    EXPECT_THAT(add(4, 0, 5e-7), HasSubstr("penetration below 0.001 mm"));
     EXPECT_EQ(run.worst_of_run("/stretch_error_rms"), 0.05);
-    EXPECT_THAT(run.note(0), HasSubstr("stretch error 3 % RMS"));
-    EXPECT_THAT(run.note(1), HasSubstr("stretch error 5 % RMS"));
-    EXPECT_THAT(run.note(1), HasSubstr("penetration 50 mm"));
-    EXPECT_THAT(run.note(3), HasSubstr("no penetration"));
-    EXPECT_THAT(run.note(4), HasSubstr("penetration below 0.001 mm"));
-    EXPECT_EQ(run.frames()[1].values.at("penetration_m"), 0.05);
+    std::vector<double> depths;
+    run.for_each_frame([&](const auto& each) { depths.push_back(each.values.at("penetration_m")); });
+    EXPECT_THAT(depths, testing::ElementsAre(0.03, 0.05, 0.01, 0, 5e-7));
+}
+
+// Frames of an earlier run come first, then those between: the drift is from the first of all.
+TEST(RunStatisticsTest, EnergyDriftIsFromTheFirstFrameThatThereIs) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary / "out");
+    RunStatistics run(&folder);
+    run.add(3, {{"energy_j", 7}});
+    run.add(1, {{"energy_j", 5}});
+    run.add(2, {{"energy_j", 4}, {"motion_unpredictable", 1}, {"motion_error_m_s", 0.5}});
+    std::vector<std::pair<std::int64_t, double>> drifts;
+    run.for_each_frame([&](const auto& each) { drifts.emplace_back(each.frame, each.values.at("energy_drift_j")); });
+    EXPECT_THAT(drifts, testing::ElementsAre(std::pair(1, 0.0), std::pair(2, -1.0), std::pair(3, 2.0)));
+    EXPECT_THAT(run.unpredictable().value_or(""), HasSubstr("in 1 of 3 frames, from frame 2 on"));
+    EXPECT_THAT(run.note({{"energy_j", 6}}), HasSubstr("energy +1 J since frame 1"));
+}
+
+// A stream has no manifest.
+TEST(RunStatisticsTest, WithoutAFolderOnlyTheWorstIsKept) {
+    RunStatistics run(nullptr);
+    run.add(0, {{"sheet/stretch_error_rms", 0.5}});
+    EXPECT_EQ(run.worst_of_run("/stretch_error_rms"), 0.5);
+    run.for_each_frame([](const auto&) { ADD_FAILURE(); });
 }
 
 }  // namespace

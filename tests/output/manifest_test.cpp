@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 #include <json/json.h>
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 #include <sstream>
+#include <utility>
 
 #include "output/json_text.h"
 #include "temporary_folder.h"
@@ -16,6 +19,18 @@ namespace drape {
 namespace {
 
 using testing::HasSubstr;
+
+using Rows = std::vector<Manifest::FrameStatistics>;
+
+std::function<void(const Manifest::FrameVisitor&)> listed(Rows rows) {
+    return [rows = std::move(rows)](const Manifest::FrameVisitor& take) { std::ranges::for_each(rows, take); };
+}
+
+std::string manifest_json(const Manifest& manifest) {
+    std::string text;
+    put_manifest(manifest, [&](std::string_view piece) { text += piece; });
+    return text;
+}
 
 Manifest example() {
     Manifest manifest;
@@ -31,8 +46,8 @@ Manifest example() {
     manifest.warnings = {"the scene ends at frame 239: --end 300 is clamped"};
     manifest.compromises = {{"flag/stiffness", "80 of 100 N/m", 23}, {"flag/bending", "none", 0}};
     manifest.files = {{"frame_0000.png", 12345678901, "00ff"}, {"frame_0002.png", 1, "11ff"}};
-    manifest.statistics = {{0, {{"kinetic_energy", 0.0}, {"max_stretch", 1.0625}}},
-                           {2, {{"kinetic_energy", 1e-300}, {"max_stretch", 0.1}}}};
+    manifest.statistics = listed({{0, {{"kinetic_energy", 0.0}, {"max_stretch", 1.0625}}},
+                                  {2, {{"kinetic_energy", 1e-300}, {"max_stretch", 0.1}}}});
     manifest.created = "2024-05-31T12:00:00Z";
     manifest.command_line = {"drape", "render", "scenes/flag.json"};
     manifest.frame_time = Manifest::FrameTime{33.5, 30, 120.25};
@@ -108,6 +123,28 @@ TEST(Manifest, Golden) {
     EXPECT_EQ(parse(golden)["scene"]["name"].asString(), "flag \"red\"\n");
 }
 
+TEST(Manifest, WithoutFramesTheStatisticsAreAnEmptyArray) {
+    Manifest manifest = example();
+    for (const auto& none : {listed({}), decltype(manifest.statistics)()}) {
+        manifest.statistics = none;
+        const Json::Value json = parse(manifest_json(manifest));
+        EXPECT_TRUE(json["statistics"].isArray());
+        EXPECT_EQ(json["statistics"].size(), 0u);
+        EXPECT_EQ(json["run_key"], "00112233445566778899aabbccddeeff");
+    }
+}
+
+// What a program's text says of itself must not be taken for the place of the statistics.
+TEST(Manifest, TextThatLooksLikeTheStatisticsIsText) {
+    Manifest manifest = example();
+    const std::string mark = "\n  \"statistics\": [";
+    manifest.failure = manifest.scene.name = mark;
+    manifest.command_line = {mark};
+    const Json::Value json = parse(manifest_json(manifest));
+    EXPECT_EQ(json["failure"].asString(), mark);
+    EXPECT_EQ(json["statistics"].size(), 2u);
+}
+
 TEST(Manifest, TimesAndCommandLineTouchOnlyTheRunKey) {
     Manifest other = example();
     other.created = "2031-01-01T00:00:00Z";
@@ -125,7 +162,7 @@ TEST(Manifest, TimesAndCommandLineTouchOnlyTheRunKey) {
 TEST(Manifest, RefusesNumbersThatAreNone) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Manifest manifest = example();
-        manifest.statistics[1].values["max_stretch"] = value;
+        manifest.statistics = listed({{2, {{"max_stretch", value}}}});
         EXPECT_THAT(error_text<OutputError>([&] { manifest_json(manifest); }),
                     HasSubstr("statistic 'max_stretch' of frame 2 is not a finite number"));
         manifest = example();
@@ -136,7 +173,7 @@ TEST(Manifest, RefusesNumbersThatAreNone) {
         EXPECT_THROW(manifest_json(manifest), OutputError);
     }
     Manifest manifest = example();
-    manifest.statistics[0].values["frame"] = 3;
+    manifest.statistics = listed({{0, {{"frame", 3}}}});
     EXPECT_THROW(manifest_json(manifest), OutputError);
 }
 
@@ -197,7 +234,7 @@ TEST(Manifest, AnUnwritableNumberLeavesNoFile) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary.path());
     Manifest manifest = example();
-    manifest.statistics[0].values["x"] = std::numeric_limits<double>::infinity();
+    manifest.statistics = listed({{0, {{"x", 1}}}, {1, {{"x", std::numeric_limits<double>::infinity()}}}});
     EXPECT_THROW(write_manifest(folder, manifest), OutputError);
     EXPECT_TRUE(names_in(temporary.path()).empty());
 }

@@ -46,9 +46,10 @@ void simulate(const Device& device, const StabilityCase& each, const SceneDescri
     result.method = simulation.facts().method;
     bool is_over = false;
     const auto finished = [&](const FinishedFrame& frame) {
+        if (is_over) return;  // one that was under way already
         judge_of_run.see(frame);
         // Random scenes are run to their end; others until what disturbed them is over.
-        is_over = is_over || (!each.random && frame.frame >= each.frames && judge_of_run.recovered());
+        is_over = !each.random && frame.frame >= each.frames && judge_of_run.recovered();
     };
     try {
         const bool complete = simulation.run(
