@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <ranges>
 
 namespace drape {
 
@@ -140,8 +139,9 @@ std::vector<double> FrameTable::column(const std::string& name) const {
 }
 
 std::vector<std::string> FrameTable::names() const {
-    const auto keys = std::views::keys(columns_);
-    return {keys.begin(), keys.end()};
+    std::vector<std::string> all;
+    for (const auto& [name, column] : columns_) all.push_back(name);
+    return all;
 }
 
 }  // namespace drape
