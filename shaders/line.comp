@@ -213,10 +213,9 @@ float eliminate_springs(Line line) {
         LineSpring spring_before = spring_between(line, before, moved_before, first, moved_first);
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
         float share = share_of(line, first.at), tension = filtered_tension_of(line, first, second, spring);
-        largest = larger_violation(largest, spring, share, tension);
+        largest = larger_violation(largest, spring, share, line.compression, tension);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w, acting_share(share, line.compression, spring.excess),
-                                      line.compliance, tension);
+                                      second.position.w, share, line.compression, line.compliance, tension);
         STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
         STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
         normal_after = spring.normal;
@@ -248,8 +247,8 @@ void substitute_springs(Line line) {
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
         STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
-        float acting = acting_share(share_of(line, first.at), line.compression, spring.excess);
-        float tension = changed_tension(delta.w, change, acting, line.compliance);
+        float tension =
+            changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
         if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));
         change_before = change;
         normal_before = normal;

@@ -110,9 +110,8 @@ void eliminate_line(NestedLine line) {
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
         float tension = tension_in_use(load_tension(line.direction, first.at), line.followed);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w,
-                                      acting_share(share_of(line, first), line.compression, spring.excess),
-                                      line.compliance, tension);
+                                      second.position.w, share_of(line, first), line.compression, line.compliance,
+                                      tension);
         STORE_VECTOR(rows_out, first.at, vec4(eliminated, tension, 0.0f));
         normal_after = spring.normal;
         spring = spring_before;
@@ -137,8 +136,7 @@ void substitute_line(NestedLine line) {
         vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
         STORE_VECTOR(displacement_out, first.at, vec4(moved, first.displacement.w));
         float share = share_of(line, first);
-        float acting = acting_share(share, line.compression, spring.excess);
-        float tension = changed_tension(row.z, change, acting, line.compliance);
+        float tension = changed_tension(row.z, change, share, line.compliance);
         // The spring across the box's seam is not the box's.
         if (has_spring && share > 0.0f) store_tension(line.direction, first.at, stored_tension(tension, line.followed));
         change_before = change;

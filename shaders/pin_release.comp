@@ -62,7 +62,7 @@ vec3 pull_of_springs(ivec2 texel) {
         ivec2 owner = around.w == 1 ? texel : there;
         precise float stiffness =
             push.relative_stiffness[around.z] * share_of(owner, around.xy, around.z);
-        sum = add_tension_pull(sum, edge, tension_at(owner, around.z), stiffness, push.compression);
+        sum = add_tension_pull(sum, edge, tension_at(owner, around.z), stiffness);
     }
     return sum;
 }

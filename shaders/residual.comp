@@ -32,7 +32,7 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
 #endif
     vec3 edge = spring_edge(imageLoad(position, first).xyz, imageLoad(position, second).xyz,
                             imageLoad(displacement, first).xyz, imageLoad(displacement, second).xyz);
-    return add_residual(record, edge, rest_length, share, tension);
+    return add_residual(record, edge, rest_length, share, push.compression, tension);
 }
 
 void main() {

@@ -17,7 +17,7 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D tension_column;
 float tension_to(ivec2 first, ivec2 second, float rest_length, float used_share) {
     precise vec3 edge = LOAD(position, second).xyz - LOAD(position, first).xyz;
     precise vec3 closing = LOAD(displacement, second).xyz - LOAD(displacement, first).xyz;
-    return gathered_tension(edge, closing, rest_length, used_share, push.strain_damping);
+    return gathered_tension(edge, closing, rest_length, used_share, push.compression, push.strain_damping);
 }
 
 void main() {

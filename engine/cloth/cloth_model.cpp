@@ -45,7 +45,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
         return static_cast<float>(stiffness_constant.spring[direction] > 0 ? stiffness_constant.rest_length[direction]
                                                                            : 0);
     };
-    residual = {grid.size(), {rest_length(0), rest_length(1)}};
+    residual = {grid.size(), {rest_length(0), rest_length(1)}, compression};
     const Wind& w = scene.wind;
     wind = {grid.size(),
             0,

@@ -62,7 +62,7 @@ MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& setti
                              {static_cast<float>(wanted.rest_length[0]), static_cast<float>(wanted.rest_length[1])},
                              {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
                              static_cast<float>(settings.strain_damping),
-                             0};
+                             cloth.compression};
     plan.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
                            used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
     plan.used_bend = used.bend_share * cloth.bend;

@@ -21,7 +21,7 @@ void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         constants);
     const glsl::PinPush pins = pin_push(state, step);
     const glsl::ReleasePush push{plan.release_stiffness, state.model->grid.size(), pins.particle_count,
-                                 pins.motion_first,      state.model->reach(),     state.model->compression};
+                                 pins.motion_first, state.model->reach()};
     graph.add_pass(
         state.step_name("pin release", step),
         [&](graph::PassSetup& setup) {

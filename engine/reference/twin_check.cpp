@@ -29,7 +29,7 @@ ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model
                                   xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b]));
     return add_residual(record, edge, channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y,
                         state.topology.masked() ? component(state.topology.spring_shares()[a], channel) : 1.0f,
-                        state.tension(static_cast<std::size_t>(channel))[a]);
+                        model.residual.compression, state.tension(static_cast<std::size_t>(channel))[a]);
 }
 
 ResidualRecord strip(const ClothModel& model, const TwinCloth& state, ivec2 first) {

@@ -127,7 +127,7 @@ void Twin::tension(std::size_t index) {
         const std::size_t a = at(grid, first), b = at(grid, second);
         return gathered_tension(xyz(state[Field::position][b]) - xyz(state[Field::position][a]),
                                 xyz(state[Field::displacement][b]) - xyz(state[Field::displacement][a]), rest_length,
-                                used_share, push.strain_damping);
+                                used_share, push.compression, push.strain_damping);
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {

@@ -83,9 +83,6 @@ struct LineView {
         return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
                                        : border_share(particles[e], push.step, push.grid);
     }
-    float acting(std::size_t e, const LineSpring& spring) const {
-        return acting_share(share(e), push.compression, spring.excess);
-    }
     float last_tension(std::size_t e, float followed) const {
         return tension_in_use(state.tension(static_cast<std::size_t>(push.channel))[index(e)], followed);
     }
@@ -159,9 +156,9 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     for (std::size_t e = springs.size(); e-- > 0;) {
         const vec3 before = e > 0 ? springs[e - 1].normal : vec3{0, 0, 0};
         const float share = line.share(e);
-        largest = larger_violation(largest, springs[e], share, line.tension[e]);
-        previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1),
-                                    line.acting(e, springs[e]), compliance, line.tension[e]);
+        largest = larger_violation(largest, springs[e], share, line.push.compression, line.tension[e]);
+        previous = eliminate_spring(previous, before, springs[e], after, line.weight(e), line.weight(e + 1), share,
+                                    line.push.compression, compliance, line.tension[e]);
         eliminated[e] = previous;
         after = springs[e].normal;
     }
@@ -200,8 +197,8 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
             const std::size_t i = line.index(p);
             state.move_to(i, moved_by_both(line.displacement(p), line.delta[p], correction, line.weight(p)));
             if (!is_last)
-                stored[i] = stored_tension(
-                    changed_tension(line.tension[p], change[p], line.acting(p, springs[p]), compliance), followed);
+                stored[i] =
+                    stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
         }
     }
 }

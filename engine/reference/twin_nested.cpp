@@ -44,9 +44,8 @@ struct NestedLine {
         for (std::size_t e = count; e-- > 0;)
             eliminated[e] = previous =
                 eliminate_spring(previous, e > 0 ? springs[e - 1].normal : none, springs[e],
-                                 e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1),
-                                 acting_share(share(e), push.compression, springs[e].excess), compliance,
-                                 tension_in_use(stored(e), followed));
+                                 e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
+                                 push.compression, compliance, tension_in_use(stored(e), followed));
         float before = 0;
         for (std::size_t p = 0; p <= count; ++p) {
             const float change = p < count ? substitute_spring(eliminated[p], before) : 0.0f;
@@ -54,9 +53,8 @@ struct NestedLine {
                                                     p < count ? springs[p].normal : none, change);
             state.move_to(index(p), moved_by(xyz(state[Field::displacement][index(p)]), correction, weight(p)));
             if (p < count && share(p) > 0.0f) {
-                const float acting = acting_share(share(p), push.compression, springs[p].excess);
-                stored(p) = stored_tension(
-                    changed_tension(tension_in_use(stored(p), followed), change, acting, compliance), followed);
+                const float tension = tension_in_use(stored(p), followed);
+                stored(p) = stored_tension(changed_tension(tension, change, share(p), compliance), followed);
             }
             before = change;
         }

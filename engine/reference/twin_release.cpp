@@ -27,7 +27,7 @@ vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here
         const float share = state.topology.masked() ? component(state.topology.spring_shares()[i], around.z)
                                                     : border_share(owner, offset, model.grid.size());
         sum = add_tension_pull(sum, edge, state.tension(static_cast<std::size_t>(around.z))[i],
-                               component(model.plan.release_stiffness, around.z) * share, model.compression);
+                               component(model.plan.release_stiffness, around.z) * share);
     }
     return sum;
 }

@@ -44,14 +44,16 @@ SHARED vec3 add_pull(vec3 sum, vec3 pull) {
     return total;
 }
 
-/// Tension of one stretch spring as the extension (m) that it would cause at the stiffness asked for, of which the
+/// Tension of one stretch spring as an extension (m) of the whole stiffness asked for (spring.h), of which the
 /// micro-step uses `used_share`; its strain-rate damping included.
-SHARED float gathered_tension(vec3 edge, vec3 closing, float rest_length, float used_share, float strain_damping) {
+SHARED float gathered_tension(vec3 edge, vec3 closing, float rest_length, float used_share, float compression,
+                              float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);
     if (!(length_squared > 0.0f)) return 0.0f;
     precise float current = sqrt(length_squared);
     precise float rate = strain_damping * (ordered_dot(closing, edge) / current);
-    precise float tension = used_share * ((current - rest_length) + rate);
+    precise float excess = current - rest_length;
+    precise float tension = acting_share(used_share, compression, excess) * (excess + rate);
     return tension;
 }
 

@@ -108,8 +108,8 @@ SHARED bool pulls(LineSpring spring, float share) {
 
 /// |C - T| (m), what the solve is asked to take back, or `largest` where that is more. At a lone pin of a fine grid C
 /// alone is large at rest, and no error: the spring's tension explains it.
-SHARED float larger_violation(float largest, LineSpring spring, float share, float tension) {
-    precise float unexplained = abs(spring.excess - tension);
+SHARED float larger_violation(float largest, LineSpring spring, float share, float compression, float tension) {
+    precise float unexplained = abs(balancing_tension(spring.excess, compression) - tension);
     return pulls(spring, share) && unexplained > largest ? unexplained : largest;
 }
 
@@ -122,16 +122,18 @@ SHARED bool line_is_wrong(float largest, float rest_length) {
 /// Elimination of row e of the second system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
 ///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1),
-/// every row times s = `share` (acting_share, in [0, 1]; 0 = no spring: x_e = 0). It starts at the line's end, where
+/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0), of a spring pushed together with c of it left of
+/// its stiffness (`compression`; C stands for f(C), project_spring). It starts at the line's end, where
 /// the first system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' -
-/// a' x_(e-1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T = -alpha
-/// lambda/s as in project_spring, m.
+/// a' x_(e-1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
-                             float weight_first, float weight_second, float share, float compliance, float tension) {
-    precise float before = -(share * weight_first) * ordered_dot(normal_before, spring.normal);
-    precise float after = -(share * weight_second) * ordered_dot(spring.normal, normal_after);
-    precise float diagonal = share * (weight_first + weight_second) + compliance;
-    precise float right = -(share * (spring.excess - tension));
+                             float weight_first, float weight_second, float share, float compression, float compliance,
+                             float tension) {
+    float acting = acting_share(share, compression, spring.excess);
+    precise float before = -(acting * weight_first) * ordered_dot(normal_before, spring.normal);
+    precise float after = -(acting * weight_second) * ordered_dot(spring.normal, normal_after);
+    precise float diagonal = acting * (weight_first + weight_second) + compliance;
+    precise float right = -(share * (balancing_tension(spring.excess, compression) - tension));
     precise float pivot = diagonal - after * previous.x;
     precise float lower = before / pivot;
     precise float reduced = (right - after * previous.y) / pivot;

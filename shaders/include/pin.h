@@ -43,12 +43,12 @@ SHARED float release_mark(float surplus) {
     return mark;
 }
 
-/// `sum` plus a spring's pull on the particle that `edge` starts from: `tension` as the extension that would balance
-/// it, `stiffness` k h^2/m_inner, of which a spring that pushes has `compression`.
-SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness, float compression) {
+/// `sum` plus a spring's pull on the particle that `edge` starts from: `tension` as an extension of its whole
+/// `stiffness` k h^2/m_inner.
+SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness) {
     precise float squared = ordered_dot(edge, edge);
     if (!(squared > 0.0f)) return sum;
-    precise vec3 total = sum + edge * (acting_share(stiffness, compression, tension) * tension / sqrt(squared));
+    precise vec3 total = sum + edge * (stiffness * tension / sqrt(squared));
     return total;
 }
 

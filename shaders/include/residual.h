@@ -2,6 +2,7 @@
 #ifndef DRAPE_RESIDUAL_H
 #define DRAPE_RESIDUAL_H
 
+#include "include/spring.h"
 #include "include/vector.h"
 #include "shared/residual_types.h"
 
@@ -12,12 +13,15 @@ SHARED ResidualRecord joined(ResidualRecord a, ResidualRecord b) {
     return ResidualRecord(squares, a.count + b.count);
 }
 
-/// `record` plus a stretch spring of length |edge|: (|edge| - rest_length - tension)/rest_length, what a perfect solve
-/// makes zero (spring.h). `share` of its stiffness, 0: no such spring.
-SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_length, float share, float tension) {
+/// `record` plus a stretch spring of length |edge|: (f(|edge| - rest_length) - tension)/rest_length, what a perfect
+/// solve makes zero (spring.h). `share` of its stiffness, 0: no such spring, of which `compression` where it is pushed
+/// together.
+SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_length, float share, float compression,
+                                   float tension) {
     if (!(rest_length > 0.0f) || !(share > 0.0f)) return record;
     precise float current = sqrt(ordered_dot(edge, edge));
-    precise float error = ((current - rest_length) - tension) / rest_length;
+    precise float excess = current - rest_length;
+    precise float error = (balancing_tension(excess, compression) - tension) / rest_length;
     precise float squares = record.squares + error * error;
     return ResidualRecord(squares, record.count + 1u);
 }

@@ -42,18 +42,27 @@ SHARED float acting_share(float share, float compression, float excess) {
     return excess < 0.0f ? pushed : share;
 }
 
+/// What balances a spring that is extended by so much (m): a tension, as an extension of its whole stiffness. So it
+/// means the same on both sides of the rest length. (Where it is taken for an extension of what acts there, a spring
+/// that snaps gives 1/compression times what it took, and the cloth explodes.)
+SHARED float balancing_tension(float excess, float compression) {
+    precise float pushed = excess * compression;
+    return excess < 0.0f ? pushed : excess;
+}
+
 struct SpringResult {
     vec3 correction;  // to be added to the second particle times its w, subtracted from the first times its w
-    float tension;    // m: extension that would balance the tension applied so far
+    float tension;    // m: of the spring so far, as an extension of its whole stiffness
 };
 
 /// `edge` = second - first, metres; `weight_sum` = w_first + w_second (relative inverse masses); `share`
-/// in [0, 1] scales the spring's stiffness, 0 = no spring, and so does `compression` where it is pushed together;
+/// in [0, 1] scales the spring's stiffness, 0 = no spring, and so does `compression` c where it is pushed together;
 /// `compliance` = m_inner / (k h^2), 0 = rigid.
-/// `tension`: the XPBD multiplier lambda as the extension that would balance it, T = -a lambda/s, m. In place of lambda
-/// it means the same to every solver: C - T is what a perfect solve makes zero. delta lambda = -s (C - T) /
-/// (s (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that s = 0 is no division by
-/// zero. A rigid spring between two fixed particles, and one of zero length (no direction), are left alone.
+/// `tension`: the XPBD multiplier lambda as T = -a lambda/s, m. In place of lambda it means the same to every solver:
+/// f(C) - T is what a perfect solve makes zero, f(C) = C, or c C where C < 0 (balancing_tension). delta lambda =
+/// -s (f(C) - T) / (s f'(C) (w1 + w2) + a): eq. 18 with compliance a/s, numerator and denominator times s, so that
+/// s = 0 is no division by zero. A rigid spring between two fixed particles, and one of zero length
+/// (no direction), are left alone.
 SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_length, float share, float compression,
                                    float compliance, float tension) {
     precise float length_squared = ordered_dot(edge, edge);
@@ -62,8 +71,8 @@ SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_lengt
     float acting = acting_share(share, compression, excess);
     precise float denominator = acting * weight_sum + compliance;
     if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
-    precise float residual = excess - tension;
-    precise float change = -(acting * residual) / denominator;
+    precise float residual = balancing_tension(excess, compression) - tension;
+    precise float change = -(share * residual) / denominator;
     precise vec3 correction = edge * (change / current);
     precise float updated = tension + compliance * (residual / denominator);
     return SpringResult(correction, updated);

@@ -82,9 +82,9 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float 
 
 /// A particle's `record` plus the spring from it to another; `first` is finite. `rest_length`, m, and the spring's
 /// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m, of which springs pushed together have
-/// `compression`. Shear belongs to the diagonals. `tension`:
-/// extension (m) that the tension applied to the spring would cause; what it has beyond that, over its rest length, is
-/// the stretch error, which a perfect solver makes zero. Of shear springs it is not asked.
+/// `compression`. Shear belongs to the diagonals. `tension`: applied to the spring, as an extension of its whole
+/// stiffness (m); what would balance the spring beyond that, over its rest length, is the stretch error, which a
+/// perfect solver makes zero. Of shear springs it is not asked.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
                                           float half_stiffness, float share, float compression, float tension,
                                           bool shear) {
@@ -103,7 +103,7 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
         record.counts.w += 1u;
         return record;
     }
-    precise float error = (extension - tension) / rest_length;
+    precise float error = (balancing_tension(extension, compression) - tension) / rest_length;
     precise float squared_error = error * error;
     record.errors = ordered_sum(record.errors, vec4(squared_error, -0.0f, -0.0f, -0.0f));
     record.places.w = place_of_larger(record.extents.w, abs(error), record.places.w, record.places.x);

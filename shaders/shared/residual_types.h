@@ -16,8 +16,9 @@ const int residual_rows = 8;
 const int iteration_size_count = 16;
 
 struct ResidualPush {
-    ivec2 grid;        // columns, rows
-    vec2 rest_length;  // m, along a row, along a column; 0: no such springs
+    ivec2 grid;         // columns, rows
+    vec2 rest_length;   // m, along a row, along a column; 0: no such springs
+    float compression;  // share of a spring's stiffness where it is pushed together
 };
 
 struct IterationPush {

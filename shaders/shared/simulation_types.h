@@ -99,9 +99,8 @@ struct ReleasePush {
     vec4 relative_stiffness;  // k h^2/m_inner by direction, of springs whose tension is stored
     ivec2 grid;
     int particle_count;
-    int motion_first;   // first motion of this substep
-    float reach;        // the cloth's diagonal, m
-    float compression;  // share of a spring's stiffness where it is pushed together
+    int motion_first;  // first motion of this substep
+    float reach;       // the cloth's diagonal, m
 };
 
 /// Of the stretch springs: along a row (x), along a column (y).
@@ -110,7 +109,7 @@ struct TensionPush {
     vec2 rest_length;      // m; 0: no springs
     vec2 used_share;       // of the stiffness asked for that the micro-step uses
     float strain_damping;  // kappa
-    float unused;
+    float compression;     // share of a spring's stiffness where it is pushed together
 };
 
 struct GridPush {

@@ -123,12 +123,13 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
                 strain.rms += value * value;
                 strain.largest = std::max(strain.largest, value);
                 strain.smallest = std::min(strain.smallest, value);
+                const double acting = length < rest ? stiffness.compression : 1;
                 if (family == SpringFamily::stretch) {
-                    const double error = value - state.tension(direction)[at(model.grid, {column, row})] / rest;
+                    const double error =
+                        acting * value - state.tension(direction)[at(model.grid, {column, row})] / rest;
                     squared_error += error * error;
                     worst_error = std::max(worst_error, std::abs(error));
                 }
-                const double acting = length < rest ? stiffness.compression : 1;
                 if (!stiffness.rigid) energy += 0.5 * k * acting * all[direction] * (length - rest) * (length - rest);
             }
     }

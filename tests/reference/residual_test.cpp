@@ -13,7 +13,7 @@ constexpr float tolerance = 0.01f, squared = tolerance * tolerance;
 /// `count` springs of 0.5 m, all of them stretched by this share.
 ResidualRecord stretched(float error, int count) {
     ResidualRecord record = empty_residual();
-    for (int k = 0; k < count; ++k) record = add_residual(record, vec3{0, 0.5f * (1 + error), 0}, 0.5f, 1, 0);
+    for (int k = 0; k < count; ++k) record = add_residual(record, vec3{0, 0.5f * (1 + error), 0}, 0.5f, 1, 1, 0);
     return record;
 }
 
@@ -33,17 +33,17 @@ TEST(Residual, ItIsTheMeanOverSprings) {
 }
 
 TEST(Residual, WhatIsNoSpringDoesNotCountAndTensionIsNoError) {
-    ResidualRecord record = add_residual(empty_residual(), vec3{9, 0, 0}, 0.5f, 0, 0);  // cut
-    record = add_residual(record, vec3{9, 0, 0}, 0, 1, 0);                              // none along this direction
+    ResidualRecord record = add_residual(empty_residual(), vec3{9, 0, 0}, 0.5f, 0, 1, 0);  // cut
+    record = add_residual(record, vec3{9, 0, 0}, 0, 1, 1, 0);                              // none along this direction
     EXPECT_EQ(record.count, 0u);
-    record = add_residual(record, vec3{0.75f, 0, 0}, 0.5f, 1, 0.25f);
+    record = add_residual(record, vec3{0.75f, 0, 0}, 0.5f, 1, 1, 0.25f);
     EXPECT_EQ(record.count, 1u);
     EXPECT_FALSE(needs_iteration(record, squared));
 }
 
 TEST(Residual, WhatIsNotFiniteIsNotWithinAnyTolerance) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(needs_iteration(add_residual(empty_residual(), vec3{nan, 0, 0}, 0.5f, 1, 0), squared));
+    EXPECT_TRUE(needs_iteration(add_residual(empty_residual(), vec3{nan, 0, 0}, 0.5f, 1, 1, 0), squared));
 }
 
 }  // namespace

@@ -120,10 +120,10 @@ TEST(StepFlops, OfLinesAreCounted) {
               }));
     EXPECT_EQ(kernel_flops.line_spring, operations([&] {
                   line_spring(spring_edge(a, b, c, c), w);
-                  eliminate_spring({.1, .2}, a, spring, b, dragged_weight(w, s), w, acting_share(w, s, s), s, s);
+                  eliminate_spring({.1, .2}, a, spring, b, dragged_weight(w, s), w, w, s, s, s);
                   substitute_spring({.1, .2}, s);
                   moved_by_both(a, b, line_correction(a, s, b, s), w);
-                  stored_tension(changed_tension(s, s, acting_share(s, s, s), s), s);
+                  stored_tension(changed_tension(s, s, s, s), s);
               }));
 }
 

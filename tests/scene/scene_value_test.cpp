@@ -1,4 +1,5 @@
 // What a well-formed scene becomes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -165,6 +166,20 @@ TEST(SceneWarnings, ClothsSetToTouch) {
               expected);
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [0, 0, 0.1]}}]})").empty());
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [1.1, 0, 0]}}]})").empty());
+}
+
+// 0.6 m over 12 edges are a little less than 0.05 m: who writes that means one edge.
+TEST(SceneValues, AThicknessOfOneEdgeIsOneThoughItIsRounded) {
+    for (const char* thickness : {"0.05", "0.005"}) {
+        const std::string text = fmt::format(
+            R"({{"cloths": [{{"grid": [13, 9], "size": [0.6, 0.4], "self_collision": {{"thickness": {}}}}}]}})",
+            thickness);
+        EXPECT_TRUE(scene_of(text).cloths.at(0).self_collision.has_value());
+    }
+    const SceneResult more = read_scene_text(
+        R"({"cloths": [{"grid": [13, 9], "size": [0.6, 0.4], "self_collision": {"thickness": 0.0501}}]})", "s");
+    ASSERT_EQ(more.errors.size(), 1u);
+    EXPECT_NE(more.errors[0].text().find("a coarser grid allows more"), std::string::npos);
 }
 
 TEST(SceneValues, EachMethodByItsName) {

@@ -151,11 +151,10 @@ void eliminate_springs(const Lines& lines, LineParticles* particles, float (&lar
 #pragma GCC ivdep
         for (int k = 0; k < line_lanes; ++k) {
             const LineSpring spring{at(here.spring.normal, k), 0.0f, here.spring.excess[k]};
-            largest[k] = larger_violation(largest[k], spring, here.share[k], here.tension[k]);
+            largest[k] = larger_violation(largest[k], spring, here.share[k], lines.push.compression, here.tension[k]);
             const vec2 reduced = eliminate_spring({previous[0][k], previous[1][k]}, at(before.spring.normal, k), spring,
-                                                  at(after, k), here.weight[k], next.weight[k],
-                                                  acting_share(here.share[k], lines.push.compression, spring.excess),
-                                                  lines.compliance, here.tension[k]);
+                                                  at(after, k), here.weight[k], next.weight[k], here.share[k],
+                                                  lines.push.compression, lines.compliance, here.tension[k]);
             here.spring_eliminated[0][k] = previous[0][k] = reduced.x;
             here.spring_eliminated[1][k] = previous[1][k] = reduced.y;
             put(after, k, spring.normal);
@@ -179,9 +178,8 @@ void correct(const Lines& lines, LineParticles* particles) {
             const vec3 correction = line_correction(at(normal_before, k), change_before[k], normal, change);
             put(here.displacement, k,
                 moved_by_both(at(here.displacement, k), at(here.delta, k), correction, here.weight[k]));
-            const float acting = acting_share(here.share[k], lines.push.compression, here.spring.excess[k]);
-            here.tension[k] =
-                stored_tension(changed_tension(here.tension[k], change, acting, lines.compliance), lines.followed);
+            const float tension = changed_tension(here.tension[k], change, here.share[k], lines.compliance);
+            here.tension[k] = stored_tension(tension, lines.followed);
             change_before[k] = change;
             put(normal_before, k, normal);
         }
