@@ -179,17 +179,19 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
 }
 
 /// Of cloths that start through each other or themselves, where cloths meet: a warning, or an error where the scene
-/// refuses that.
+/// refuses that, or contact would hold all of a cloth in one place.
 void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartCrossing& crossing : start_crossings(scene)) {
         const SceneNode cloth = cloths.element(crossing.second), placement = cloth.member("placement");
         const SceneNode& blamed = placement ? placement : cloth;
         const std::string text = crossing_text(scene, crossing);
-        if (scene.overlap == Overlap::refuse)
-            blamed.fail("expected cloths that start apart (/overlap is \"refuse\"): " + text);
+        if (is_refused(scene, crossing))
+            blamed.fail((crossing.gathered ? "expected a cloth with room between its particles: "
+                                           : "expected cloths that start apart (/overlap is \"refuse\"): ") +
+                        text);
         else
             blamed.warn(text + (crossing.first == crossing.second
-                                    ? ": no frame is proved; less jitter, or no scale of 0, would help"
+                                    ? ": no frame is proved; less jitter would help"
                                     : ": the two will not meet, and no frame is proved; place one of them elsewhere"));
     }
 }

@@ -189,7 +189,9 @@ const Object<Cloth> cloth{
          "Whether the cloth meets itself. Once one of a scene's cloths does, all of them meet each other, those "
          "without "
          "it as with its defaults. No triangle then passes through one that it meets in any substep; the manifest says "
-         "whether that was proved. Triangles that a cutter has split meet nothing."},
+         "whether that was proved. Triangles that a cutter has split meet nothing. A cloth that meets itself may not "
+         "start "
+         "gathered on a line or in a point."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},

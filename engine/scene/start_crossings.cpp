@@ -93,17 +93,24 @@ bool touches(const Sheet& a, const Sheet& b, double within) {
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
 
-/// Whether a cloth that should be flat is not: where jitter turns no triangle over, seen along the normal, none can
-/// cross another. Triangles lower than rounding are taken to cross; few others have to be looked at.
-bool crosses_itself(const Sheet& sheet) {
-    const Cloth& cloth = *sheet.cloth;
+/// m, of its triangles.
+double start_height(const Cloth& cloth) {
     double side[2];
     for (std::size_t axis = 0; axis < 2; ++axis)
         side[axis] = std::abs(cloth.placement.scale[axis]) * cloth.size[axis] / (cloth.grid[axis] - 1);
-    const double longest = std::hypot(side[0], side[1]), height = longest > 0 ? side[0] * side[1] / longest : 0;
-    const double moved = start_jitter(cloth), rounding = sheet.doubt - cloth.placement.jitter;
-    if (height > 4 * moved && height > rounding) return false;
-    return !(height > rounding) || TriangleCrossings({sheet.mesh()}).any();
+    const double longest = std::hypot(side[0], side[1]);
+    return longest > 0 ? side[0] * side[1] / longest : 0;
+}
+
+/// Whether its triangles are lower than what rounding moves them by.
+bool is_gathered(const Sheet& sheet) {
+    return !(start_height(*sheet.cloth) > sheet.doubt - sheet.cloth->placement.jitter);
+}
+
+/// Whether a cloth that should be flat is not: where jitter turns no triangle over, seen along the normal, none can
+/// cross another.
+bool crosses_itself(const Sheet& sheet) {
+    return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) && TriangleCrossings({sheet.mesh()}).any();
 }
 
 }  // namespace
@@ -117,7 +124,8 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
     for (const Cloth& cloth : scene.cloths) sheets.emplace_back(cloth);
     std::vector<StartCrossing> all;
     for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth)
-        if (scene.cloths[cloth].self_collision && crosses_itself(sheets[cloth])) all.push_back({cloth, cloth});
+        if (scene.cloths[cloth].self_collision && (is_gathered(sheets[cloth]) || crosses_itself(sheets[cloth])))
+            all.push_back({.first = cloth, .second = cloth, .gathered = is_gathered(sheets[cloth])});
     for (std::size_t second = 1; second < sheets.size(); ++second)
         for (std::size_t first = 0; first < second; ++first) {
             const Sheet &a = sheets[first], &b = sheets[second];
@@ -129,13 +137,25 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
                 });
             if (crossings > 0 || touches(a, b, within)) {
                 const double depth = std::min(depth_beyond(a, b), depth_beyond(b, a));
-                all.push_back({first, second, crossings, std::isfinite(depth) ? depth : 0});
+                all.push_back({.first = first,
+                               .second = second,
+                               .triangles = crossings,
+                               .depth = std::isfinite(depth) ? depth : 0});
             }
         }
     return all;
 }
 
+bool is_refused(const SceneDescription& scene, const StartCrossing& crossing) {
+    return crossing.gathered || scene.overlap == Overlap::refuse;
+}
+
 std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing) {
+    if (crossing.gathered)
+        return fmt::format(
+            "cloth \"{}\", which meets itself, starts gathered on a line or in a point, where contact would hold it (a "
+            "scale away from 0, or no self_collision, would do)",
+            scene.cloths[crossing.first].name);
     if (crossing.first == crossing.second)
         return fmt::format("cloth \"{}\" starts through itself", scene.cloths[crossing.first].name);
     const char *are = crossing.triangles == 1 ? "" : "s", *cross = crossing.triangles == 1 ? "es" : "";

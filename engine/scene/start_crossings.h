@@ -15,12 +15,16 @@ struct StartCrossing {
     std::size_t first = 0, second = 0;  ///< indices of the scene's cloths; the same: it starts through itself
     std::size_t triangles = 0;          ///< pairs of them that cross; 0: the two only touch, as along a line of both
     double depth = 0;  ///< m: the least by which one of the two, moved along a normal of either, would be off the other
+    bool gathered = false;  ///< on a line or in a point: contact would hold it there for good
 };
 
 /// Every two cloths that at time 0 cross, or are somewhere nearer to each other than single precision can tell, and
 /// every cloth that meets itself and crosses itself then, by its jitter or gathered on a line. Exact in double
 /// precision; holes count as such.
 std::vector<StartCrossing> start_crossings(const SceneDescription& scene);
+
+/// Whether a scene with it is none.
+bool is_refused(const SceneDescription& scene, const StartCrossing& crossing);
 
 /// `cloths "a" and "b" start through each other (37 pairs of triangles cross; moved by 0.2 m one would be off the
 /// other)`.

@@ -182,12 +182,23 @@ TEST(StartCrossingTest, OfAClothWithItselfIsSaid) {
     const auto through_itself =
         HasSubstr("/cloths/0/placement: cloth \"sheet\" starts through itself: no frame is proved");
     EXPECT_THAT(warned("jitter=0.3"), through_itself);
-    EXPECT_THAT(warned("scale=[1,0]"), through_itself);
     EXPECT_THAT(warned("scale=[0.01,0.01]"), IsEmpty());
     EXPECT_THAT(warned("scale=[-1,1]"), IsEmpty());
     EXPECT_THAT(warned("jitter=0.03"), IsEmpty());
     // Looked at, and found to be apart.
     EXPECT_THAT(warned("jitter=0.06"), IsEmpty());
+}
+
+// Contact would keep all its particles where they are, for good.
+TEST(StartCrossingTest, AClothThatMeetsItselfMayNotStartGathered) {
+    for (const std::string scale : {"[1,0]", "[0,0]", "[0,1]", "[1e-6,1e-6]"}) {
+        const std::string placement = "/cloths/0/placement/scale=" + scale;
+        const SceneResult refused = crossing(beside, {placement, "/cloths/1/placement/origin=[9,9,9]"});
+        ASSERT_EQ(refused.errors.size(), 1u) << scale;
+        EXPECT_THAT(refused.errors[0].text(), HasSubstr("/cloths/0/placement: expected a cloth with room between its "
+                                                        "particles: cloth \"sheet\", which meets itself"));
+        EXPECT_TRUE(crossing(beside, {placement, "/cloths/0/self_collision=false"}).scene) << scale;
+    }
 }
 
 TEST(StartCrossingTest, IsAnErrorWhereTheSceneRefusesIt) {
