@@ -32,7 +32,8 @@ JournalRecord decode_record(std::span<const std::byte> bytes);
 
 // What the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same (its
 // arrays appear only when complete). Short runs never write it: records wait in memory until there is a checkpoint, or
-// too many of them. Every member throws OutputError.
+// too many of them; from then on few wait, so that a run's memory does not depend on how many frames lie between
+// checkpoints. Every member throws OutputError.
 class Journal {
   public:
     Journal(OutputFolder& folder, std::string run_key) : folder_(folder), run_key_(std::move(run_key)) {}
