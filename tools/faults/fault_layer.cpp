@@ -6,6 +6,8 @@
 //   DRAPE_FAULT_LOG=FILE                    gets a line `ENTRY_POINT COUNT` per entry point that was called, when the
 //                                           process ends, and a line `fault` when a call was failed
 // Above the validation layer, which then says what is left over.
+#include <dlfcn.h>
+#include <link.h>
 #include <vulkan/vk_layer.h>
 
 #include <array>
@@ -171,6 +173,16 @@ Link* link_of(const Create* info, VkStructureType type) {
     return nullptr;
 }
 
+/// The loader unloads a driver with its last instance. What the driver keeps for the life of the process, which is
+/// reachable only from its own data, would then look like a leak of this program to a sanitizer.
+void keep_libraries_loaded() {
+    const auto pin = [](dl_phdr_info* library, std::size_t, void*) {
+        if (*library->dlpi_name) dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+        return 0;
+    };
+    dl_iterate_phdr(pin, nullptr);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator,
                                                VkInstance* instance) {
     if (const auto result = faults.next(vkCreateInstance_index)) return leave_garbage(instance), *result;
@@ -179,6 +191,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     const auto create = reinterpret_cast<PFN_vkCreateInstance>(next.find("vkCreateInstance"));
     const VkResult result = create(info, allocator, instance);
+    keep_libraries_loaded();
     if (result != VK_SUCCESS) return result;
     next.instance = *instance;
     next.look_up();
