@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view magic = "DRAPEJNL";
 constexpr std::uint32_t version = 2;
 // Bytes that wait in memory while there is no file, and once there is one.
-constexpr std::size_t most_waiting = std::size_t{64} << 20, most_waiting_behind_file = std::size_t{1} << 20;
+constexpr std::size_t most_waiting = std::size_t{8} << 20, most_waiting_behind_file = std::size_t{1} << 20;
 
 template <class Archive, class Record>
 void transfer(Archive& archive, Record& record, std::uint32_t& kind) {
@@ -122,7 +122,7 @@ void Journal::write_waiting() {
         length_ += static_cast<std::uint64_t>(count);
         rest = rest.subspan(static_cast<std::size_t>(count));
     }
-    waiting_ = {};  // with its memory
+    waiting_.clear();
 }
 
 std::uint64_t Journal::sync() {

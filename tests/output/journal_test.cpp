@@ -42,6 +42,11 @@ TEST_F(JournalTest, ShortRunsNeverWriteIt) {
     EXPECT_FALSE(std::filesystem::exists(temporary_ / "out/journal.drape"));
 }
 
+TEST_F(JournalTest, TooManyBytesDoNotWaitForACheckpoint) {
+    add(0, 300);
+    EXPECT_GT(on_disk(), 300 * 65536 - 2 * few);
+}
+
 TEST_F(JournalTest, OnceThereIsAFileFewBytesWait) {
     add(0, 100);
     const std::uint64_t first = journal_.sync(), record = first / 100;
