@@ -89,7 +89,7 @@ double held_strain(const ClothModel& cloth) {
 
 }  // namespace
 
-Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {{0}, {0}, {0}}) {
+Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {Drive{}}) {
     const auto moving = [](const Collider& collider) { return collider.path.moves(); };
     passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
     for (const ClothModel& cloth : model.cloths) {
@@ -136,23 +136,34 @@ double Watch::drive_speed(std::size_t cloth, double from, double to) const {
     return (pins + 2 * colliders) / (to - from);
 }
 
-void Watch::extend(std::uint32_t frame) {
+/// That of the frame after `frame`.
+Watch::Drive Watch::next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const {
     const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
-    for (std::size_t cloth = 0; cloth < drives_.size(); ++cloth) {
-        Drive& drive = drives_[cloth];
-        while (drive.speed.size() <= frame) {
-            double speed = drive.speed.back(), travel = drive.travel.back();
-            const double begin = static_cast<double>(drive.speed.size() - 1) * parts_of_a_frame;
-            for (int k = 0; k < parts_of_a_frame; ++k) {
-                const double now = drive_speed(cloth, (begin + k) * part, (begin + k + 1) * part);
-                speed = std::max(speed, now);
-                travel += now * part;
-            }
-            drive.pace.push_back(
-                std::max(drive.pace.back(), pace(cloth, begin * part, (begin + parts_of_a_frame) * part)));
-            drive.speed.push_back(speed);
-            drive.travel.push_back(travel);
+    const double begin = static_cast<double>(frame) * parts_of_a_frame;
+    Drive drive = before;
+    for (int k = 0; k < parts_of_a_frame; ++k) {
+        const double now = drive_speed(cloth, (begin + k) * part, (begin + k + 1) * part);
+        drive.speed = std::max(drive.speed, now);
+        drive.travel += now * part;
+    }
+    drive.pace = std::max(drive.pace, pace(cloth, begin * part, (begin + parts_of_a_frame) * part));
+    return drive;
+}
+
+/// A long run does not remember all its frames: one that was forgotten is reckoned from the start again.
+void Watch::extend(std::uint32_t frame) {
+    if (drives_.empty()) return;
+    if (frame < first_) {
+        first_ = 0;
+        for (std::deque<Drive>& drives : drives_) drives.assign(1, Drive{});
+    }
+    for (std::uint32_t last = first_ + static_cast<std::uint32_t>(drives_.front().size()) - 1; last < frame; ++last) {
+        const bool full = drives_.front().size() == frames_remembered;
+        for (std::size_t cloth = 0; cloth < drives_.size(); ++cloth) {
+            drives_[cloth].push_back(next_drive(cloth, last, drives_[cloth].back()));
+            if (full) drives_[cloth].pop_front();
         }
+        if (full) ++first_;
     }
 }
 
@@ -162,13 +173,13 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double time = frame / model_.scene.time.fps, gravity = length(model_.scene.gravity);
     const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
-    const double travel = drives_[index].travel[frame], smaller = std::min(cloth.size[0], cloth.size[1]);
+    const double travel = drive_at(index, frame).travel, smaller = std::min(cloth.size[0], cloth.size[1]);
     const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     // Where it lies nearer to something than it may, contact moves it away.
     const double pushed = model_.scene.colliders.empty() && !model_.self_contact ? 0 : recovery_speed;
     const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released + pushed;
-    const double speed = given + drives_[index].speed[frame] + recoil;
+    const double speed = given + drive_at(index, frame).speed + recoil;
     const double flown = start.held ? 0 : 2 * time * (given + recoil);
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
     Implausible result =
@@ -224,7 +235,7 @@ double Watch::allowed_stretch(std::uint32_t frame, bool driven) const {
     if (model_.closed_loop() || model_.self_contact) most = std::max(most, times_law * model_.stretch_limits().worst);
     for (std::size_t cloth = 0; cloth < starts_.size(); ++cloth) {
         const Start& start = starts_[cloth];
-        const double speed = driven ? length(model_.cloths[cloth].velocity) + drives_[cloth].pace[frame] : 0;
+        const double speed = driven ? length(model_.cloths[cloth].velocity) + drive_at(cloth, frame).pace : 0;
         const double law = model_.closed_loop() ? 0 : std::min(times_law * stretch_law(cloth, speed), 1.0);
         most = std::max({most, law, start.held_strain, driven ? start.strain : 0});
     }

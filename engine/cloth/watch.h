@@ -61,12 +61,13 @@ class Watch {
     }
 
   private:
-    static constexpr std::size_t frames_in_a_row = 6;  ///< one may be a snap
-    /// What moves a cloth, from the start to the end of each frame.
+    static constexpr std::size_t frames_in_a_row = 6;     ///< one may be a snap
+    static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
+    /// What moves a cloth, from the start to the end of a frame.
     struct Drive {
-        std::vector<double> speed;   ///< m/s, largest so far
-        std::vector<double> travel;  ///< m
-        std::vector<double> pace;    ///< m/s, largest so far, of a frame as a whole and of centres alone
+        double speed = 0;   ///< m/s, largest so far
+        double travel = 0;  ///< m
+        double pace = 0;    ///< m/s, largest so far, of a frame as a whole and of centres alone
     };
     /// Of a cloth, at rest.
     struct Start {
@@ -78,6 +79,8 @@ class Watch {
         bool held;                   ///< for good
     };
     void extend(std::uint32_t frame);
+    Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;
+    const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
     double drive_speed(std::size_t cloth, double from, double to) const;
     double pace(std::size_t cloth, double from, double to) const;
     Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
@@ -88,7 +91,8 @@ class Watch {
 
     const SimulationModel& model_;
     std::vector<Start> starts_;
-    std::vector<Drive> drives_;
+    std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
+    std::vector<std::deque<Drive>> drives_;  ///< of the last frames that were asked about, by cloth
     bool passive_;
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "support/sheets.h"
 
@@ -82,6 +83,21 @@ TEST(WatchTest, ContactMovesWeightlessClothFromWhatItStartsTooNearTo) {
     for (const SceneDescription& scene : {on_ball, on_itself}) EXPECT_THAT(said(scene, 1, lifted), IsEmpty());
     lifted.largest_speed = 1.2;
     EXPECT_THAT(said(on_ball, 1, lifted), HasSubstr("where at most 1.1 m/s are explained"));
+}
+
+TEST(WatchTest, LongRunsAreJudgedAsIfAllTheirFramesWereRemembered) {
+    SceneDescription scene = hanging();
+    scene.time.frame_count = 1000;
+    scene.cloths[0].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {3, {5, 0, 0}, {}}, {12, {0, 0, 0}, {}}};
+    const SimulationModel model(scene);
+    Watch one(model);
+    std::set<double> told;
+    for (const std::uint32_t frame : {0u, 100u, 163u, 100u, 99u, 900u, 901u, 838u, 5u, 6u, 400u}) {
+        const double expected = Watch(model).excess(frame, {resting()});
+        EXPECT_EQ(one.excess(frame, {resting()}), expected) << frame;
+        told.insert(expected);
+    }
+    EXPECT_GT(told.size(), 3u);  // the pin's way so far counts
 }
 
 TEST(WatchTest, NoParticleLeavesWhatItsClothReaches) {
