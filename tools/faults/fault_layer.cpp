@@ -12,6 +12,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -144,7 +145,7 @@ void leave_garbage(Last last) {
     if constexpr (std::is_pointer_v<Last>) {
         using Target = std::remove_pointer_t<Last>;
         if constexpr (std::is_pointer_v<Target> && !std::is_const_v<Target>)
-            if (last) *last = reinterpret_cast<Target>(std::uintptr_t{0xdead});
+            if (last) *last = std::bit_cast<Target>(std::uintptr_t{0xdead});
     }
 }
 
