@@ -15,6 +15,7 @@ constexpr std::string_view table =
     "placement": {"origin": [-0.8, 0.95, -0.8], "u": [1, 0, 0], "v": [0, 0, 1]},  // first particle; columns, rows
     "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
     "damping": 1.5,                               // 1/s
+    "self_collision": true,                       // its folds never pass through each other; costs time
     "thickness": 0.01                             // kept from colliders
   }],
   "colliders": {
@@ -41,6 +42,7 @@ constexpr std::string_view flag =
     "placement": {"origin": [-0.75, 2.1, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
     "fabric": "silk",                             // or cotton, denim, leather; "stiffness" and others override it
     "damping": 0.3,                               // 1/s
+    "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [{"edge": "left"}],                   // "left" is column 0, "top" is row 0
     "appearance": {"front": [0.80, 0.50, 0.12], "back": [0.72, 0.07, 0.10], "pattern": "checker"}
   }],
@@ -62,6 +64,7 @@ constexpr std::string_view curtain =
     "placement": {"origin": [-0.9, 1.75, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
     "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
     "damping": 0.6,                               // 1/s
+    "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [                                     // [column, row]; a path moves a pin: t in seconds
       {"at": [0, 0]},
       {"at": [12, 0], "path": [{"t": 0.2}, {"t": 1.6, "translate": [-0.2, 0, 0]}]},
@@ -88,6 +91,7 @@ constexpr std::string_view ball =
     "placement": {"origin": [-0.8, 1.2, -0.8], "u": [1, 0, 0], "v": [0, 0, 1]},  // first particle; columns, rows
     "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
     "damping": 1.5,                               // 1/s
+    "self_collision": true,                       // its folds never pass through each other; costs time
     "thickness": 0.01,                            // kept from colliders
     "pins": [                                     // "release": seconds after which a pin lets go
       {"corner": "top_left"}, {"corner": "top_right"},
@@ -118,6 +122,7 @@ constexpr std::string_view cut =
     "placement": {"origin": [-0.6, 1.7, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
     "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
     "damping": 0.5,                               // 1/s
+    "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [{"edge": "top"}]                     // "left" is column 0, "top" is row 0
   }],
   "cutters": [{                                   // a triangle that cuts what it sweeps through
