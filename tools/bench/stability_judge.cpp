@@ -108,7 +108,7 @@ double StabilityJudge::bound_of_distance(std::size_t index, double time, const C
     const double stretched = cloth.reach() * (1 + std::max(statistics.stretch.largest, 0.0));
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
     // What moves may have strained the cloth, which flies when it is let go: at that share of the speed of waves.
-    const double recoil = std::max(std::min(travel_ / start.shorter, 1.0), start.strained) * start.wave;
+    const double recoil = std::min(travel_ / start.shorter, std::max(start.strained, 1.0)) * start.wave;
     // Lift turns what the cloth moves by against the wind around, and takes nothing off: twice the wind's speed.
     const double speed = length(cloth.velocity) + start.strain_speed + recoil + (model_.windy ? 2 * wind : 0) + drive_;
     const double flown = start.held ? 0 : speed * time + 0.5 * length(model_.scene.gravity) * time * time;
@@ -146,7 +146,7 @@ void StabilityJudge::see(const FinishedFrame& frame) {
 void StabilityJudge::see_cloth(std::size_t index, const FinishedFrame& frame, double time) {
     const ClothStatistics& statistics = frame.statistics[index];
     const Start& start = starts_[index];
-    starts_[index].strained = std::max(start.strained, statistics.stretch.largest);
+    starts_[index].strained = std::max(start.strained, statistics.stretch.largest - statistics.stretch_error_max);
     raise_to(worst_, "non_finite", statistics.non_finite_count);
     raise_to(worst_, "distance", statistics.largest_distance / bound_of_distance(index, time, statistics));
     if (frame.frame > 0) {

@@ -58,7 +58,7 @@ class StabilityJudge {
     struct Start {
         double distance = 0, mass = 0, energy = 0, scale = 0, edge = 0, strain_speed = 0, held_strain = 0;
         double wave = 0, shorter = 0;  ///< m/s, of strain; m, of the cloth's sides
-        double strained = 0;           ///< largest of a spring so far
+        double strained = 0;           ///< largest of a spring so far, without what its tension does not explain
         Vec3 mean{};
         bool held = false, flies = false;
     };
