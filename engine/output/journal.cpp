@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view magic = "DRAPEJNL";
 constexpr std::uint32_t version = 2;
 // Bytes that wait in memory while there is no file, and once there is one.
-constexpr std::size_t most_waiting = std::size_t{8} << 20, most_waiting_behind_file = std::size_t{1} << 20;
+constexpr std::size_t most_before_file = std::size_t{8} << 20, most_behind_file = std::size_t{1} << 20;
 
 template <class Archive, class Record>
 void transfer(Archive& archive, Record& record, std::uint32_t& kind) {
@@ -106,7 +106,7 @@ void Journal::add(const JournalRecord& record) {
     framed(std::uint64_t{XXH3_64bits(payload.data(), payload.size())});
     const std::vector<std::byte> bytes = framed.take();
     waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
-    if (waiting_.size() > (file_ ? most_waiting_behind_file : most_waiting)) write_waiting();
+    if (waiting_.size() > (file_ ? most_behind_file : most_before_file)) write_waiting();
 }
 
 void Journal::write_waiting() {

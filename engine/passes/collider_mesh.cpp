@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scene/collider_pose.h"
+#include "scene/vectors.h"
 
 namespace drape {
 namespace {
@@ -18,12 +19,6 @@ constexpr auto drawing_order = [] {
     return kinds;
 }();
 static_assert(drawing_order.back() == glsl::kind_plane);
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 glsl::vec4 vec4(const Vec3& v, double w) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};

@@ -17,7 +17,7 @@ namespace {
 
 using exact::minus;
 
-constexpr double least_depth = 1e-4;  ///< m: less is touching
+constexpr double touching_depth = 1e-4;  ///< m: less is touching
 
 /// A cloth as it starts.
 struct Sheet {
@@ -163,8 +163,8 @@ std::string crossing_text(const SceneDescription& scene, const StartCrossing& cr
     const std::string how = crossing.triangles > 0
                                 ? fmt::format("through each other ({} pair{} of triangles cross{}; {})",
                                               crossing.triangles, are, cross, off)
-                            : crossing.depth > least_depth ? fmt::format("on or through each other ({})", off)
-                                                           : "on each other";
+                            : crossing.depth > touching_depth ? fmt::format("on or through each other ({})", off)
+                                                              : "on each other";
     return fmt::format("cloths \"{}\" and \"{}\" start {}", scene.cloths[crossing.first].name,
                        scene.cloths[crossing.second].name, how);
 }

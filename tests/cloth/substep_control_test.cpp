@@ -13,7 +13,7 @@ using Verdict = SubstepControl::Verdict;
 SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 1, 6}; }
 
 /// Frames of a cloth whose errors fall with the square of the substeps: 1 at `stretch` and `motion` substeps.
-struct Cloth {
+struct ConvergingCloth {
     double stretch, motion;
     Judgement judge(const Segment& segment) const {
         const double n = segment.substeps;
@@ -26,7 +26,7 @@ struct Spent {
     double work = 0;  // substeps
 };
 
-Spent run(SubstepControl& loop, const Cloth& cloth, std::uint32_t frames) {
+Spent run(SubstepControl& loop, const ConvergingCloth& cloth, std::uint32_t frames) {
     Spent run;
     while (run.frames < frames) {
         loop.begin(6, false);

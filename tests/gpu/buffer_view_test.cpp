@@ -14,7 +14,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using Plans = std::vector<std::pair<const Graph*, const Plan*>>;
 
-constexpr std::uint32_t width = 70, height = 5;  // a row is no multiple of the device's pitch
+constexpr std::uint32_t image_width = 70, image_height = 5;  // a row is no multiple of the device's pitch
 
 struct RowsPush {
     glsl::ivec2 size;
@@ -32,12 +32,15 @@ struct BufferView : ::testing::Test {
 
     void SetUp() override {
         const std::string obstacle =
-            buffer_view_obstacle(gpu().device, {.name = "shared", .width = width, .height = height});
+            buffer_view_obstacle(gpu().device, {.name = "shared", .width = image_width, .height = image_height});
         if (!obstacle.empty()) GTEST_SKIP() << obstacle;
     }
     Handle image(const std::string& name, Lifetime lifetime, bool buffer_view = false) {
-        return graph.image(
-            {.name = name, .width = width, .height = height, .lifetime = lifetime, .buffer_view = buffer_view});
+        return graph.image({.name = name,
+                            .width = image_width,
+                            .height = image_height,
+                            .lifetime = lifetime,
+                            .buffer_view = buffer_view});
     }
     /// A pass that reads `from` as "source" and writes `to` as "target"; the one of them that has a buffer view is a
     /// buffer where the pipeline has one.
@@ -49,15 +52,15 @@ struct BufferView : ::testing::Test {
                 to = setup.write(to, Access::compute_write, "target");
             },
             [&pipeline, from, shared, written = to.resource](PassContext& context) {
-                if (!pipeline.push_constants()) return context.dispatch(pipeline, width, height);
+                if (!pipeline.push_constants()) return context.dispatch(pipeline, image_width, image_height);
                 // The handle that the pass declared: a write makes the next version.
                 const Handle view = shared.resource == written ? Handle{shared.resource, shared.version + 1} : shared;
-                const RowsPush push{{width, height}, static_cast<std::int32_t>(context.row_pitch(view))};
-                context.dispatch(pipeline, push, width, height);
+                const RowsPush push{{image_width, image_height}, static_cast<std::int32_t>(context.row_pitch(view))};
+                context.dispatch(pipeline, push, image_width, image_height);
             });
     }
     static std::vector<float> texels() {
-        std::vector<float> values(std::size_t{width} * height * 4);
+        std::vector<float> values(std::size_t{image_width} * image_height * 4);
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) + 0.25f;
         return values;
     }
@@ -135,20 +138,20 @@ TEST_F(BufferView, AMissingBarrierTheOtherWayRoundIsReported) {
 
 TEST_F(BufferView, BytesAreThoseOfTheImageWithItsRowsApart) {
     const vulkan::Image shared(gpu().device, {.name = "shared",
-                                              .width = width,
-                                              .height = height,
+                                              .width = image_width,
+                                              .height = image_height,
                                               .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                               .buffer_view = true});
-    EXPECT_GE(shared.row_pitch(), width);
-    EXPECT_GE(shared.byte_count(), std::uint64_t{shared.row_pitch()} * height * 16);
+    EXPECT_GE(shared.row_pitch(), image_width);
+    EXPECT_GE(shared.byte_count(), std::uint64_t{shared.row_pitch()} * image_height * 16);
     EXPECT_NE(shared.buffer(), VkBuffer{VK_NULL_HANDLE});
 }
 
 TEST_F(BufferView, AVariableOfOtherElementsIsRefused) {
     Handle shared = graph.image({.name = "narrow",
                                  .format = VK_FORMAT_R32_SFLOAT,
-                                 .width = width,
-                                 .height = height,
+                                 .width = image_width,
+                                 .height = image_height,
                                  .lifetime = Lifetime::persistent,
                                  .buffer_view = true});
     add(to_buffer, source, shared, shared);

@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-constexpr std::uint32_t width = 640, height = 360, last_frame = 40;
+constexpr std::uint32_t picture_width = 640, picture_height = 360, last_frame = 40;
 
 /// Two-cell markers beside the scene's own cloths: they fall, fly and collide with everything else, and shine
 /// in pure colours that nothing else has.
@@ -72,8 +72,8 @@ std::optional<Center> find(const std::span<const std::uint8_t> rgba, const Vec3&
         }
         const double share = least_wanted - most_other;
         if (share < 24) continue;
-        x += share * (static_cast<double>(i % width) + 0.5);
-        y += share * (static_cast<double>(i / width) + 0.5);
+        x += share * (static_cast<double>(i % picture_width) + 0.5);
+        y += share * (static_cast<double>(i / picture_width) + 0.5);
         sum += share;
     }
     if (sum == 0) return std::nullopt;
@@ -86,7 +86,7 @@ Center projected(const SceneDescription& scene, const std::span<const float> pos
     double sum = 0;
     const auto at = [&](std::size_t particle) {
         const Vec3 x{positions[4 * particle], positions[4 * particle + 1], positions[4 * particle + 2]};
-        return project(*scene.camera, width, height, x);
+        return project(*scene.camera, picture_width, picture_height, x);
     };
     for (const std::array<std::size_t, 3>& triangle :
          {std::array<std::size_t, 3>{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}}) {
@@ -104,8 +104,8 @@ TEST(PictureProjectionTest, MarkedParticlesAreFoundAtTheirPixels) {
     const SimulationModel model(scene);
     FrameLoopOptions options;
     options.positions = true;
-    options.width = width;
-    options.height = height;
+    options.width = picture_width;
+    options.height = picture_height;
     options.samples = 4;
     FrameLoop loop(test::gpu().device, model, options);
     double worst = 0;

@@ -7,21 +7,14 @@
 #include <tuple>
 
 #include "drape/simulation.h"
+#include "library_device.h"
 
 namespace drape {
 namespace {
 
-/// Its messages fail the tests at their end.
-const Device& validated() {
-    static const Device device("", Validation::count);
-    return device;
-}
-
-class NoMessages : public testing::Environment {
-    void TearDown() override { EXPECT_EQ(validated().validation_count(), 0u); }
-};
-[[maybe_unused]] const auto* const no_messages = testing::AddGlobalTestEnvironment(new NoMessages);
-
+using test::library_device;
+using SimulationStateGuard = test::LibraryTest;
+using SimulationStateWatch = test::LibraryTest;
 /// What a frame was, as far as it may be compared.
 struct Seen {
     std::vector<std::vector<float>> positions;
@@ -87,18 +80,18 @@ struct Case {
 };
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
-class SimulationStateTest : public testing::TestWithParam<Case> {};
+class SimulationStateTest : public test::LibraryTest, public testing::WithParamInterface<Case> {};
 
 TEST_P(SimulationStateTest, GoesOnToTheSameBitsWhereverItWasTaken) {
     const SceneDescription scene = parse_scene(GetParam().scene);
     Told whole, paused;
     {
-        Simulation simulation(scene, options_of(whole, GetParam().draw), validated());
+        Simulation simulation(scene, options_of(whole, GetParam().draw), library_device());
         run(simulation, whole);
     }
     std::map<std::uint32_t, SimulationState> states;
     {
-        Simulation simulation(scene, options_of(paused, GetParam().draw), validated());
+        Simulation simulation(scene, options_of(paused, GetParam().draw), library_device());
         run(simulation, paused, &states);
     }
     EXPECT_EQ(paused.frames, whole.frames) << "saving changes something";
@@ -108,7 +101,7 @@ TEST_P(SimulationStateTest, GoesOnToTheSameBitsWhereverItWasTaken) {
     for (const auto& [next, state] : states) {
         if (index++ % stride != 0 && next != states.rbegin()->first) continue;
         Told rest;
-        Simulation simulation(scene, options_of(rest, GetParam().draw), validated());
+        Simulation simulation(scene, options_of(rest, GetParam().draw), library_device());
         simulation.restore(state);
         EXPECT_EQ(simulation.next_frame(), next);
         EXPECT_EQ(simulation.save(), state) << "from frame " << next;
@@ -170,8 +163,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
                                          Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
-    const auto simulation_of = [](const std::string& text) { return Simulation(parse_scene(text), {}, validated()); };
+TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
+    const auto simulation_of = [](const std::string& text) {
+        return Simulation(parse_scene(text), {}, library_device());
+    };
     Simulation first = simulation_of(cut_by_auto);
     for (int frame = 0; frame < 20; ++frame) first.step();
     while (!first.can_save()) first.step();
@@ -198,18 +193,18 @@ SimulationState with_number(SimulationState state, std::size_t place, std::uint3
     return state;
 }
 
-TEST(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
+TEST_F(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
     constexpr std::uint32_t any = 0xffffffffu;
     SimulationOptions options;
     options.keep_promises = false;
     for (const std::string& text : {relaxed, std::string(closed_loop_scene)}) {
         const SceneDescription scene = parse_scene(text);
         const auto restored = [&](const SimulationState& state) {
-            Simulation simulation(scene, options, validated());
+            Simulation simulation(scene, options, library_device());
             simulation.restore(state);
             return simulation.next_frame();
         };
-        Simulation first(scene, options, validated());
+        Simulation first(scene, options, library_device());
         do first.step();
         while (first.next_frame() < 5 || !first.can_save());
         const SimulationState state = first.save();
@@ -226,7 +221,7 @@ TEST(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
 }
 
 /// Explicit steps do not follow inextensible cloth in eight substeps; what lasts for six frames is no result.
-TEST(SimulationState, TheWatchRemembersWhatWasSeenBefore) {
+TEST_F(SimulationStateWatch, TheWatchRemembersWhatWasSeenBefore) {
     const SceneDescription scene = parse_scene(R"({"time": {"frames": 60}, "solver": {"method": "explicit",
   "substeps": 8}, "cloths": [{"name": "cloth", "grid": [17, 17], "size": [1, 1], "stiffness": "rigid",
   "placement": {"u": [1, 0, 0], "v": [0, 0, 1]}, "pins": [{"box": [[0, 0], [16, 0]]}]}]})");
@@ -238,21 +233,21 @@ TEST(SimulationState, TheWatchRemembersWhatWasSeenBefore) {
         }
         return simulation.next_frame();
     };
-    Simulation whole(scene, {}, validated());
+    Simulation whole(scene, {}, library_device());
     const std::uint32_t failed = failing_frame(whole);
     ASSERT_GT(failed, 10u);
     ASSERT_LT(failed, 60u);
     for (const std::uint32_t before : {1u, 3u, 5u}) {
-        Simulation first(scene, {}, validated()), second(scene, {}, validated());
+        Simulation first(scene, {}, library_device()), second(scene, {}, library_device());
         while (first.next_frame() < failed - before) first.step();
         second.restore(first.save());
         EXPECT_EQ(failing_frame(second), failed) << before;
     }
 }
 
-TEST(SimulationStateGuard, ASleeperWithoutTheFrameThatItRepeatsIsRefused) {
+TEST_F(SimulationStateGuard, ASleeperWithoutTheFrameThatItRepeatsIsRefused) {
     const SceneDescription scene = parse_scene(sleeping_scene);
-    Simulation first(scene, {}, validated()), other(scene, {}, validated());
+    Simulation first(scene, {}, library_device()), other(scene, {}, library_device());
     do first.step();
     while (!first.frame().effort.asleep);
     const SimulationState state = first.save();

@@ -5,27 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
+
+#include "library_device.h"
 
 namespace drape {
 namespace {
 
+using test::library_device;
 using testing::HasSubstr;
 
-const Device& device() {
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    static const Device opened(selector ? selector : "", Validation::count);
-    return opened;
-}
-
-/// Every test runs validated, and any message fails it.
-class SimulationTest : public testing::Test {
-  protected:
-    void TearDown() override { EXPECT_EQ(device().validation_count(), before_); }
-
-  private:
-    std::uint64_t before_ = device().validation_count();
-};
+using SimulationTest = test::LibraryTest;
 
 /// Hangs by its top row; a blade falls through it from frame 3 on.
 SceneDescription cut_sheet() {
@@ -66,10 +55,10 @@ struct Copy {
 
 TEST_F(SimulationTest, SteppingGivesWhatStreamingGives) {
     std::vector<Copy> streamed, stepped;
-    Simulation stream(cut_sheet(), everything(), device());
+    Simulation stream(cut_sheet(), everything(), library_device());
     EXPECT_TRUE(stream.run(
         11, [](std::uint32_t) { return true; }, [&](const FinishedFrame& frame) { streamed.emplace_back(frame); }));
-    Simulation simulation(cut_sheet(), everything(), device());
+    Simulation simulation(cut_sheet(), everything(), library_device());
     while (simulation.step()) stepped.emplace_back(simulation.frame());
     ASSERT_EQ(stepped.size(), 12u);
     EXPECT_TRUE(stepped == streamed);
@@ -80,9 +69,9 @@ TEST_F(SimulationTest, SteppingGivesWhatStreamingGives) {
 
 TEST_F(SimulationTest, SkippedFramesAndStopsLeaveTheRestAsItIs) {
     std::vector<Copy> all, parts;
-    Simulation whole(cut_sheet(), everything(), device());
+    Simulation whole(cut_sheet(), everything(), library_device());
     while (whole.step()) all.emplace_back(whole.frame());
-    Simulation simulation(cut_sheet(), everything(), device());
+    Simulation simulation(cut_sheet(), everything(), library_device());
     const auto keep = [&](const FinishedFrame& frame) { parts.emplace_back(frame); };
     int asked = 0;
     EXPECT_FALSE(simulation.run(
@@ -103,7 +92,7 @@ TEST_F(SimulationTest, NormalsAreThoseOfTheTrianglesAround) {
     SceneDescription scene = cut_sheet();
     scene.cutters.clear();
     scene.wind.velocity = {2, 0, 5};
-    Simulation simulation(scene, everything(), device());
+    Simulation simulation(scene, everything(), library_device());
     while (simulation.step()) {
     }
     const FinishedFrame& frame = simulation.frame();
@@ -142,7 +131,7 @@ TEST_F(SimulationTest, VelocitiesAreThoseOfTheStatistics) {
         SimulationOptions options;
         options.velocities = true;
         options.statistics = false;  // implied
-        Simulation simulation(scene, options, device());
+        Simulation simulation(scene, options, library_device());
         while (simulation.step()) {
             const FinishedFrame& frame = simulation.frame();
             double largest = 0;
@@ -162,7 +151,7 @@ TEST_F(SimulationTest, TellsOfCutsAndHasTheTrianglesThatAreLeft) {
     std::vector<Cut> cuts;
     SimulationOptions options;
     options.on_cut = [&](const Cut& cut) { cuts.push_back(cut); };
-    Simulation simulation(cut_sheet(), options, device());
+    Simulation simulation(cut_sheet(), options, library_device());
     const std::size_t whole = simulation.triangles(0).size();
     while (simulation.step()) {
     }
@@ -184,7 +173,7 @@ TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
     // The larger one, at rest, decides on how many segments both are drawn with: the same in every scene here.
     const Collider large{Sphere{{1.2, 1.6, -0.6}, 0.5}};
     moving.colliders = {ball, large};
-    Simulation simulation(moving, everything(), device());
+    Simulation simulation(moving, everything(), library_device());
     for (std::size_t number = 0; number < 4; ++number) {
         ASSERT_TRUE(simulation.step());
         SceneDescription still = moving;
@@ -192,7 +181,7 @@ TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
         MotionPath& path = still.colliders[0].path;
         for (MotionKey& key : path.keys) key.time -= 10;
         path.keys.push_back({-1, ball.path.keys[number].translate, {}});
-        Simulation there(still, everything(), device());
+        Simulation there(still, everything(), library_device());
         ASSERT_TRUE(there.step());
         EXPECT_TRUE(std::ranges::equal(simulation.frame().rgba, there.frame().rgba)) << "frame " << number;
     }
@@ -201,14 +190,15 @@ TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
 TEST_F(SimulationTest, WhatIsNotWantedIsNotThere) {
     SimulationOptions options;
     options.positions = options.statistics = false;
-    Simulation simulation(cut_sheet(), options, device());
+    Simulation simulation(cut_sheet(), options, library_device());
     ASSERT_TRUE(simulation.step());
     EXPECT_TRUE(simulation.frame().rgba.empty());
     EXPECT_TRUE(simulation.frame().positions.empty());
     EXPECT_TRUE(simulation.frame().velocities.empty());
     EXPECT_TRUE(simulation.frame().normals.empty());
     EXPECT_TRUE(simulation.frame().statistics.empty());
-    const SimulationFacts all = Simulation(cut_sheet(), everything(), device()).facts(), few = simulation.facts();
+    const SimulationFacts all = Simulation(cut_sheet(), everything(), library_device()).facts(),
+                          few = simulation.facts();
     EXPECT_LT(few.pass_count, all.pass_count);
     EXPECT_GT(few.skipped.size(), all.skipped.size());
 }
@@ -216,7 +206,7 @@ TEST_F(SimulationTest, WhatIsNotWantedIsNotThere) {
 TEST_F(SimulationTest, SaysWhatItChose) {
     SceneDescription scene = cut_sheet();
     scene.solver = {};
-    const Simulation simulation(scene, {}, device());
+    const Simulation simulation(scene, {}, library_device());
     EXPECT_EQ(simulation.facts().asked_method, "auto");
     EXPECT_NE(simulation.facts().method, "auto");
     EXPECT_FALSE(simulation.facts().choice_reason.empty());
@@ -227,11 +217,11 @@ TEST_F(SimulationTest, SaysWhatItChose) {
 TEST_F(SimulationTest, AFrameThatIsNoResultIsThrownOrHandedOutAsAsked) {
     SceneDescription scene = cut_sheet();
     scene.gravity = {0, -3e38, 0};
-    Simulation simulation(scene, {}, device());
+    Simulation simulation(scene, {}, library_device());
     EXPECT_THROW(while (simulation.step()){}, Diverged);
     SimulationOptions options;
     options.keep_promises = false;
-    Simulation lenient(scene, options, device());
+    Simulation lenient(scene, options, library_device());
     while (lenient.step()) {
     }
     EXPECT_GT(lenient.frame().statistics[0].non_finite_count, 0u);
@@ -253,7 +243,7 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
         SceneDescription scene = cut_sheet();
         change(scene);
         try {
-            const Simulation simulation(scene, {}, device());
+            const Simulation simulation(scene, {}, library_device());
             ADD_FAILURE() << pointer;
         } catch (const SceneFailure& failure) {
             EXPECT_EQ(failure.result().errors.at(0).pointer, pointer);

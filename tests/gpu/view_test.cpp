@@ -10,27 +10,16 @@
 #include <map>
 
 #include "drape/simulation.h"
+#include "library_device.h"
 #include "passes/legend.h"
 
 namespace drape {
 namespace {
 
+using test::library_device;
 constexpr std::uint32_t width = 320, height = 240;
 
-const Device& device() {
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    static const Device opened(selector ? selector : "", Validation::count);
-    return opened;
-}
-
-/// Every test runs validated, and any message fails it.
-class ViewTest : public testing::Test {
-  protected:
-    void TearDown() override { EXPECT_EQ(device().validation_count(), before_); }
-
-  private:
-    std::uint64_t before_ = device().validation_count();
-};
+using ViewTest = test::LibraryTest;
 
 using Color = std::array<int, 3>;
 
@@ -70,7 +59,7 @@ Shown shown(const SceneDescription& scene, const PictureView& view, std::uint32_
     options.draw = true;
     options.view = view;
     options.keep_promises = false;
-    Simulation simulation(scene, options, device());
+    Simulation simulation(scene, options, library_device());
     for (std::uint32_t i = 0; i <= frame; ++i) EXPECT_TRUE(simulation.step());
     const FinishedFrame& last = simulation.frame();
     return {{{last.rgba.begin(), last.rgba.end()}}, last.statistics[0]};
@@ -242,7 +231,7 @@ TEST_F(ViewTest, OnlyAHeatMapHasItsColors) {
         SimulationOptions options;
         options.draw = true;
         options.view.kind = kind;
-        const std::string plan = Simulation(scene, options, device()).describe_plan("json");
+        const std::string plan = Simulation(scene, options, library_device()).describe_plan("json");
         const bool heat = kind == View::stretch || kind == View::warp || kind == View::weft;
         EXPECT_EQ(plan.find("heat colors") != std::string::npos, heat) << name;
     }

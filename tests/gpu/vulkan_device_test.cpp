@@ -11,6 +11,7 @@
 #include "vulkan/api.h"
 #include "vulkan/device_selection.h"
 #include "vulkan/resources.h"
+#include "vulkan_error.h"
 
 namespace drape::test {
 
@@ -22,16 +23,6 @@ using vulkan::select_device;
 using vulkan::VulkanError;
 
 namespace {
-
-template <class Function>
-std::string error_of(Function function) {
-    try {
-        function();
-    } catch (const VulkanError& error) {
-        return error.what();
-    }
-    return "no VulkanError";
-}
 
 /// Sets an environment variable for a scope.
 class Environment {

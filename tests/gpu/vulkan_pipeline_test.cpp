@@ -12,6 +12,7 @@
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
+#include "vulkan_error.h"
 
 namespace drape::test {
 
@@ -24,7 +25,6 @@ using vulkan::Image;
 using vulkan::Shader;
 using vulkan::SpecializationConstant;
 using vulkan::structure;
-using vulkan::VulkanError;
 
 namespace {
 
@@ -33,16 +33,6 @@ struct ScalePush {
     float term;
 };
 Shader scale_shader() { return {"scale.comp", test_shader("scale.comp")}; }
-
-template <class Function>
-std::string error_of(Function function) {
-    try {
-        function();
-    } catch (const VulkanError& error) {
-        return error.what();
-    }
-    return "no VulkanError";
-}
 
 std::string compute_error(const Shader& shader, std::vector<SpecializationConstant> constants = {}) {
     return error_of([&] { ComputePipeline(gpu().device, "broken", shader, constants); });

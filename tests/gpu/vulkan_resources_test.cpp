@@ -9,6 +9,7 @@
 #include "gpu_test.h"
 #include "vulkan/api.h"
 #include "vulkan/resources.h"
+#include "vulkan_error.h"
 
 namespace drape::test {
 
@@ -23,16 +24,6 @@ namespace {
 
 constexpr VkImageUsageFlags copied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 constexpr VkBufferUsageFlags copied_buffer = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-
-template <class Function>
-std::string error_of(Function function) {
-    try {
-        function();
-    } catch (const VulkanError& error) {
-        return error.what();
-    }
-    return "no VulkanError";
-}
 
 std::vector<std::byte> noise(std::size_t count) {
     std::mt19937 random(static_cast<std::uint32_t>(count));

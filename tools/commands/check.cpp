@@ -10,7 +10,7 @@ namespace drape::cli {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::vector<std::string> paths, overrides;
     bool json = false, quiet = false;
 };
@@ -32,7 +32,7 @@ std::vector<Compromise> known_compromises(const SceneResult& result) {
 }
 
 /// Every error of every file on stderr, or as JSON on stdout.
-ExitCode check(const Options& options) {
+ExitCode check(const CheckOptions& options) {
     ExitCode code = ExitCode::ok;
     Json::Value report(Json::arrayValue);
     for (const std::string& path : scene_files(options.paths)) {
@@ -67,7 +67,7 @@ ExitCode check(const Options& options) {
 }  // namespace
 
 void add_check(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CheckOptions>();
     CLI::App& command = program.add("check", "Check scene files; needs no device", R"text(
 Errors read file:line:column: /json/pointer: message.
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareOptions {
     std::string before, after;
     compare::Limits limits;
     bool json = false;
@@ -42,7 +42,7 @@ ExitCode compare_profiles(const std::string& before, const std::string& after) {
     }
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const CompareOptions& options) {
     const fs::path before = options.before, after = options.after;
     std::error_code ignored;
     for (const fs::path& path : {before, after}) {
@@ -68,7 +68,7 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_compare(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CompareOptions>();
     CLI::App& command = program.add("compare", "Two runs' arrays, pictures or folders, or two profiles", R"text(
 Arrays (.npy, .npz): largest and RMS difference. Pictures (.png): PSNR and largest difference. Folders: file by file,
 other files by their bytes, the manifests left out. What is given no limit must be equal. Exit code 7 when anything is

@@ -13,13 +13,13 @@ namespace drape::cli {
 
 namespace {
 
-struct Options {
+struct ProfileOptions {
     profile::ProfileRequest request;
     bool simulate = false;
     std::string json, csv, trace;
 };
 
-ExitCode run(Options options) {
+ExitCode run(ProfileOptions options) {
     catch_signals();
     options.request.stop = stop_requested;
     options.request.draw = !options.simulate;
@@ -37,7 +37,7 @@ ExitCode run(Options options) {
 }  // namespace
 
 void add_profile(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ProfileOptions>();
     CLI::App& command = program.add("profile", "Where a frame's time goes, by the device's timestamps", R"text(
 Runs the scene, writes no frame, and tells per frame how long the device spent on each stage (or pass), with the spread
 over the measured frames; `frame` is the time from one frame's end to the next. Bytes are those of what each pass

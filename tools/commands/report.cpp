@@ -12,12 +12,12 @@ namespace drape::cli {
 
 namespace {
 
-struct Options {
+struct ReportOptions {
     std::string folder, other, output;
     report::ReportOptions report;
 };
 
-ExitCode run(const Options& options) {
+ExitCode run(const ReportOptions& options) {
     std::vector<report::RunFolder> runs{report::read_run_folder(options.folder)};
     if (!options.other.empty()) runs.push_back(report::read_run_folder(options.other));
     const std::string html = report::report_html(runs, options.report);
@@ -35,7 +35,7 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_report(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReportOptions>();
     CLI::App& command = program.add("report", "One HTML page of a run: pictures, plots, times, settings", R"text(
 The page needs no network and no other file: pictures shrunk, as a player and a
 contact sheet; stretch, energy, penetration and substeps over time; times by

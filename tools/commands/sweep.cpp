@@ -17,7 +17,7 @@ namespace drape::cli {
 
 namespace {
 
-struct Options {
+struct SweepOptions {
     std::string spec, output, device;
     std::vector<std::string> formats{"npz"};
     std::string indices;
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t 
     }
 }
 
-RunRequest request_of(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
+RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
                       std::uint32_t index) {
     RunRequest request;
     request.scene.path = spec.scene;
@@ -68,8 +68,8 @@ RunRequest request_of(const Options& options, const sweep::SweepSpec& spec, cons
 }
 
 /// One run, here. Nothing when it was stopped.
-std::optional<ExitCode> run_one(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
-                                std::uint32_t index) {
+std::optional<ExitCode> run_one(const SweepOptions& options, const sweep::SweepSpec& spec,
+                                const sweep::SweepFolder& folder, std::uint32_t index) {
     const auto begun = std::chrono::steady_clock::now();
     sweep::JobRecord record;
     record.index = index;
@@ -89,7 +89,7 @@ std::optional<ExitCode> run_one(const Options& options, const sweep::SweepSpec& 
 }
 
 /// The runs of --index, one after the other.
-ExitCode run_indices(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
     ExitCode worst = ExitCode::ok;
     for (const std::uint32_t index : parse_indices(options.indices, spec.count)) {
         const auto there = options.resume ? folder.record(index) : std::nullopt;
@@ -100,7 +100,7 @@ ExitCode run_indices(const Options& options, const sweep::SweepSpec& spec, const
     return worst;
 }
 
-std::vector<std::string> command_of(const Options& options, std::uint32_t index) {
+std::vector<std::string> command_of(const SweepOptions& options, std::uint32_t index) {
     std::vector<std::string> command{
         "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", index)};
     if (!options.device.empty()) command.insert(command.end(), {"--device", options.device});
@@ -109,14 +109,14 @@ std::vector<std::string> command_of(const Options& options, std::uint32_t index)
     return command;
 }
 
-ExitCode conclude(const Options& options, const sweep::SweepFolder& folder) {
+ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder) {
     const sweep::Tally tally = folder.collect(options.dataset);
     if (!options.quiet || !tally.complete())
         print_message(fmt::format("{}; {}", tally.text(), (folder.path() / "results.csv").string()));
     return tally.complete() ? ExitCode::ok : ExitCode::sweep;
 }
 
-ExitCode run_all(const Options& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
     sweep::LocalRuns runs;
     for (std::uint32_t index = 0; index < spec.count; ++index)
         if (!folder.record(index)) runs.indices.push_back(index);
@@ -149,7 +149,7 @@ void check_scene(const sweep::SweepSpec& spec, bool dataset) {
         throw UsageError("--dataset: the cells of a trajectory cannot change, but the scene has cutters");
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const SweepOptions& options) {
     const sweep::SweepSpec spec = sweep::read_sweep(options.spec);
     if (options.count || options.list) {
         print_data(options.count ? fmt::format("{}\n", spec.count) : list(spec));
@@ -196,7 +196,7 @@ Examples:
 }  // namespace
 
 void add_sweep(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SweepOptions>();
     CLI::App& command = program.add("sweep", "Run a scene many times, with values drawn from a seed", details,
                                     [=] { return run(*options); });
     add_required_file(command, "SPEC", "What changes from run to run, as below", options->spec);

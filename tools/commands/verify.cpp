@@ -10,14 +10,14 @@ namespace drape::cli {
 
 namespace {
 
-struct Options {
+struct VerifyOptions {
     std::vector<std::string> paths;
     verify::Request request;
     bool json = false, quiet = false, no_validation = false;
     std::string junit;
 };
 
-ExitCode run(Options options) {
+ExitCode run(VerifyOptions options) {
     catch_signals();
     options.request.stop = stop_requested;
     options.request.validate = !options.no_validation;
@@ -41,7 +41,7 @@ ExitCode run(Options options) {
 }  // namespace
 
 void add_verify(Program& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<VerifyOptions>();
     verify::Request& request = options->request;
     CLI::App& command = program.add("verify", "Run scenes and judge them by what their files promise", R"text(
 Runs every scene to its end, without pictures, under validation, and judges: its oracles (`drape schema --markdown`
