@@ -8,6 +8,8 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
+    const std::uint32_t strip = pipelines.strip_rows();
+    constants.push_back({"strip_rows", strip});
     const bool history = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("collision.comp",
@@ -15,7 +17,8 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
         constants);
     glsl::CollisionPush push = state.model->collision;
     push.first = first_collider(model, *state.model, step.substep);
-    const StepDispatch dispatch(state, step, pipeline, state.model->grid.size());
+    const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.grid.x),
+                                (static_cast<std::uint32_t>(push.grid.y) - 1) / strip + 1);
     graph.add_pass(
         state.step_name("collision", step),
         [&](graph::PassSetup& setup) {

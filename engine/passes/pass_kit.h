@@ -25,6 +25,9 @@ class PipelineCache {
     /// Entries of a list that an invocation takes in turn: on a CPU, where one costs as much to begin as some entries,
     /// several.
     std::uint32_t entries_each() const;
+    /// Particles of a column that an invocation looks after in turn, where few of them have work: on a CPU, where what
+    /// one lane of a subgroup does costs as much as if all did it, several.
+    std::uint32_t strip_rows() const;
     /// As the device's.
     bool wide_atomics() const;
 

@@ -210,6 +210,27 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     return SurfacePoint(normal, distance);
 }
 
+/// Whether a point is so far from a collider that contact leaves it where it is: told without a root, by bounds with
+/// room for all rounding of the distance.
+SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
+    vec3 local = local_point(collider, now);
+    if (kind == kind_plane) {
+        precise float inside = thickness - collider_surface(kind, collider, now, local).distance;
+        return !(inside > 0.0f);
+    }
+    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    if (kind == kind_sphere) {
+        precise float reach = (size.x + thickness) * 1.0001f;
+        precise float squared = reach * reach;
+        return ordered_dot(local, local) > squared;
+    }
+    float widest = size.y > size.z ? size.y : size.z;
+    precise float half_length = size.x + widest;
+    precise vec3 bound = (kind == kind_capsule ? vec3(widest, half_length, widest) : size) * 1.0001f;
+    precise float reach = thickness * 1.0001f;
+    return beyond_bounds(local, bound, reach);
+}
+
 /// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
 /// literal kind, so that each loop holds one shape's code alone. `depth` is by how much it is pushed.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,

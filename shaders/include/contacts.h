@@ -14,29 +14,39 @@ void read_colliders(int first) {
     }
 }
 
+#define NEAR(kind, collider) near = near || !beyond_reach(kind, collider, now, thickness);
 #define CONTACT(kind, collider)                                                                             \
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery); \
     if (in_turn) displacement = contact.displacement;                                                       \
     deepest = contact.depth > deepest ? contact.depth : deepest;
-#define EARLY_CONTACTS(kind, begin, end) \
-    [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { CONTACT(kind, early_colliders[i]) }
-#define CONTACTS(kind, begin, end)                                 \
-    EARLY_CONTACTS(kind, begin, end)                               \
+#define EACH_EARLY(WORK, kind, begin, end) \
+    [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
+#define EACH(WORK, kind, begin, end)                               \
+    EACH_EARLY(WORK, kind, begin, end)                             \
     for (int i = max(begin, early_collider_count); i < end; ++i) { \
-        CONTACT(kind, colliders[first + i])                        \
+        WORK(kind, colliders[first + i])                           \
     }
+#define EACH_COLLIDER(WORK)                                                                        \
+    EACH(WORK, kind_plane, 0, planes_end)                                                          \
+    EACH(WORK, kind_sphere, planes_end, spheres_end)                                               \
+    EACH(WORK, kind_box, spheres_end, boxes_end)                                                   \
+    if (boxes_end < ellipsoids_end) { /* else a loop within it keeps lavapipe from leaving this one out */ \
+        EACH(WORK, kind_ellipsoid, boxes_end, ellipsoids_end)                                      \
+    }                                                                                              \
+    EACH(WORK, kind_capsule, ellipsoids_end, capsules_end)
+
+/// Whether a point may be nearer than the thickness to any collider from `first` on; if not, contact leaves it.
+bool near_any(int first, vec3 now, float thickness) {
+    bool near = false;
+    EACH_COLLIDER(NEAR)
+    return near;
+}
 
 /// Contact with every collider from `first` on. `in_turn`: each takes the displacement that those before it left, else
 /// the given one, and only the depth counts.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;
-    CONTACTS(kind_plane, 0, planes_end)
-    CONTACTS(kind_sphere, planes_end, spheres_end)
-    CONTACTS(kind_box, spheres_end, boxes_end)
-    if (boxes_end < ellipsoids_end) {  // else the loop within it keeps lavapipe from leaving this one out
-        CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
-    }
-    CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
+    EACH_COLLIDER(CONTACT)
     return Contact(displacement, deepest);
 }

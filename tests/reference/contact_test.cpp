@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
+#include "cloth/frame_inputs.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"
 #include "scene/surface_distance.h"
@@ -225,6 +227,59 @@ TEST(ContactTest, NoKindOfColliderThrowsWhatStartsInIt) {
         std::printf("[ measured ] %s: all that is drawn at most %.2f m/s\n", name, std::ranges::max(surface.speed));
         EXPECT_LE(std::ranges::max(surface.speed), speed) << name;
         EXPECT_LE(surface.depth.back(), 1e-6) << name;
+    }
+}
+
+/// A collider of any kind, 1 mm to 10 m large, anywhere and turned.
+Collider random_collider(std::mt19937& random) {
+    const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    const auto size = [&] { return std::pow(10, uniform(-3, 1)); };
+    const auto place = [&] { return Vec3{uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)}; };
+    const ColliderShape shapes[] = {
+        Plane{place(), uniform(-1, 1)}, Sphere{place(), size()}, Box{place(), {size(), size(), size()}},
+        Ellipsoid{place(), {size(), size(), size()}}, Capsule{place(), place(), {size(), size()}}};
+    Collider collider{shapes[std::uniform_int_distribution(0, 4)(random)]};
+    collider.rotate = {uniform(0, 360), uniform(0, 360), uniform(0, 360)};
+    return collider;
+}
+
+/// The passes of the device leave out colliders that a point is beyond the reach of: contact must leave such points.
+TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    std::array<int, glsl::collider_kind_count> beyond{}, near{};
+    for (int i = 0; i < 300000; ++i) {
+        const Collider collider = random_collider(random);
+        const glsl::ColliderRecord record = collider_record(collider, 0, 0);
+        const double thickness = uniform(0, 1) < 0.2 ? 0 : std::pow(10, uniform(-4, -1));
+        Vec3 at{uniform(-6, 6), uniform(-6, 6), uniform(-6, 6)};
+        // Most are next to where contact begins: out along the distance's gradient, to a few roundings of it.
+        for (int step = 0; step < 3 && i % 8 != 0; ++step) {
+            const auto distance = [&](const Vec3& x) { return exact::surface_distance(collider, 0, x); };
+            const double wanted = thickness * (1 + 1e-6 * normal(random)), off = wanted - distance(at), d = 1e-7;
+            Vec3 moved = at;
+            for (std::size_t k = 0; k < 3; ++k) {
+                Vec3 there = at;
+                there[k] += d;
+                moved[k] += off * (distance(there) - distance(at)) / d;
+            }
+            at = moved;
+        }
+        const glsl::vec3 now{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+        const glsl::vec3 nowhere{0, 0, 0};
+        const auto kept = static_cast<float>(thickness);
+        const bool left_out = glsl::beyond_reach(collider.kind(), record, now, kept);
+        const glsl::Contact contact = glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f);
+        ++(left_out ? beyond : near)[static_cast<std::size_t>(collider.kind())];
+        if (!left_out) continue;
+        ASSERT_EQ(contact.depth, 0.0f) << "kind " << collider.kind() << " at " << at[0] << ", " << at[1] << ", "
+                                       << at[2];
+        ASSERT_TRUE(contact.displacement.x == 0.0f && contact.displacement.y == 0.0f && contact.displacement.z == 0.0f);
+    }
+    for (std::size_t kind = 0; kind < beyond.size(); ++kind) {
+        EXPECT_GT(beyond[kind], 1000) << "kind " << kind;
+        EXPECT_GT(near[kind], 1000) << "kind " << kind;
     }
 }
 
