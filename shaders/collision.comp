@@ -35,15 +35,53 @@ vec4 led_displacement(ivec2 texel, vec4 moved) {
 #endif
 }
 
-/// Which particles of a strip of a column may touch a collider, or have: bit k is row k.
-uint near_rows(int column, int first, int count) {
-    uint rows = 0u;
+/// Part of a column.
+struct Strip {
+    int column, first, count;
+    vec3 lower, upper;  // between which its particles are about to be
+    uint rows;          // that may touch a collider, or have: bit k is row k
+};
+
+/// Where a particle is about to be.
+vec3 next_position(ivec2 texel) {
+    return moved_position(LOAD(position, texel).xyz, led_displacement(texel, LOAD(displacement_in, texel)).xyz);
+}
+
+Strip strip_at(int column, int first, int count) {
+    Strip strip = Strip(column, first, count, vec3(1.0e30f), vec3(-1.0e30f), 0u);
     for (int k = 0; k < count; ++k) {
         ivec2 texel = ivec2(column, first + k);
         vec4 start = LOAD(position, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
-        bool near = led.w > 0.0f || near_any(push.first, moved_position(start.xyz, led.xyz), push.contact.x);
-        rows |= near && start.w != 0.0f ? 1u << k : 0u;
+        vec3 now = moved_position(start.xyz, led.xyz);
+        bool near = led.w > 0.0f || near_early(now, push.contact.x);
+        strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
+        strip.lower = min(strip.lower, now);
+        strip.upper = max(strip.upper, now);
     }
+    return strip;
+}
+
+/// Which of at most 32 colliders from the `begin`-th on are near a strip: bit k is the k-th of them.
+uint near_colliders(Strip strip, int begin, int count) {
+    uint near = 0u;
+    for (int k = 0; k < count; ++k)
+        near |= near_ball(collider_ball(push.first, begin + k), strip.lower, strip.upper, push.contact.x) ? 1u << k : 0u;
+    return near;
+}
+
+/// Rows of a strip that may touch a collider after the early ones.
+uint late_rows(Strip strip) {
+    uint rows = 0u;
+    for (int begin = early_collider_count; begin < capsules_end; begin += 32)
+        for (uint near = near_colliders(strip, begin, min(32, capsules_end - begin)); near != 0u; near &= near - 1u) {
+            vec4 ball = collider_ball(push.first, begin + findLSB(near));
+            for (int k = 0; k < strip.count; ++k) {
+                ivec2 texel = ivec2(strip.column, strip.first + k);
+                vec3 now = next_position(texel);
+                bool meets = near_ball(ball, now, now, push.contact.x) && LOAD(position, texel).w != 0.0f;
+                rows |= meets ? 1u << k : 0u;
+            }
+        }
     return rows;
 }
 
@@ -73,8 +111,9 @@ void main() {
     read_colliders(push.first);
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
-    int count = min(strip_rows, push.grid.y - first);
+    Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
+    if (capsules_end > early_collider_count) strip.rows |= late_rows(strip);
     // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
-    for (uint rows = near_rows(column, first, count); rows != 0u; rows &= rows - 1u)
+    for (uint rows = strip.rows; rows != 0u; rows &= rows - 1u)
         meet_all(ivec2(column, first + findLSB(rows)));
 }

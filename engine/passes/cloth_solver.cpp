@@ -169,7 +169,11 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     if (model_.closed_loop())
         inputs_.attempt = graph.buffer<glsl::StepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
-        inputs_.colliders = graph.buffer<glsl::ColliderRecord>("colliders", count, Lifetime::host_input);
+        inputs_.colliders = graph.buffer({.name = "colliders",
+                                          .byte_count = count * sizeof(glsl::ColliderRecord),
+                                          .lifetime = Lifetime::host_input,
+                                          .element = &glsl::layout_of<glsl::ColliderRecord>(),
+                                          .texels = true});
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
     for (Together& together : together_) declare_together(graph, together, needs);
 }

@@ -30,6 +30,7 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
             }
             if (step.after_edges) setup.read(state[Field::lifted], graph::Access::compute_read, "lifted");
             setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
+            setup.read(inputs.colliders, graph::Access::compute_read, "collider_texels");
             dispatch.declare(setup);
         },
         [dispatch, push](graph::PassContext& context) { dispatch.record(context, push); });

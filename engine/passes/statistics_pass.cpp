@@ -40,7 +40,10 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
                 setup.read(state[Field::mass_share], graph::Access::compute_read, "mass_image");
             }
-            if (collides) setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
+            if (collides) {
+                setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
+                setup.read(inputs.colliders, graph::Access::compute_read, "collider_texels");
+            }
         },
         [&pipeline, push = statistics_push(model, *state.model), height = strip_count(state.model->grid),
          count = state.count](graph::PassContext& context) {

@@ -14,6 +14,34 @@ void read_colliders(int first) {
     }
 }
 
+/// The same records, as texels: of those that come after the early ones the default device loads what says how far they
+/// reach several times as fast from here (docs/devices.md).
+layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
+const int collider_texel_count = 8, collider_shape_texel = 6;  // of a record
+
+/// Ball about collider i, counted from `first`: centre, and its radius; a plane's holds everything.
+vec4 collider_ball(int first, int i) {
+    int texel = (first + i) * collider_texel_count;
+    vec3 center = vec3(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
+                       imageLoad(collider_texels, texel + 2).w);
+    vec3 size = imageLoad(collider_texels, texel + collider_shape_texel).xyz;
+    float radius = i < spheres_end ? size.x : i < ellipsoids_end ? length(size) : size.x + max(size.y, size.z);
+    return vec4(center, i < planes_end ? 1.0e15f : radius);
+}
+
+/// Whether what is between two corners may be nearer to a ball than `thickness`.
+bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
+    vec3 off = max(max(lower - ball.xyz, ball.xyz - upper), vec3(0.0f));
+    float reach = (ball.w + thickness) * 1.001f;  // for all rounding, here and in the distance
+    return !(dot(off, off) > reach * reach);
+}
+
+/// From the i-th collider on the next that may be near a point; `end` if there is none.
+int next_near(int first, int i, int end, vec3 now, float thickness) {
+    while (i < end && !near_ball(collider_ball(first, i), now, now, thickness)) ++i;
+    return i;
+}
+
 #define NEAR(kind, collider) near = near || !beyond_reach(kind, collider, now, thickness);
 #define CONTACT(kind, collider)                                                                             \
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery); \
@@ -21,24 +49,21 @@ void read_colliders(int first) {
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
-#define EACH(WORK, kind, begin, end)                               \
-    EACH_EARLY(WORK, kind, begin, end)                             \
-    for (int i = max(begin, early_collider_count); i < end; ++i) { \
-        WORK(kind, colliders[first + i])                           \
+#define CONTACTS(kind, begin, end)                                                                                     \
+    EACH_EARLY(CONTACT, kind, begin, end)                                                                              \
+    for (int i = next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
+         i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {                  \
+        CONTACT(kind, colliders[first + i])                                                                            \
     }
-#define EACH_COLLIDER(WORK)                                                                        \
-    EACH(WORK, kind_plane, 0, planes_end)                                                          \
-    EACH(WORK, kind_sphere, planes_end, spheres_end)                                               \
-    EACH(WORK, kind_box, spheres_end, boxes_end)                                                   \
-    if (boxes_end < ellipsoids_end) { /* else a loop within it keeps lavapipe from leaving this one out */ \
-        EACH(WORK, kind_ellipsoid, boxes_end, ellipsoids_end)                                      \
-    }                                                                                              \
-    EACH(WORK, kind_capsule, ellipsoids_end, capsules_end)
 
-/// Whether a point may be nearer than the thickness to any collider from `first` on; if not, contact leaves it.
-bool near_any(int first, vec3 now, float thickness) {
+/// Whether a point may be nearer than the thickness to one of the early colliders; if not, these leave it.
+bool near_early(vec3 now, float thickness) {
     bool near = false;
-    EACH_COLLIDER(NEAR)
+    EACH_EARLY(NEAR, kind_plane, 0, planes_end)
+    EACH_EARLY(NEAR, kind_sphere, planes_end, spheres_end)
+    EACH_EARLY(NEAR, kind_box, spheres_end, boxes_end)
+    EACH_EARLY(NEAR, kind_ellipsoid, boxes_end, ellipsoids_end)
+    EACH_EARLY(NEAR, kind_capsule, ellipsoids_end, capsules_end)
     return near;
 }
 
@@ -47,6 +72,12 @@ bool near_any(int first, vec3 now, float thickness) {
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;
-    EACH_COLLIDER(CONTACT)
+    CONTACTS(kind_plane, 0, planes_end)
+    CONTACTS(kind_sphere, planes_end, spheres_end)
+    CONTACTS(kind_box, spheres_end, boxes_end)
+    if (boxes_end < ellipsoids_end) {  // else the loop within it keeps lavapipe from leaving this one out
+        CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
+    }
+    CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     return Contact(displacement, deepest);
 }

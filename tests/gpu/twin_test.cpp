@@ -1,6 +1,8 @@
 // Every simulation pass on the device equals its C++ twin bit for bit (lavapipe), over more than 200 substeps.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "twin_comparison.h"
 
 namespace drape {
@@ -41,6 +43,23 @@ TEST(TwinTest, MoreCollidersThanAreReadEarly) {
     SceneDescription scene = everything();
     for (int k = 0; k < 6; ++k)
         scene.colliders.push_back({Sphere{{-0.5 + 0.2 * k, -0.15 - 0.02 * k, 0.2 - 0.1 * k}, 0.05}});
+    compare(scene);
+}
+
+/// Of every kind some that come after the early ones, in more than one group of 32.
+TEST(TwinTest, ManyCollidersOfEveryKind) {
+    SceneDescription scene = everything();
+    std::mt19937 random(3);
+    const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    for (int k = 0; k < 60; ++k) {
+        const Vec3 at{uniform(-0.7, 0.7), uniform(-0.5, 0), uniform(-0.7, 0.7)};
+        const ColliderShape shapes[] = {Sphere{at, 0.05}, Box{at, {0.05, 0.03, 0.06}},
+                                        Ellipsoid{at, {0.04, 0.05, 0.06}},
+                                        Capsule{at, {at[0] + 0.1, at[1], at[2]}, {0.03, 0.04}}};
+        scene.colliders.push_back({shapes[k % 4], 0.3, {uniform(0, 90), uniform(0, 90), 0}});
+    }
+    compare(scene);
+    scene.solver.method = SolverMethod::line;
     compare(scene);
 }
 
