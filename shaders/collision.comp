@@ -12,6 +12,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
 layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation looks after, 32 at most
+layout(constant_id = 18) const bool leaves_out = true;  // what no collider can reach
 layout(push_constant) uniform Push { CollisionPush push; };
 #define TOGETHER
 #include "include/state_store.h"
@@ -53,7 +54,7 @@ Strip strip_at(int column, int first, int count) {
         ivec2 texel = ivec2(column, first + k);
         vec4 start = LOAD(position, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
         vec3 now = moved_position(start.xyz, led.xyz);
-        bool near = led.w > 0.0f || near_early(now, push.contact.x);
+        bool near = !leaves_out || led.w > 0.0f || near_early(now, push.contact.x);
         strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
         strip.lower = min(strip.lower, now);
         strip.upper = max(strip.upper, now);

@@ -83,6 +83,9 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
             if (std::ranges::find(scene.colliders, kind, &Collider::kind) == scene.colliders.end())
                 all.push_back(
                     {fmt::format("collision with {}", collider_lists[kind]), "the scene has none: specialised away"});
+        if (options.skip)
+            all.push_back({"contact of particles with colliders out of their reach",
+                           "bounds tell, in every substep, and leave the same bits"});
         if (scene.colliders.size() == 1)
             all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
     }

@@ -10,6 +10,7 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     constants.push_back({"round_count", model.collision_rounds()});
     const std::uint32_t strip = pipelines.strip_rows();
     constants.push_back({"strip_rows", strip});
+    constants.push_back({"leaves_out", model.options.skip ? 1u : 0u});
     const bool history = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("collision.comp",

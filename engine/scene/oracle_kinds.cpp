@@ -53,7 +53,7 @@ std::string_view no_relaxation(const SceneDescription& scene) {
 
 KeyText key(std::string_view name, std::string_view help) { return {name, help, {}, {}, {}, false}; }
 
-constexpr OracleLimit cloth{"cloth", "number of the cloth, from 0", true};
+constexpr OracleLimit which_cloth{"cloth", "number of the cloth, from 0", true};
 constexpr OracleLimit from_frame{"from_frame", "first frame that counts", true};
 constexpr OracleLimit until_frame{"until_frame", "last frame that counts", true};
 
@@ -76,7 +76,7 @@ std::vector<OracleKind> kinds_of_shape() {
          nothing},
         {"supported",
          "In the last frame the top of the cloth lies at a height.",
-         {cloth,
+         {which_cloth,
           {"height", "metres"},
           {"above", "how much higher it may be, metres"},
           {"below", "how much lower it may be, metres"}},
@@ -105,14 +105,14 @@ std::vector<OracleKind> kinds_of_motion() {
     return {
         {"falls",
          "Until something holds or touches them, particles fly as gravity and damping make them.",
-         {cloth,
+         {which_cloth,
           {"from_row", "first row of the particles", true},
           until_frame,
           {"error", "largest distance from the closed form, metres"}},
          nothing},
         {"swing",
          "What gravity gives and damping leaves is there as motion at the fastest moment; without wind and contact.",
-         {cloth,
+         {which_cloth,
           from_frame,
           until_frame,
           {"least", "smallest share of the work that is kinetic energy"},

@@ -49,11 +49,12 @@ int next_near(int first, int i, int end, vec3 now, float thickness) {
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
-#define CONTACTS(kind, begin, end)                                                                                     \
-    EACH_EARLY(CONTACT, kind, begin, end)                                                                              \
-    for (int i = next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
-         i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {                  \
-        CONTACT(kind, colliders[first + i])                                                                            \
+#define CONTACTS(kind, begin, end)                                                                                    \
+    EACH_EARLY(CONTACT, kind, begin, end)                                                                             \
+    for (int i =                                                                                                      \
+             next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
+         i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {                 \
+        CONTACT(kind, colliders[first + i])                                                                           \
     }
 
 /// Whether a point may be nearer than the thickness to one of the early colliders; if not, these leave it.

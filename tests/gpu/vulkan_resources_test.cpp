@@ -47,15 +47,15 @@ class TightBudget {
     std::uint64_t taken_;
 };
 
-struct Shape {
+}  // namespace
+
+struct ImageShape {
     VkFormat format;
     std::uint32_t width, height;
     VkImageUsageFlags usage;
 };
 
-class VulkanImageRoundTrip : public testing::TestWithParam<Shape> {};
-
-}  // namespace
+class VulkanImageRoundTrip : public testing::TestWithParam<ImageShape> {};
 
 TEST_P(VulkanImageRoundTrip, gives_back_every_byte) {
     const auto [format, width, height, usage] = GetParam();
@@ -76,15 +76,15 @@ TEST_P(VulkanImageRoundTrip, gives_back_every_byte) {
     EXPECT_EQ(gpu().device.budget().used(), used);
 }
 
-INSTANTIATE_TEST_SUITE_P(formats_and_odd_sizes, VulkanImageRoundTrip,
-                         testing::Values(Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT},
-                                         Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 97, 61, VK_IMAGE_USAGE_STORAGE_BIT},
-                                         Shape{VK_FORMAT_R32G32B32A32_SFLOAT, 513, 3, VK_IMAGE_USAGE_STORAGE_BIT},
-                                         Shape{VK_FORMAT_R32_SFLOAT, 3, 257, VK_IMAGE_USAGE_STORAGE_BIT},
-                                         Shape{VK_FORMAT_R32_UINT, 65, 1, VK_IMAGE_USAGE_STORAGE_BIT},
-                                         Shape{VK_FORMAT_R8G8B8A8_SRGB, 31, 17, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
-                                         Shape{VK_FORMAT_R8G8B8A8_UNORM, 7, 5, 0},
-                                         Shape{VK_FORMAT_R8_UNORM, 13, 11, 0}));
+INSTANTIATE_TEST_SUITE_P(
+    formats_and_odd_sizes, VulkanImageRoundTrip,
+    testing::Values(ImageShape{VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, VK_IMAGE_USAGE_STORAGE_BIT},
+                    ImageShape{VK_FORMAT_R32G32B32A32_SFLOAT, 97, 61, VK_IMAGE_USAGE_STORAGE_BIT},
+                    ImageShape{VK_FORMAT_R32G32B32A32_SFLOAT, 513, 3, VK_IMAGE_USAGE_STORAGE_BIT},
+                    ImageShape{VK_FORMAT_R32_SFLOAT, 3, 257, VK_IMAGE_USAGE_STORAGE_BIT},
+                    ImageShape{VK_FORMAT_R32_UINT, 65, 1, VK_IMAGE_USAGE_STORAGE_BIT},
+                    ImageShape{VK_FORMAT_R8G8B8A8_SRGB, 31, 17, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+                    ImageShape{VK_FORMAT_R8G8B8A8_UNORM, 7, 5, 0}, ImageShape{VK_FORMAT_R8_UNORM, 13, 11, 0}));
 
 TEST(VulkanImage, round_trips_depth) {
     const Image image(gpu().device,

@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::uint32_t width = 96, height = 64;
+constexpr std::uint32_t frame_width = 96, frame_height = 64;
 
 void fill(std::vector<std::uint8_t>& rgba, std::uint64_t frame) {
     std::mt19937 random(static_cast<unsigned>(frame));
@@ -25,9 +25,9 @@ void fill(std::vector<std::uint8_t>& rgba, std::uint64_t frame) {
 
 void submit_frames(PngSequence& sequence, std::uint64_t count) {
     for (std::uint64_t frame = 0; frame < count; ++frame) {
-        std::vector<std::uint8_t> rgba = sequence.take_buffer(width * height * 4);
+        std::vector<std::uint8_t> rgba = sequence.take_buffer(frame_width * frame_height * 4);
         fill(rgba, frame);
-        sequence.submit(frame, width, height, std::move(rgba));
+        sequence.submit(frame, frame_width, frame_height, std::move(rgba));
     }
 }
 
@@ -53,9 +53,9 @@ TEST(PngSequence, WritesEveryFrameUnderItsNumber) {
         const std::string file = read_text(temporary / record.name);
         EXPECT_EQ(record.bytes, file.size());
         EXPECT_EQ(record.hash, xxh3_128_hex(file));
-        std::vector<std::uint8_t> rgba(width * height * 4), png;
+        std::vector<std::uint8_t> rgba(frame_width * frame_height * 4), png;
         fill(rgba, frame);
-        encode_png(width, height, rgba, png);
+        encode_png(frame_width, frame_height, rgba, png);
         EXPECT_EQ(file, std::string(png.begin(), png.end())) << frame;
     }
     EXPECT_EQ(names_in(temporary.path()).size(), 40u);
@@ -79,13 +79,13 @@ TEST(PngSequence, BuffersAreReused) {
     PngSequence sequence(folder, 4, 1);
     std::set<const std::uint8_t*> buffers;
     for (std::uint64_t frame = 0; frame < 30; ++frame) {
-        std::vector<std::uint8_t> rgba = sequence.take_buffer(width * height * 4);
+        std::vector<std::uint8_t> rgba = sequence.take_buffer(frame_width * frame_height * 4);
         // At most two frames are pending, so from the fourth on there is a written one's buffer, with its
         // content.
         EXPECT_EQ(rgba[0], frame < 3 ? rgba[0] : 7) << frame;
         rgba[0] = 7;
         buffers.insert(rgba.data());
-        sequence.submit(frame, width, height, std::move(rgba));
+        sequence.submit(frame, frame_width, frame_height, std::move(rgba));
     }
     sequence.finish();
     EXPECT_LE(buffers.size(), 3u);  // two pending, one in the caller's hands
@@ -123,9 +123,9 @@ TEST(PngSequence, AFullDiskKeepsTheEarlierFrames) {
         PngSequence sequence(folder, 4, 2);
         sequence.submit(0, 8, 8, std::vector<std::uint8_t>(8 * 8 * 4));
         const std::string text = error_text<OutputError>([&] {
-            std::vector<std::uint8_t> noise(width * height * 4);
+            std::vector<std::uint8_t> noise(frame_width * frame_height * 4);
             fill(noise, 1);
-            sequence.submit(1, width, height, noise);
+            sequence.submit(1, frame_width, frame_height, noise);
             sequence.finish();
         });
         return text.find("frame_0001.png': File too large") != std::string::npos ? 0 : 1;

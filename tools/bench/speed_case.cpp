@@ -144,6 +144,8 @@ const std::vector<SkipCase>& skip_cases() {
     static const std::vector<SkipCase> cases{
         {"skip/needless fields", "flag.json", "masks of a whole cloth, tensions of single iterations (--no-skip)",
          as_it_is, no_skip},
+        {"skip/colliders out of reach", "four_colliders.json",
+         "contact of particles that no collider can reach (--no-skip)", as_it_is, no_skip},
         {"skip/pictures", "cloth_on_sphere.json", "normals, shadow, raster and colour readback of `simulate`", as_it_is,
          draw},
         {"skip/frames", "cloth_on_sphere.json", "pictures of frames nobody asked for (-j 10)", draw_every_tenth, draw},

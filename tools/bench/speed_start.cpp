@@ -24,10 +24,9 @@ constexpr int most_rounds = 3;  // a cold start takes a second or two
 
 /// To frame 1, the first that is simulated, and the one after it.
 Parts start(const SpeedCase& speed_case, const BenchRequest& request) {
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point before = Clock::now();
+    std::chrono::steady_clock::time_point before = std::chrono::steady_clock::now();
     const auto lap = [&before] {
-        const Clock::time_point now = Clock::now();
+        const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
         return std::chrono::duration<double, std::milli>(now - std::exchange(before, now)).count();
     };
     const SceneDescription scene = scene_of(speed_case);

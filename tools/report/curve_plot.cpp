@@ -12,7 +12,7 @@ namespace drape::report {
 
 namespace {
 
-constexpr double width = 560, height = 300, left = 70, right = 545, top = 62, bottom = 255;
+constexpr double plot_width = 560, plot_height = 300, left = 70, right = 545, top = 62, bottom = 255;
 /// Values from `first` to `last`, a whole number of steps, along pixels.
 struct Axis {
     double first, last, step, begin, end;
@@ -83,9 +83,9 @@ std::string svg_text(const CurvePlot& plot) {
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" role=\"img\" font-family=\"sans-serif\" "
         "font-size=\"11\">\n<title>{2}</title>\n",
-        width, height, xml_text(plot.title));
+        plot_width, plot_height, xml_text(plot.title));
     svg += text(left, 18, plot.title, "font-size=\"14\" font-weight=\"bold\"") + grid(x, y);
-    svg += text((left + right) / 2, height - 10, plot.x_label, "text-anchor=\"middle\"");
+    svg += text((left + right) / 2, plot_height - 10, plot.x_label, "text-anchor=\"middle\"");
     svg += fmt::format("<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                        (top + bottom) / 2, xml_text(plot.y_label));
     std::array<double, 2> legend{left, left};
