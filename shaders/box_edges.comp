@@ -10,6 +10,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const bool again = false;  // the second round
+layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation looks after, 32 at most
 layout(push_constant) uniform Push { CollisionPush push; };
 #define TOGETHER
 #include "include/state_store.h"
@@ -83,9 +84,9 @@ vec4 led_by_boxes(ivec2 texel) {
 }
 
 void main() {
-    int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * box_edge_rows;
+    int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
-    int count = push.grid.y - first < box_edge_rows ? push.grid.y - first : box_edge_rows;
+    int count = push.grid.y - first < strip_rows ? push.grid.y - first : strip_rows;
     for (int k = 0; k < count; ++k) {
         ivec2 texel = ivec2(column, first + k);
         vec4 moved = LOAD(displacement, texel);

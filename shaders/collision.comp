@@ -56,8 +56,8 @@ Strip strip_at(int column, int first, int count) {
         vec3 now = moved_position(start.xyz, led.xyz);
         bool near = !leaves_out || led.w > 0.0f || near_early(now, push.contact.x);
         strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
-        strip.lower = min(strip.lower, now);
-        strip.upper = max(strip.upper, now);
+        strip.lower = least_of_each(strip.lower, now);
+        strip.upper = largest_of_each(strip.upper, now);
     }
     return strip;
 }

@@ -8,6 +8,8 @@ void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     std::vector<vulkan::SpecializationConstant> ends = collider_constants(model.scene);
     std::erase_if(ends, [](const auto& each) { return each.name != "spheres_end" && each.name != "boxes_end"; });
     ends.push_back({"again", step.after_edges});
+    const std::uint32_t strip = pipelines.strip_rows();
+    ends.push_back({"strip_rows", strip});
     const Field from = step.after_edges ? Field::lifted_once : Field::displacement;
     const Field to = step.after_edges ? Field::lifted : Field::lifted_once;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
@@ -23,8 +25,8 @@ void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
             setup.read(inputs.colliders, graph::Access::compute_read, "colliders");
             if (state.masked()) setup.read(state[Field::cells], graph::Access::compute_read, "cells");
         },
-        [&pipeline, push, count = state.count](graph::PassContext& context) {
-            const auto strips = static_cast<std::uint32_t>((push.grid.y - 1) / glsl::box_edge_rows + 1);
+        [&pipeline, push, strip, count = state.count](graph::PassContext& context) {
+            const std::uint32_t strips = (static_cast<std::uint32_t>(push.grid.y) - 1) / strip + 1;
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), strips, count);
         });
 }

@@ -231,6 +231,40 @@ SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thic
     return beyond_bounds(local, bound, reach);
 }
 
+/// Of a ball about a collider's centre that holds all of it, m; a plane's holds everything.
+SHARED float bounding_radius(int kind, vec3 size) {
+    float widest = size.y > size.z ? size.y : size.z;
+    precise float half_length = size.x + widest;
+    precise float corner = sqrt(ordered_dot(size, size));
+    return kind == kind_plane ? 1.0e15f : kind == kind_sphere ? size.x : kind == kind_capsule ? half_length : corner;
+}
+
+SHARED vec3 least_of_each(vec3 a, vec3 b) {
+    return vec3(b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z);
+}
+
+SHARED vec3 largest_of_each(vec3 a, vec3 b) {
+    return vec3(b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z);
+}
+
+/// How far a number is beyond the two ends of an interval.
+SHARED float beyond_interval(float x, float lower, float upper) {
+    precise float below = lower - x;
+    precise float above = x - upper;
+    float most = below > above ? below : above;
+    return most > 0.0f ? most : 0.0f;
+}
+
+/// Whether what is between two corners may be nearer than `thickness` to what is in a ball (w: radius); with room for
+/// all rounding of the distance.
+SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
+    vec3 off = vec3(beyond_interval(ball.x, lower.x, upper.x), beyond_interval(ball.y, lower.y, upper.y),
+                    beyond_interval(ball.z, lower.z, upper.z));
+    precise float reach = (ball.w + thickness) * 1.001f;
+    precise float squared = reach * reach;
+    return !(ordered_dot(off, off) > squared);
+}
+
 /// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
 /// literal kind, so that each loop holds one shape's code alone. `depth` is by how much it is pushed.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,

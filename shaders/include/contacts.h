@@ -19,21 +19,20 @@ void read_colliders(int first) {
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
 const int collider_texel_count = 8, collider_shape_texel = 6;  // of a record
 
-/// Ball about collider i, counted from `first`: centre, and its radius; a plane's holds everything.
-vec4 collider_ball(int first, int i) {
-    int texel = (first + i) * collider_texel_count;
-    vec3 center = vec3(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
-                       imageLoad(collider_texels, texel + 2).w);
-    vec3 size = imageLoad(collider_texels, texel + collider_shape_texel).xyz;
-    float radius = i < spheres_end ? size.x : i < ellipsoids_end ? length(size) : size.x + max(size.y, size.z);
-    return vec4(center, i < planes_end ? 1.0e15f : radius);
+int kind_of_collider(int i) {
+    return i < planes_end       ? kind_plane
+           : i < spheres_end    ? kind_sphere
+           : i < boxes_end      ? kind_box
+           : i < ellipsoids_end ? kind_ellipsoid
+                                : kind_capsule;
 }
 
-/// Whether what is between two corners may be nearer to a ball than `thickness`.
-bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
-    vec3 off = max(max(lower - ball.xyz, ball.xyz - upper), vec3(0.0f));
-    float reach = (ball.w + thickness) * 1.001f;  // for all rounding, here and in the distance
-    return !(dot(off, off) > reach * reach);
+/// Ball about collider i, counted from `first`: centre and radius.
+vec4 collider_ball(int first, int i) {
+    int texel = (first + i) * collider_texel_count;
+    return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
+                imageLoad(collider_texels, texel + 2).w,
+                bounding_radius(kind_of_collider(i), imageLoad(collider_texels, texel + collider_shape_texel).xyz));
 }
 
 /// From the i-th collider on the next that may be near a point; `end` if there is none.
@@ -49,12 +48,14 @@ int next_near(int first, int i, int end, vec3 now, float thickness) {
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
-#define CONTACTS(kind, begin, end)                                                                                    \
-    EACH_EARLY(CONTACT, kind, begin, end)                                                                             \
-    for (int i =                                                                                                      \
-             next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
-         i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {                 \
-        CONTACT(kind, colliders[first + i])                                                                           \
+#define CONTACTS(kind, begin, end)                                                                                   \
+    EACH_EARLY(CONTACT, kind, begin, end)                                                                            \
+    if (end > early_collider_count) { /* else lavapipe does not leave the loops out */                               \
+        int i =                                                                                                      \
+            next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
+        for (; i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {          \
+            CONTACT(kind, colliders[first + i])                                                                      \
+        }                                                                                                            \
     }
 
 /// Whether a point may be nearer than the thickness to one of the early colliders; if not, these leave it.

@@ -11,8 +11,6 @@ namespace drape::glsl {
 
 /// Workgroups are rows along x: 64x1 is among the best shapes on the default device and coalesces on GPUs.
 const int workgroup_width = 64;
-/// Particles of a column that one invocation looks at for edges of boxes (box_edges.comp), 32 at most.
-const int box_edge_rows = 16;
 /// Bytes: rows of a state image's buffer view begin at multiples of it (include/state_store.h).
 const int state_row_alignment = 64;
 

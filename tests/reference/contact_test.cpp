@@ -248,7 +248,7 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
     const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
-    std::array<int, glsl::collider_kind_count> beyond{}, near{};
+    std::array<int, glsl::collider_kind_count> beyond{}, near{}, far{};
     for (int i = 0; i < 300000; ++i) {
         const Collider collider = random_collider(random);
         const glsl::ColliderRecord record = collider_record(collider, 0, 0);
@@ -269,7 +269,12 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
         const glsl::vec3 now{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
         const glsl::vec3 nowhere{0, 0, 0};
         const auto kept = static_cast<float>(thickness);
-        const bool left_out = glsl::beyond_reach(collider.kind(), record, now, kept);
+        const glsl::vec3 size{record.shape.x, record.shape.y, record.shape.z};
+        const glsl::vec4 ball{record.pose_x.w, record.pose_y.w, record.pose_z.w,
+                              glsl::bounding_radius(collider.kind(), size)};
+        const bool far_off = !glsl::near_ball(ball, now, now, kept);
+        const bool left_out = far_off || glsl::beyond_reach(collider.kind(), record, now, kept);
+        far[static_cast<std::size_t>(collider.kind())] += far_off;
         const glsl::Contact contact = glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f);
         ++(left_out ? beyond : near)[static_cast<std::size_t>(collider.kind())];
         if (!left_out) continue;
@@ -280,6 +285,7 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
     for (std::size_t kind = 0; kind < beyond.size(); ++kind) {
         EXPECT_GT(beyond[kind], 1000) << "kind " << kind;
         EXPECT_GT(near[kind], 1000) << "kind " << kind;
+        if (kind != glsl::kind_plane) EXPECT_GT(far[kind], 1000) << "kind " << kind;
     }
 }
 
