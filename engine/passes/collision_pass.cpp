@@ -1,14 +1,33 @@
 #include "passes/collision_pass.h"
 
+#include <algorithm>
+
 #include "passes/step_dispatch.h"
 
 namespace drape {
+
+namespace {
+
+/// The default device breaks off, unseen, after some 65,535 rounds of loops of an invocation (docs/devices.md).
+constexpr std::size_t most_loop_rounds = 60000;
+
+/// Particles of a column that an invocation meets colliders with: fewer where each may take many rounds of loops. Per
+/// round over all colliders: two of each that is not among the early ones, and two times Newton's 24 of each ellipsoid.
+std::uint32_t strip_of(const PipelineCache& pipelines, const SimulationModel& model) {
+    const std::vector<Collider>& colliders = model.scene.colliders;
+    const auto ellipsoids =
+        static_cast<std::size_t>(std::ranges::count(colliders, glsl::kind_ellipsoid, &Collider::kind));
+    const std::size_t each = model.collision_rounds() * (1 + 2 * colliders.size() + 48 * ellipsoids) + colliders.size();
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(most_loop_rounds / each, 1, pipelines.strip_rows()));
+}
+
+}  // namespace
 
 void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
-    const std::uint32_t strip = pipelines.strip_rows();
+    const std::uint32_t strip = strip_of(pipelines, model);
     constants.push_back({"strip_rows", strip});
     constants.push_back({"leaves_out", model.options.skip ? 1u : 0u});
     const bool history = state.model->plan.second_order;
