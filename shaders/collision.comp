@@ -12,7 +12,6 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
 layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation looks after, 32 at most
-layout(constant_id = 18) const bool leaves_out = true;  // what no collider can reach
 layout(push_constant) uniform Push { CollisionPush push; };
 #define TOGETHER
 #include "include/state_store.h"

@@ -20,7 +20,10 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
                            const SimulationModel& model) {
     const bool collides = inputs.colliders.valid();
     std::vector<vulkan::SpecializationConstant> constants;
-    if (collides) constants = collider_constants(model.scene);
+    if (collides) {
+        constants = collider_constants(model.scene);
+        constants.push_back({"leaves_out", model.options.skip ? 1u : 0u});
+    }
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", collides}}), constants);
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of workgroups",

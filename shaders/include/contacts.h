@@ -35,9 +35,11 @@ vec4 collider_ball(int first, int i) {
                 bounding_radius(kind_of_collider(i), imageLoad(collider_texels, texel + collider_shape_texel).xyz));
 }
 
+layout(constant_id = 18) const bool leaves_out = true;  // what no collider can reach
+
 /// From the i-th collider on the next that may be near a point; `end` if there is none.
 int next_near(int first, int i, int end, vec3 now, float thickness) {
-    while (i < end && !near_ball(collider_ball(first, i), now, now, thickness)) ++i;
+    while (leaves_out && i < end && !near_ball(collider_ball(first, i), now, now, thickness)) ++i;
     return i;
 }
 

@@ -8,25 +8,14 @@
 #include "contact_scenes.h"
 #include "drape/scene_reader.h"
 #include "judged_run.h"
+#include "library_device.h"
 
 namespace drape::test {
 namespace {
 
 using testing::IsEmpty;
 
-const Device& device() {
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    static const Device opened(selector ? selector : "", Validation::print);
-    return opened;
-}
-
-class ContactCertificateTest : public testing::Test {
-  protected:
-    void TearDown() override { EXPECT_EQ(device().validation_count(), before_); }
-
-  private:
-    std::uint64_t before_ = device().validation_count();
-};
+using ContactCertificateTest = LibraryTest;
 
 TEST_F(ContactCertificateTest, IsNeverGivenWhereTrianglesCross) {
     const char* asked = std::getenv("DRAPE_CONTACT_FRAMES");
@@ -37,7 +26,7 @@ TEST_F(ContactCertificateTest, IsNeverGivenWhereTrianglesCross) {
     for (; frames < wanted; ++index) {
         const SceneResult read = read_scene_text(random_contact_scene(seed, index), "random");
         ASSERT_TRUE(read.scene) << index << ": " << read.errors[0].text();
-        const JudgedRun run = judged_run(*read.scene, device());
+        const JudgedRun run = judged_run(*read.scene, library_device());
         EXPECT_THAT(run.contradictions, IsEmpty()) << "contact_scene random " << seed << " " << index;
         frames += run.frames;
         proved += run.proved_frames;
@@ -60,7 +49,7 @@ TEST_F(ContactCertificateTest, IsNeverGivenWhereTrianglesCross) {
 }
 
 void expect_proved(const std::string& scene_text, std::uint32_t frames) {
-    const JudgedRun run = judged_run(parse_scene(scene_text), device());
+    const JudgedRun run = judged_run(parse_scene(scene_text), library_device());
     std::printf("[ measured ] %zu frames, %u pairs, %llu motions cut short %s\n", run.frames, run.most_pairs,
                 static_cast<unsigned long long>(run.cut_short), run.ended.c_str());
     EXPECT_EQ(run.frames, frames);
@@ -69,7 +58,7 @@ void expect_proved(const std::string& scene_text, std::uint32_t frames) {
     EXPECT_FALSE(run.implausible);
     EXPECT_GT(run.most_pairs, 300u) << "nothing met";
     const std::vector<std::string> without{"/cloths/0/self_collision=false", "/time/frames=150"};
-    EXPECT_GT(judged_run(*read_scene_text(scene_text, "scene", without).scene, device()).crossed_frames, 0u)
+    EXPECT_GT(judged_run(*read_scene_text(scene_text, "scene", without).scene, library_device()).crossed_frames, 0u)
         << "it would not have crossed anyway";
 }
 
