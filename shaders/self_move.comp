@@ -22,8 +22,9 @@ void move(int place, float thickness) {
     bool held = !(imageLoad(positions, texel).w > 0.0f);
     vec4 displacement = imageLoad(displacements, texel);
     vec3 first = before[place].xyz;
-    bool cut = share < 1.0f || (!held && self_exceeds(displacement.xyz, first, thickness));
-    vec3 bounded = held ? displacement.xyz : self_bounded(displacement.xyz, first, thickness);
+    vec3 bounded = held ? displacement.xyz : self_bounded(displacement.xyz, first, carried, thickness);
+    bool changed = bounded.x != displacement.x || bounded.y != displacement.y || bounded.z != displacement.z;
+    bool cut = share < 1.0f || changed;
     vec3 moved = self_relative_motion(bounded, carried);
     precise vec3 part = moved * share;
     vec3 made = held ? moved : part;

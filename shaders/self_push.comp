@@ -13,6 +13,9 @@ layout(set = 0, binding = 1, rgba32f) uniform image2D displacements;
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Corrections { ivec4 corrections[]; };
 layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Record { SelfRecord record[]; };
+
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
 void move(int place) {
     ivec2 texel = texel_of(place);
@@ -25,9 +28,12 @@ void move(int place) {
         corrections[place] = ivec4(0, 0, 0, 0);
         float thickness = cloth_at(texel).thickness;
         vec3 corrected = self_corrected(moved.xyz, sum, thickness);
-        imageStore(displacements, texel, vec4(self_bounded(corrected, before[place].xyz, thickness), moved.w));
+        imageStore(displacements, texel, vec4(self_bounded(corrected, before[place].xyz, carried, thickness), moved.w));
         before[place].w = 1.0f;
     }
 }
 
-void main() { FOR_EVERY(place, push.grid.x * push.grid.y, move(place)) }
+void main() {
+    carried = record[0].carried.xyz;
+    FOR_EVERY(place, push.grid.x * push.grid.y, move(place))
+}

@@ -31,7 +31,7 @@ struct Corner {
 
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
-    if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, thickness);
+    if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, carried, thickness);
     return self_relative_motion(moved, carried);
 }
 
@@ -55,7 +55,7 @@ void bound(SelfGap gap, Corner corner, float middle, float end, float side) {
 void bound_pair(bool edges, uvec4 pair) {
     Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
-    SelfGap gap = self_gap(edges, SelfCorners(a.x, b.x, c.x, d.x));
+    SelfGap gap = self_gap_squared(edges, SelfCorners(a.x, b.x, c.x, d.x));
     if (push.round == 0 && self_touch(gap)) atomicAdd(record[0].unproved, 1u);
     a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
     b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));

@@ -251,6 +251,7 @@ void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        move_on_sheet(setup, contact);
                        update_in_place(setup, contact, Field::self_corrections, "corrections");
+                       read(setup, contact, Field::self_record, "record");
                    });
 }
 

@@ -56,7 +56,7 @@ class ContactStep {
     vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
     vec3 bounded(uint place) const {
         vec3 moved = displacement(place);
-        if (!held(place)) moved = self_bounded(moved, xyz(contact_.before[place]), cloth_at(place).thickness);
+        if (!held(place)) moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried), cloth_at(place).thickness);
         return self_relative_motion(moved, xyz(contact_.record.carried));
     }
     template <class Of>
@@ -267,7 +267,8 @@ void ContactStep::push() {
         const ivec4 sum = std::exchange(contact_.corrections[i], {});
         if (sum.w == 0 || held(static_cast<uint>(i))) continue;
         const float thickness = cloth_at(i).thickness;
-        move_to(i, self_bounded(self_corrected(displacement, sum, thickness), xyz(contact_.before[i]), thickness));
+        move_to(i, self_bounded(self_corrected(displacement, sum, thickness), xyz(contact_.before[i]),
+                                xyz(contact_.record.carried), thickness));
     }
 }
 
@@ -277,7 +278,7 @@ void ContactStep::room() {
     std::vector<float> next(shares.size(), 1);
     for (const TwinPair& pair : contact_.pairs) {
         const bool edges = pair.edges;
-        const SelfGap gap = self_gap(edges, positions(pair));
+        const SelfGap gap = self_gap_squared(edges, positions(pair));
         if (push_.round == 0 && self_touch(gap)) ++contact_.record.unproved;
         const auto corner = places(pair);
         const auto along = [&](uint place) { return ordered_dot(gap.normal, bounded(place)); };
@@ -308,8 +309,9 @@ void ContactStep::move() {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
         }
-        if (!(share < 1.0f) && !self_exceeds(displacement(at), xyz(contact_.before[i]), cloth_at(i).thickness))
-            continue;
+        const vec3 bound = self_bounded(displacement(at), xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
+        const vec3 own = displacement(at);
+        if (!(share < 1.0f) && bound.x == own.x && bound.y == own.y && bound.z == own.z) continue;
         ++record.truncated;
         move_to(i, self_truncated(xyz(record.carried), bounded(at), share));
     }

@@ -314,27 +314,38 @@ SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
     return motion;
 }
 
-/// Most that contact, and colliders after it, may change a particle's motion in a substep: what the list of pairs
-/// reckons with.
+/// Most that contact, and colliders after it, may lead a particle off the motion that it had before them, or off any part
+/// of that motion: what the list of pairs reckons with.
 SHARED float self_limit(float thickness) {
     precise float limit = thickness * self_correction_share;
     return limit;
 }
 
-SHARED bool self_exceeds(vec3 displacement, vec3 before, float thickness) {
-    precise vec3 change = displacement - before;
+/// Where along the motion before contact, against the common one, a displacement comes nearest to.
+SHARED vec3 self_part_kept(vec3 displacement, vec3 before, vec3 carried) {
+    vec3 wanted = self_relative_motion(before, carried), motion = self_relative_motion(displacement, carried);
+    float part = self_limited(self_ratio(ordered_dot(motion, wanted), ordered_dot(wanted, wanted)));
+    precise vec3 kept = carried + wanted * part;
+    return kept;
+}
+
+SHARED bool self_exceeds(vec3 displacement, vec3 nearest, float thickness) {
+    precise vec3 change = displacement - nearest;
     precise float length = sqrt(ordered_dot(change, change));
     precise float limit = self_limit(thickness) * 1.00001f;
     return length > limit;
 }
 
-/// What contact and colliders made of the displacement before them, changed by no more than the limit.
-SHARED vec3 self_bounded(vec3 displacement, vec3 before, float thickness) {
-    precise vec3 change = displacement - before;
+/// What contact and colliders made of the displacement before them: as much of it as they left, changed by no more than
+/// the limit. Contact can stop a particle that way, however far the solver drives it, and let it slide.
+SHARED vec3 self_bounded(vec3 displacement, vec3 before, vec3 carried, float thickness) {
+    vec3 kept = self_part_kept(displacement, before, carried);
+    vec3 nearest = self_exceeds(displacement, before, thickness) ? kept : before;
+    precise vec3 change = displacement - nearest;
     precise float length = sqrt(ordered_dot(change, change));
     precise float share = self_limit(thickness) / length;
-    precise vec3 bounded = before + change * share;
-    return self_exceeds(displacement, before, thickness) ? bounded : displacement;
+    precise vec3 bounded = nearest + change * share;
+    return self_exceeds(displacement, nearest, thickness) ? bounded : displacement;
 }
 
 /// Where a pair's corners have come along its normal, m, when each makes `shares` of `along`, its motion that way.

@@ -119,6 +119,15 @@ SHARED float self_doubt(float coordinate) {
     return doubt;
 }
 
+/// `normal`: unit length or zero; `x`: relative to the first corner.
+SHARED SelfGap self_gap_along(bool edges, SelfCorners x, vec3 normal, vec4 weights, float distance, float doubt) {
+    float b = ordered_dot(normal, x.b), c = ordered_dot(normal, x.c), d = ordered_dot(normal, x.d);
+    float below = edges ? self_largest(0.0f, b) : 0.0f;
+    float above = edges ? self_least(c, d) : self_least(b, self_least(c, d));
+    precise float apart = above - below;
+    return SelfGap(weights, normal, distance, apart, vec4(0.0f, b, c, d), doubt);
+}
+
 SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     SelfCorners x = self_relative(corners);
     vec4 weights = self_weights(edges, x);
@@ -129,11 +138,46 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
                                 self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
     precise vec3 direction = across / distance;
     vec3 normal = distance > 1.0e-12f ? direction : vec3(0.0f, 0.0f, 0.0f);
-    float b = ordered_dot(normal, x.b), c = ordered_dot(normal, x.c), d = ordered_dot(normal, x.d);
-    float below = edges ? self_largest(0.0f, b) : 0.0f;
-    float above = edges ? self_least(c, d) : self_least(b, self_least(c, d));
-    precise float apart = above - below;
-    return SelfGap(weights, normal, distance, apart, vec4(0.0f, b, c, d), doubt);
+    return self_gap_along(edges, x, normal, weights, distance, doubt);
+}
+
+/// What is left of a vector without its part along another, or all of it where that is zero.
+SHARED vec3 self_without(vec3 x, vec3 along) {
+    float part = self_ratio(ordered_dot(x, along), ordered_dot(along, along));
+    precise vec3 rest = x - along * part;
+    return rest;
+}
+
+/// A pair's gap with a plane that holds what the two touch by: where they are nearest inside edges, or inside the
+/// triangle, those lie along the plane. The line between the nearest points of primitives that all but touch is mostly
+/// rounding; a plane square to it may have both on either side, and then nothing could ever move again.
+SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
+    SelfGap gap = self_gap(edges, corners);
+    SelfCorners x = self_relative(corners);
+    vec4 g = gap.weights;
+    vec3 nothing = vec3(0.0f, 0.0f, 0.0f), first = nothing, second = nothing;
+    precise vec3 one = x.b - x.a;
+    precise vec3 other = x.d - x.c;
+    precise vec3 bc = x.c - x.b;
+    precise vec3 bd = x.d - x.b;
+    bool has_b = g.y != 0.0f, has_c = g.z != 0.0f, has_d = g.w != 0.0f;
+    if (edges) {
+        first = g.x != 0.0f && has_b ? one : nothing;
+        second = has_c && has_d ? other : nothing;
+    } else {
+        first = has_b && has_c ? bc : has_c && has_d ? other : has_b && has_d ? bd : nothing;
+        second = has_b && has_c && has_d ? bd : nothing;
+    }
+    second = self_without(second, first);
+    // Twice: what rounding left the first time is small the second.
+    vec3 square = self_without(self_without(gap.normal, first), second);
+    square = self_without(self_without(square, first), second);
+    precise float length = sqrt(ordered_dot(square, square));
+    precise vec3 unit = square / length;
+    vec3 normal = length > 1.0e-4f ? unit : gap.normal;
+    SelfGap squared = self_gap_along(edges, x, normal, g, gap.distance, gap.doubt);
+    if (squared.apart > gap.apart) return squared;
+    return gap;
 }
 
 /// Length, rounded up.
