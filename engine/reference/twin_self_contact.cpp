@@ -56,7 +56,9 @@ class ContactStep {
     vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
     vec3 bounded(uint place) const {
         vec3 moved = displacement(place);
-        if (!held(place)) moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried), cloth_at(place).thickness);
+        if (!held(place))
+            moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried),
+                                 cloth_at(place).thickness);
         return self_relative_motion(moved, xyz(contact_.record.carried));
     }
     template <class Of>
@@ -309,7 +311,8 @@ void ContactStep::move() {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
         }
-        const vec3 bound = self_bounded(displacement(at), xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
+        const vec3 bound =
+            self_bounded(displacement(at), xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
         const vec3 own = displacement(at);
         if (!(share < 1.0f) && bound.x == own.x && bound.y == own.y && bound.z == own.z) continue;
         ++record.truncated;

@@ -314,8 +314,8 @@ SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
     return motion;
 }
 
-/// Most that contact, and colliders after it, may lead a particle off the motion that it had before them, or off any part
-/// of that motion: what the list of pairs reckons with.
+/// Most that contact, and colliders after it, may lead a particle off the motion that it had before them, or off any
+/// part of that motion: what the list of pairs reckons with.
 SHARED float self_limit(float thickness) {
     precise float limit = thickness * self_correction_share;
     return limit;
