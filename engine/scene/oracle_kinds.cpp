@@ -70,8 +70,7 @@ std::vector<OracleKind> kinds_of_shape() {
          no_collider},
         {"uncrossed",
          "In no frame does a triangle cross another one of its cloth or of another; where some cloths have "
-         "self_collision, those "
-         "that have not may cross themselves.",
+         "self_collision, those that have not may cross themselves. Triangles that a cutter split do not count.",
          {},
          nothing},
         {"supported",

@@ -284,7 +284,8 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
-/// No triangle crosses another one; but of a cloth that does not meet itself, where others do, those of its own.
+/// No triangle crosses another one; but of a cloth that does not meet itself, where others do, those of its own. What a
+/// cutter split meets nothing.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
     const std::vector<Cloth>& cloths = run.scene.cloths;
     const bool asked = cloths_meet(run.scene);
@@ -295,7 +296,9 @@ Verdict uncrossed(const SceneRun& run, const Limits&) {
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
         meshes[cloth].indices = ClothMeasure(run.scene, cloth).grid.triangle_indices();
     std::size_t worst = 0, worst_frame = 0;
+    auto cut = run.cuts.begin();
     for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
+        for (; cut != run.cuts.end() && cut->frame <= frame; ++cut) meshes[cut->cloth].indices = cut->whole;
         for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
             meshes[cloth].points.clear();
             for (std::size_t i = 0; i < run.frames[frame][cloth].size(); ++i)

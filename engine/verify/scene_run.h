@@ -18,6 +18,7 @@ struct CutRecord {
     std::size_t pieces;   ///< held together by springs, of at least 1 % of the particles
     std::size_t crumbs;   ///< smaller ones: single particles that a blade passed on all sides
     double drawn_area;    ///< m^2 at rest
+    std::vector<std::uint32_t> whole;  ///< particles of the triangles that no cut has split, three each
 };
 
 /// Positions of every frame from 0 on. `scene` is the scene as it was read: whatever was done to the model
