@@ -14,10 +14,10 @@ namespace drape::verify {
 /// A cloth after a cut (or, at frame 0, before any).
 struct CutRecord {
     std::size_t frame, cloth;
-    std::size_t springs;  ///< cut in this frame
-    std::size_t pieces;   ///< held together by springs, of at least 1 % of the particles
-    std::size_t crumbs;   ///< smaller ones: single particles that a blade passed on all sides
-    double drawn_area;    ///< m^2 at rest
+    std::size_t springs;               ///< cut in this frame
+    std::size_t pieces;                ///< held together by springs, of at least 1 % of the particles
+    std::size_t crumbs;                ///< smaller ones: single particles that a blade passed on all sides
+    double drawn_area;                 ///< m^2 at rest
     std::vector<std::uint32_t> whole;  ///< particles of the triangles that no cut has split, three each
 };
 
