@@ -9,6 +9,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/hang.h"
+#include "cloth/self_contact.h"
 #include "scene/collider_pose.h"
 #include "scene/vectors.h"
 
@@ -177,7 +178,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     // Where it lies nearer to something than it may, contact moves it away.
-    const double pushed = model_.scene.colliders.empty() && !model_.self_contact ? 0 : recovery_speed;
+    const double out_of_cloth = model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0;
+    const double pushed = model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
     const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released + pushed;
     const double speed = given + drive_at(index, frame).speed + recoil;
     const double flown = start.held ? 0 : 2 * time * (given + recoil);

@@ -260,13 +260,22 @@ SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
+/// How many times as fast as a thickness that is all but kept one is given back of which more is missing: a layer that
+/// carries a pile needs more than one that lies alone, and yields until it gets that.
+SHARED float self_recovery_strength(float distance, float pair_thickness) {
+    precise float lacking = pair_thickness - distance;
+    float deep = self_limited(self_ratio(lacking, pair_thickness));
+    precise float strength = 1.0f + (self_deep_recovery - 1.0f) * (deep * deep);
+    return strength;
+}
+
 /// What pushes a pair's corners: corner i, of inverse mass w_i and weight g_i, moves by w_i g_i times this. Zero where
-/// they stay apart. Of a thickness that is missing already only `recovery` is given back. Friction is Coulomb's, on
-/// the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
+/// they stay apart. Of a thickness that is missing already only `recovery` times that strength is given back. Friction
+/// is Coulomb's, on the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
 SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, float pair_thickness, float friction,
                          float recovery) {
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
-    precise float given_back = gap.distance + recovery;
+    precise float given_back = gap.distance + recovery * self_recovery_strength(gap.distance, pair_thickness);
     float target = self_least(pair_thickness, given_back);
     vec3 relative = self_sum(gap.weights, moved);
     float along = ordered_dot(gap.normal, relative);

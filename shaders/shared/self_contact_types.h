@@ -14,6 +14,9 @@ const int self_tree_tail = 1024;
 /// Units of a correction in a thickness; of a weight in 1. Integers, so that atomic sums are exact in any order.
 const float self_correction_units = 1048576.0f, self_weight_units = 65536.0f;
 
+/// How many times as fast as of one that is all but kept a missing thickness is given back where nothing is left of it.
+const float self_deep_recovery = 10.0f;
+
 /// A node of the tree of boxes, in which level 0 has a box per particle and each next one a box per 2 x 2 of those
 /// before. In the box: the triangles and edges that a particle owns, or all that of the nodes below.
 struct SelfBox {
@@ -50,7 +53,7 @@ struct SelfCloth {
 struct SelfContactPush {
     ivec2 grid;       // columns, rows of the sheet
     float thickness;  // m: the largest that a cloth keeps
-    float recovery;   // m that a substep gives back of a thickness that is missing
+    float recovery;   // m that a substep gives back of a thickness that is all but kept
     float least;      // m: distances that rounding leaves in doubt
     float margin;     // m: by how much more than it needs to the search for cells looks
     int pair_room;    // pairs that their list can hold
