@@ -54,6 +54,8 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
                 self_contact_->crossed.emplace_back(each.first, each.second);
             else
                 self_contact_->first_unproved = 0;
+        if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
+            self_contact_->last_crossed = 0;
     }
     build_graphs();
     allocate_and_record();
@@ -251,6 +253,7 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
             model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
     self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
     self_contact_->truncated += record.truncated;
+    if (record.crossing_count > 0 && self_contact_->last_crossed) self_contact_->last_crossed = frame;
     if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
 }
 

@@ -54,7 +54,9 @@ std::vector<std::byte> cut_bytes(const CutTopology& topology) {
 template <class Archive>
 void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
-    if (self_contact_) archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated);
+    if (self_contact_)
+        archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
+                self_contact_->last_crossed);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
     if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");

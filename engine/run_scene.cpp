@@ -262,6 +262,12 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
 /// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
 bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
 
+/// Frame from which on cloths that started through each other are apart.
+std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
+    if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
+    return *told.last_crossed + 1;
+}
+
 std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
     const std::optional<SelfContactReport> told = simulation.self_contact();
     if (!told) return {};
@@ -271,8 +277,8 @@ std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simul
         if (cloth.self_collision) names.push_back(cloth.name);
     std::vector<std::pair<std::string, std::string>> crossed;
     for (const auto& [one, other] : told->crossed) crossed.emplace_back(cloths[one].name, cloths[other].name);
-    return Manifest::SelfCollision{names,  cloths.size() > 1, told->first_unproved, told->most_pairs, told->truncated,
-                                   crossed};
+    return Manifest::SelfCollision{names,           cloths.size() > 1, told->first_unproved,          told->most_pairs,
+                                   told->truncated, crossed,           apart_since(*told, simulation)};
 }
 
 /// Simulates what is missing. Returns whether all is there.
@@ -305,6 +311,13 @@ std::optional<std::string> lost_proof(const Simulation& simulation) {
         "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
         "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
         *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
+}
+
+/// What a run is told whose cloths started through each other and did not come apart.
+std::optional<std::string> still_crossed(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->last_crossed || apart_since(*told, simulation)) return std::nullopt;
+    return "cloths that started through each other still are in the last frame";
 }
 
 /// The files of a run that is done, or of one that failed as far as it came.
@@ -417,6 +430,7 @@ RunSummary run_scene(const RunRequest& request) {
         summary.complete = run_missing(run, from, range);
         if (const auto warning = missed_limits(simulation.facts(), *sink.statistics())) warn(*warning);
         if (const auto warning = lost_proof(simulation)) warn(*warning);
+        if (const auto warning = still_crossed(simulation)) warn(*warning);
         manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);

@@ -45,7 +45,7 @@ uint neighbours_of(SelfCloth cloth, ivec2 own) {
 /// Those of them that are not ruled out by how flat the cloth is there.
 uint near_neighbours(ivec2 texel) {
     int owner = owner_of(place_of(texel));
-    bool meets = owner >= 0 && meetings[max(owner, 0) * (push.cloth_count + 1)] != 0u;
+    bool meets = owner >= 0 && meetings[max(owner, 0) * (push.cloth_count + 1)] != self_meets_not;
     SelfCloth cloth = cloth_at(texel);
     ivec2 own = texel - cloth.first;
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;

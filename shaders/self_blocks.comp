@@ -21,7 +21,7 @@ int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
 
 bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
     int other = block_owner(block);
-    if (other < 0 || meetings[owner * push.cloth_count + other] == 0u) return false;
+    if (other < 0 || meetings[owner * push.cloth_count + other] == self_meets_not) return false;
     return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]), push.margin);
 }
 

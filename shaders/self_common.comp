@@ -2,6 +2,7 @@
 // or, where some are always held, none, and records for the passes to come. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/self_contact.h"
 
@@ -11,6 +12,9 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacements;
 layout(set = 0, binding = 1, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 3, std430) buffer Sizes { uvec4 sizes[]; };
+#ifdef CROSSED
+layout(set = 0, binding = 4, std430) writeonly buffer Crossings { SelfCrossings crossings[]; };
+#endif
 
 vec3 sample_of(int k) {
     SelfCloth cloth = cloths[k / (self_samples * self_samples)];
@@ -34,6 +38,9 @@ void main() {
     record[0].cell_count = 0u;
     record[0].drift = self_drift(record[0].drift, uintBitsToFloat(record[0].moved));
     record[0].moved = 0u;
+#ifdef CROSSED
+    for (int k = 0; k < push.crossed_count; ++k) crossings[k] = SelfCrossings(0, 0);
+#endif
     for (int k = self_size_of_substep; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
     if (push.first == 0) return;
     record[0].most_pairs = 0u;

@@ -1,7 +1,8 @@
 // Of the cells that were found near each other, lists the pairs of primitives whose boxes are: particles and triangles from
-// the list's begin on, edges from its end on.
+// the list's begin on, edges from its end on. CROSSED: not of cloths that started through each other and still cross.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/self_contact.h"
@@ -13,6 +14,10 @@ layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 5, std430) buffer Near { uint near[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
+#ifdef CROSSED
+layout(set = 0, binding = 8, std430) readonly buffer Meetings { uint meetings[]; };
+layout(set = 0, binding = 9, std430) readonly buffer Crossings { SelfCrossings crossings[]; };
+#endif
 #include "include/self_lists.h"
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
@@ -110,12 +115,22 @@ void list_edges(int entry, uint bits) {
     }
 }
 
+#ifdef CROSSED
+bool still_cross(int one, int other) {
+    uint meeting = meetings[owner_of(one) * push.cloth_count + owner_of(other)];
+    return meeting >= self_meets_apart && crossings[max(meeting, self_meets_apart) - self_meets_apart].count > 0;
+}
+#endif
+
 void judge(int entry) {
     ivec2 pair = cells[entry];
     Corners first = corners_of(pair.x), second = corners_of(pair.y);
     vec3 axis = normal_of(first);
     Cell one = cell_of(first, axis), other = cell_of(second, axis);
     uint bits = met(one, other, self_mean_thickness(cloth_at(one.at), cloth_at(other.at)));
+#ifdef CROSSED
+    bits = still_cross(pair.x, pair.y) ? 0u : bits;
+#endif
     list_points(entry, bits & ((1u << self_first_edge_pair) - 1u));
     list_edges(entry, bits >> self_first_edge_pair);
 }

@@ -1,9 +1,12 @@
-// Moves the particles by what the pairs push them.
+// Moves the particles by what the pairs push them. CROSSED: in the first round also by what their cloth is led by.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIDE
+#pragma variants WIDE CROSSED
 #include "shared/simulation_types.h"
 #include "include/every.h"
+#ifdef CROSSED
+#include "include/self_apart.h"
+#endif
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -14,6 +17,9 @@ layout(set = 0, binding = 1, rgba32f) uniform image2D displacements;
 layout(set = 0, binding = 4, std430) buffer Corrections { ivec4 corrections[]; };
 layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Record { SelfRecord record[]; };
+#ifdef CROSSED
+layout(set = 0, binding = 7, std430) readonly buffer Led { vec4 led[]; };
+#endif
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
@@ -24,10 +30,18 @@ void move(int place) {
 #ifdef WIDE
     sum = self_sums(sum);
 #endif
-    if (owner_of(place) >= 0 && sum.w != 0 && imageLoad(positions, texel).w > 0.0f) {
+    bool moves = sum.w != 0;
+#ifdef CROSSED
+    vec3 by = push.round == 0 ? led[max(owner_of(place), 0)].xyz : vec3(0.0f, 0.0f, 0.0f);
+    moves = moves || by.x != 0.0f || by.y != 0.0f || by.z != 0.0f;
+#endif
+    if (owner_of(place) >= 0 && moves && imageLoad(positions, texel).w > 0.0f) {
         corrections[place] = ivec4(0, 0, 0, 0);
         float thickness = cloth_at(texel).thickness;
         vec3 corrected = self_corrected(moved.xyz, sum, thickness);
+#ifdef CROSSED
+        corrected = self_led(corrected, by);
+#endif
         imageStore(displacements, texel, vec4(self_bounded(corrected, before[place].xyz, carried, thickness), moved.w));
         before[place].w = 1.0f;
     }

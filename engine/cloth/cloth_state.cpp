@@ -36,6 +36,7 @@ bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 /// Contact's fields are kept with the first cloth.
 bool keeps_contact(Context c) { return c.model.self_contact && &c.cloth == &c.model.cloths.front(); }
+bool keeps_crossed(Context c) { return keeps_contact(c) && !c.model.self_contact->to_part.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -50,6 +51,7 @@ FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; 
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent self_cloth_list(Context c) { return {c.model.cloths.size()}; }
 FieldExtent self_meeting_list(Context c) { return {c.model.cloths.size() * c.model.cloths.size()}; }
+FieldExtent self_crossed_list(Context c) { return {c.model.self_contact->to_part.size()}; }
 FieldExtent self_sheet(Context c) {
     const glsl::ivec2 grid = c.model.self_contact->push.grid;
     return {static_cast<std::uint64_t>(grid.x), static_cast<std::uint64_t>(grid.y)};
@@ -96,6 +98,12 @@ std::vector<FieldRow> self_contact_rows() {
          [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->cloths) : Bytes{}; }},
         {Field::self_meetings, "self meetings", buffer, integer, constant, keeps_contact, self_meeting_list,
          [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->meetings) : Bytes{}; }},
+        {Field::self_crossed, "self crossed", buffer, layout_of<glsl::SelfCrossed>(), constant, keeps_crossed,
+         self_crossed_list,
+         [](Context c) { return keeps_crossed(c) ? bytes_of(c.model.self_contact->to_part) : Bytes{}; }},
+        {Field::self_crossings, "self crossings", buffer, layout_of<glsl::SelfCrossings>(), device, keeps_crossed,
+         self_crossed_list},
+        {Field::self_led, "self led", buffer, vector, device, keeps_crossed, self_cloth_list},
         {Field::self_positions, "self positions", image, vector, device, keeps_contact, self_sheet},
         {Field::self_displacements, "self displacements", image, vector, device, keeps_contact, self_sheet},
         {Field::self_boxes, "self boxes", texel_buffer, layout_of<glsl::SelfBox>(), device, keeps_contact,

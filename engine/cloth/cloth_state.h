@@ -54,7 +54,10 @@ enum class Field : std::uint8_t {
     tethers,             ///< of every particle
     self_owners,         ///< of contact, kept with the first cloth for all: by place on the sheet its cloth, or -1
     self_cloths,         ///< where the cloths lie on the sheet (shared/self_contact_types.h)
-    self_meetings,       ///< by cloth and cloth: 1 where they meet
+    self_meetings,       ///< by cloth and cloth: self_meets and those beside it
+    self_crossed,        ///< pairs of cloths that started through each other
+    self_crossings,      ///< what the substep found of them
+    self_led,            ///< by cloth: what it is led by to come apart from others, m
     self_positions,      ///< by place on the sheet: position at the start of the substep, m; w: relative inverse mass
     self_displacements,  ///< likewise: motion within it, m; w: bits of the triangles and edges that it owns
     self_boxes,          ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)

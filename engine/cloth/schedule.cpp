@@ -89,9 +89,12 @@ class ContactSteps {
             push.last = last_level(push, push.level);
             add_one(StepKind::self_boxes);
         }
-        for (const StepKind kind : {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near,
-                                    StepKind::self_bent, StepKind::self_primitives, StepKind::self_pairs})
+        for (const StepKind kind :
+             {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_bent})
             add_one(kind);
+        if (!contact_.to_part.empty())
+            for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
+        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);
         for (push.round = 0; push.round < glsl::self_iterations; ++push.round)
             for (const StepKind kind : {StepKind::self_contact, StepKind::self_push}) add_one(kind);
         if (!model_.scene.colliders.empty()) collide();

@@ -39,6 +39,28 @@ double particle_mass(const Cloth& cloth, const ClothModel& model) {
     return cloth.areal_density * model.spacing[0] * model.spacing[1];
 }
 
+/// How soon cloths that started through each other part at parting_speed, m/s^2.
+constexpr double parting_acceleration = 40;
+/// More than this many pairs of cloths are not looked after: one invocation goes through all of them.
+constexpr std::size_t most_crossed = 4096;
+
+bool is_held(const Cloth& cloth) { return !cloth.pins.empty(); }
+
+glsl::SelfCrossed parted(const SceneDescription& scene, const std::vector<ClothModel>& models,
+                         const StartCrossing& crossing) {
+    const auto mass = [&](std::size_t k) {
+        return particle_mass(scene.cloths[k], models[k]) * static_cast<double>(models[k].grid.particle_count());
+    };
+    const bool first_held = is_held(scene.cloths[crossing.first]), second_held = is_held(scene.cloths[crossing.second]);
+    const double share = mass(crossing.second) / (mass(crossing.first) + mass(crossing.second));
+    const double first = first_held ? 0 : second_held ? 1 : share;
+    const double second = second_held ? 0 : first_held ? 1 : 1 - share;
+    const Vec3& way = crossing.way;
+    return {{static_cast<float>(way[0]), static_cast<float>(way[1]), static_cast<float>(way[2]), 0},
+            {static_cast<int>(crossing.first), static_cast<int>(crossing.second)},
+            {static_cast<float>(first), static_cast<float>(second)}};
+}
+
 int stepped(int length) { return (length + self_sheet_step) / self_sheet_step * self_sheet_step; }
 
 /// Lays the cloths on shelves of a sheet about as wide as high. Returns its columns and rows.
@@ -86,13 +108,22 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         // What they are pressed against must not seem to move.
         if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;
         for (std::size_t other = 0; other < count; ++other)
-            meetings.push_back(k != other || cloth.self_collision ? 1 : 0);
+            meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);
     }
-    for (const StartCrossing& each : crossed)
-        if (each.first != each.second)
-            meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = 0;
+    for (const StartCrossing& each : crossed) {
+        if (each.first == each.second) continue;
+        glsl::uint meeting = glsl::self_meets_not;
+        if (is_worked_apart(each) && to_part.size() < most_crossed) {
+            meeting = glsl::self_meets_apart + static_cast<glsl::uint>(to_part.size());
+            to_part.push_back(parted(scene, models, each));
+        }
+        meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = meeting;
+    }
+    push.crossed_count = static_cast<int>(to_part.size());
+    const double step = models[0].substep_length;
+    push.parting = {static_cast<float>(parting_speed * step), static_cast<float>(parting_acceleration * step * step)};
     push.grid = lay_out(cloths);
-    push.recovery = static_cast<float>(recovery_speed * models[0].substep_length);
+    push.recovery = static_cast<float>(recovery_speed * step);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
     const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits

@@ -29,17 +29,18 @@ inline constexpr int self_sheet_step = 8;
 
 /// How the cloths of a scene meet.
 struct SelfContact {
-    /// `crossed`: those that start through each other never meet.
+    /// `crossed`: those that start through each other meet once they have come apart, those that start on each other
+    /// never.
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};         ///< level, last, first, round and the lists' room are set per step
-    SelfRoom room;                        ///< to begin with
-    std::vector<glsl::SelfCloth> cloths;  ///< where each lies on the sheet
-    std::vector<glsl::uint> meetings;     ///< by cloth and cloth: 1 where they meet
-    std::vector<StartCrossing> crossed;   ///< those that do not because they start through each other, or who do so
-                                          ///< through themselves, which meet all the same
-    std::vector<int> owners() const;      ///< by place on the sheet: its cloth, or -1
+    glsl::SelfContactPush push{};            ///< level, last, first, round and the lists' room are set per step
+    SelfRoom room;                           ///< to begin with
+    std::vector<glsl::SelfCloth> cloths;     ///< where each lies on the sheet
+    std::vector<glsl::uint> meetings;        ///< by cloth and cloth: self_meets and those beside it
+    std::vector<glsl::SelfCrossed> to_part;  ///< those that are worked apart, as far as they are free to move
+    std::vector<StartCrossing> crossed;      ///< those that start through each other, or through themselves
+    std::vector<int> owners() const;         ///< by place on the sheet: its cloth, or -1
     glsl::SelfClothPush cloth_push(std::size_t cloth) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
 };

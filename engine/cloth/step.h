@@ -38,6 +38,8 @@ enum class StepKind {
     self_cells,
     self_near,
     self_bent,
+    self_crossings,
+    self_apart,
     self_primitives,
     self_pairs,
     self_contact,

@@ -93,6 +93,9 @@ double held_strain(const ClothModel& cloth) {
 Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {Drive{}}) {
     const auto moving = [](const Collider& collider) { return collider.path.moves(); };
     passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
+    // What is led apart may be lifted.
+    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();
+    passive_ = passive_ && !led_apart_;
     for (const ClothModel& cloth : model.cloths) {
         Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, 0, false};
         if (start.strain > 0) start.held_strain = rounding * held_strain(cloth);
@@ -178,7 +181,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     // Where it lies nearer to something than it may, contact moves it away.
-    const double out_of_cloth = model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0;
+    const double out_of_cloth =
+        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
     const double pushed = model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
     const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released + pushed;
     const double speed = given + drive_at(index, frame).speed + recoil;

@@ -94,6 +94,7 @@ class Watch {
     std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
     std::vector<std::deque<Drive>> drives_;  ///< of the last frames that were asked about, by cloth
     bool passive_;
+    bool led_apart_;             ///< some cloths, from others that they started through
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 

@@ -101,6 +101,11 @@ std::string certificate_of(const Manifest::SelfCollision& told) {
             "touched",
             *told.first_unproved);
     if (told.crossed.empty()) return met;
+    if (told.apart_since)
+        return fmt::format(
+            "not proved before frame {}: cloths that started through each other have come apart; since then, and of "
+            "the others: {}",
+            *told.apart_since, met);
     return "not proved from frame 0 on: cloths that started through each other do not meet; of the others: " + met;
 }
 
@@ -116,6 +121,7 @@ Json::Value self_collision_json(const Manifest::SelfCollision& told) {
         pair.append(other);
         json["crossed_at_start"].append(pair);
     }
+    if (told.apart_since) json["apart_since_frame"] = *told.apart_since;
     if (told.first_unproved) json["first_unproved_frame"] = *told.first_unproved;
     json["most_pairs"] = told.most_pairs;
     json["motions_cut_short"] = Json::UInt64(told.truncated);

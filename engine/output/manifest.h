@@ -80,6 +80,7 @@ struct Manifest {
         std::uint32_t most_pairs = 0;                              // that were near each other in a substep
         std::uint64_t truncated = 0;                               // motions cut short
         std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
+        std::optional<std::uint32_t> apart_since;                  // frame from which on none of them crosses another
     };
     struct Cut {  // found at the end of the frame, acts from the next one on
         std::int64_t frame = 0;

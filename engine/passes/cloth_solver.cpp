@@ -322,6 +322,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
         case StepKind::self_cells:
         case StepKind::self_near:
         case StepKind::self_bent:
+        case StepKind::self_crossings:
+        case StepKind::self_apart:
         case StepKind::self_primitives:
         case StepKind::self_pairs:
         case StepKind::self_contact:
@@ -353,6 +355,10 @@ void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const
             return add_self_near(graph, pipelines_, state, step);
         case StepKind::self_bent:
             return add_self_bent(graph, pipelines_, state, step);
+        case StepKind::self_crossings:
+            return add_self_crossings(graph, pipelines_, state, step);
+        case StepKind::self_apart:
+            return add_self_apart(graph, pipelines_, state, step);
         case StepKind::self_primitives:
             return add_self_primitives(graph, pipelines_, state, step);
         case StepKind::self_pairs:

@@ -55,10 +55,8 @@ const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const 
         module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
 }
 
-/// Of one that makes or takes sums of corrections.
-std::string summing_module(const PipelineCache& pipelines, const char* module) {
-    return vulkan::variant_name(module, {{"wide", pipelines.wide_atomics()}});
-}
+/// Whether some cloths started through each other.
+bool crossed(const Step& step) { return step.push<glsl::SelfContactPush>().crossed_count > 0; }
 
 void read(PassSetup& setup, const ClothState& contact, Field field, const char* name) {
     setup.read(contact[field], Access::compute_read, name);
@@ -145,11 +143,13 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
 }
 
 void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self common", pipelines.get("self_common.comp"), 1, [&](PassSetup& setup) {
+    const std::string module = vulkan::variant_name("self_common.comp", {{"crossed", crossed(step)}});
+    add_pass(graph, step, "self common", pipelines.get(module), 1, [&](PassSetup& setup) {
         read(setup, contact, Field::self_displacements, "displacements");
         read(setup, contact, Field::self_cloths, "cloths");
         update_in_place(setup, contact, Field::self_record, "record");
         update_in_place(setup, contact, Field::self_sizes, "sizes");
+        if (crossed(step)) write(setup, contact, Field::self_crossings, "crossings");
     });
 }
 
@@ -214,12 +214,41 @@ void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
              });
 }
 
+void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_sized_pass(graph, contact, step, "self crossings", pipeline_of(pipelines, "self_crossings.comp", step),
+                   glsl::self_size_primitives, [&](PassSetup& setup) {
+                       read(setup, contact, Field::self_positions, "positions");
+                       read(setup, contact, Field::self_displacements, "displacements");
+                       read(setup, contact, Field::self_owners, "owners");
+                       read(setup, contact, Field::self_cells, "cells");
+                       read(setup, contact, Field::self_record, "record");
+                       read(setup, contact, Field::self_meetings, "meetings");
+                       read(setup, contact, Field::self_crossed, "crossed");
+                       update_in_place(setup, contact, Field::self_crossings, "crossings");
+                   });
+}
+
+void add_self_apart(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_pass(graph, step, "self apart", pipelines.get("self_apart.comp", {{"entries_each", pipelines.entries_each()}}),
+             step.push<glsl::SelfContactPush>().cloth_count, [&](PassSetup& setup) {
+                 read(setup, contact, Field::self_crossed, "crossed");
+                 read(setup, contact, Field::self_crossings, "crossings");
+                 write(setup, contact, Field::self_led, "led");
+                 update_in_place(setup, contact, Field::self_record, "record");
+                 update_in_place(setup, contact, Field::self_sizes, "sizes");
+             });
+}
+
 void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_sized_pass(graph, contact, step, "self primitives", listing_pipeline(pipelines, "self_primitives.comp", step),
+    const std::string module = vulkan::variant_name("self_primitives.comp", {{"crossed", crossed(step)}});
+    add_sized_pass(graph, contact, step, "self primitives", listing_pipeline(pipelines, module, step),
                    glsl::self_size_primitives, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
                        read(setup, contact, Field::self_cells, "cells");
                        fill(setup, contact, Field::self_near, "near");
+                       if (!crossed(step)) return;
+                       read(setup, contact, Field::self_meetings, "meetings");
+                       read(setup, contact, Field::self_crossings, "crossings");
                    });
 }
 
@@ -234,7 +263,7 @@ void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
 }
 
 void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    const std::string module = summing_module(pipelines, "self_contact.comp");
+    const std::string module = vulkan::variant_name("self_contact.comp", {{"wide", pipelines.wide_atomics()}});
     add_sized_pass(graph, contact, step, "self contact", listing_pipeline(pipelines, module, step),
                    glsl::self_size_contact + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
@@ -246,12 +275,14 @@ void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 }
 
 void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    const std::string module = summing_module(pipelines, "self_push.comp");
+    const std::string module =
+        vulkan::variant_name("self_push.comp", {{"wide", pipelines.wide_atomics()}, {"crossed", crossed(step)}});
     add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, module, step),
                    glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        move_on_sheet(setup, contact);
                        update_in_place(setup, contact, Field::self_corrections, "corrections");
                        read(setup, contact, Field::self_record, "record");
+                       if (crossed(step)) read(setup, contact, Field::self_led, "led");
                    });
 }
 

@@ -30,7 +30,13 @@ void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
 void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement; adds neighbouring cells to that list, counts them in the record.
 void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, cells; writes the list of primitives near each other, counts them in the record.
+// Of cloths that started through each other (shaders/include/self_apart.h):
+/// Reads position, displacement, cells; counts in the crossings.
+void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads crossings; writes what cloths are led by, counts crossings in the record.
+void add_self_apart(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads position, displacement, cells, [crossings]; writes the list of primitives near each other, counts them in the
+/// record.
 void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement, the two lists; writes the list of pairs, counts them in the record.
 void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);

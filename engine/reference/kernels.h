@@ -26,6 +26,7 @@ namespace drape::glsl {
 #include "include/nested.h"
 #include "include/pin.h"
 #include "include/residual.h"
+#include "include/self_apart.h"
 #include "include/self_contact.h"
 #include "include/spring.h"
 #include "include/statistics.h"

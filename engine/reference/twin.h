@@ -66,6 +66,8 @@ struct TwinContact {
     std::vector<glsl::vec4> positions, displacements;
     std::vector<glsl::SelfBox> boxes;
     std::vector<TwinPair> pairs;
+    std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
+    std::vector<glsl::vec3> led;                 ///< by cloth
     std::vector<glsl::ivec4> corrections;
     std::vector<glsl::vec4> before;
     std::vector<float> shares;  ///< of their motions that the particles make, after the last round

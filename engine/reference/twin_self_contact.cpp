@@ -24,6 +24,8 @@ class ContactStep {
 
     void common();
     void boxes();
+    void crossings();
+    void apart();
     void pairs();
     void contact();
     void push();
@@ -41,11 +43,21 @@ class ContactStep {
         return model_.cloths[static_cast<std::size_t>(contact_.owners[place])];
     }
     const SelfCloth& cloth_of(uint corner) const { return cloth_at(place(corner)); }
-    bool meet(std::size_t one, std::size_t other) const {
+    uint meeting(std::size_t one, std::size_t other) const {
         const auto a = static_cast<std::size_t>(contact_.owners[one]),
                    b = static_cast<std::size_t>(contact_.owners[other]);
-        return model_.meetings[a * model_.cloths.size() + b] != 0;
+        return model_.meetings[a * model_.cloths.size() + b];
     }
+    bool meet(std::size_t one, std::size_t other) const { return meeting(one, other) != self_meets_not; }
+    bool still_cross(std::size_t one, std::size_t other) const {
+        const uint meets = meeting(one, other);
+        return meets >= self_meets_apart && contact_.crossings[meets - self_meets_apart].count > 0;
+    }
+    bool boxes_meet(std::size_t a, std::size_t b) const {
+        return self_boxes_meet(contact_.boxes[a], contact_.boxes[b], push_,
+                               self_mean_thickness(cloth_at(a), cloth_at(b)), 0);
+    }
+    SelfCell cell(std::size_t place) const;
     bool inside(const SelfCloth& cloth, ivec2 texel) const {
         return texel.x - cloth.first.x < cloth.grid.x && texel.y - cloth.first.y < cloth.grid.y;
     }
@@ -151,6 +163,46 @@ void ContactStep::boxes() {
         }
 }
 
+/// What is not there is not looked at.
+SelfCell ContactStep::cell(std::size_t place) const {
+    const ivec2 own = texel_of(place);
+    const SelfCloth& cloth = cloth_at(place);
+    const auto at = [&](int columns, int rows) {
+        const ivec2 texel{own.x + columns, own.y + rows};
+        return inside(cloth, texel) ? position(this->place(texel)) : vec3{};
+    };
+    uint bits = (triangle_exists(own, 1) ? 1u : 0u) | (triangle_exists(own, 2) ? 2u : 0u);
+    for (int k = 0; k < 3; ++k) bits |= edge_exists(own, k) ? 4u << k : 0u;
+    return {at(0, 0), at(1, 0), at(0, 1), at(1, 1), bits};
+}
+
+void ContactStep::crossings() {
+    contact_.crossings.assign(model_.to_part.size(), {});
+    for (std::size_t a = 0; a < contact_.owners.size(); ++a)
+        for (std::size_t b = 0; owned(a) && b < contact_.owners.size(); ++b) {
+            if (!owned(b) || contact_.owners[a] == contact_.owners[b] || meeting(a, b) < self_meets_apart) continue;
+            const uint which = meeting(a, b) - self_meets_apart;
+            const SelfCrossed& pair = model_.to_part[which];
+            if (contact_.owners[a] != pair.cloths.x || !boxes_meet(a, b) || !self_cells_cross(cell(a), cell(b)))
+                continue;
+            ++contact_.crossings[which].count;
+            contact_.crossings[which].sum += self_parting_of(xyz(pair.way), displacement(static_cast<uint>(a)),
+                                                             displacement(static_cast<uint>(b)), push_.parting);
+        }
+}
+
+void ContactStep::apart() {
+    contact_.led.assign(model_.cloths.size(), {});
+    contact_.record.crossing_count = 0;
+    for (std::size_t k = 0; k < model_.to_part.size(); ++k) {
+        contact_.record.crossing_count += static_cast<uint>(contact_.crossings[k].count);
+        const float lacking = self_lacking(contact_.crossings[k], push_.parting);
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            contact_.led[cloth] =
+                self_led_apart(contact_.led[cloth], model_.to_part[k], static_cast<int>(cloth), lacking);
+    }
+}
+
 /// Whether what a cell and its neighbours to the right and below own is apart because the cloth is flat there.
 bool ContactStep::lies_flat(ivec2 cell) const {
     const SelfCloth& cloth = cloth_at(place(cell));
@@ -166,11 +218,8 @@ bool ContactStep::lies_flat(ivec2 cell) const {
 void ContactStep::pairs() {
     const std::vector<SelfBox>& boxes = contact_.boxes;
     const auto list = [&](ivec2 one, ivec2 other) {
-        add_between(one, other);
+        if (!still_cross(place(one), place(other))) add_between(one, other);
         ++contact_.record.cell_count;
-    };
-    const auto boxes_meet = [&](std::size_t a, std::size_t b) {
-        return self_boxes_meet(boxes[a], boxes[b], push_, self_mean_thickness(cloth_at(a), cloth_at(b)), 0);
     };
     for (std::size_t a = 0; a < boxes.size(); ++a) {
         if (!owned(a)) continue;
@@ -267,9 +316,13 @@ void ContactStep::push() {
         if (!owned(i)) continue;
         const vec3 displacement = xyz(contact_.displacements[i]);
         const ivec4 sum = std::exchange(contact_.corrections[i], {});
-        if (sum.w == 0 || held(static_cast<uint>(i))) continue;
+        const bool led = push_.round == 0 && !contact_.led.empty();
+        const vec3 by = led ? contact_.led[static_cast<std::size_t>(contact_.owners[i])] : vec3{};
+        const bool moves = sum.w != 0 || by.x != 0.0f || by.y != 0.0f || by.z != 0.0f;
+        if (!moves || held(static_cast<uint>(i))) continue;
         const float thickness = cloth_at(i).thickness;
-        move_to(i, self_bounded(self_corrected(displacement, sum, thickness), xyz(contact_.before[i]),
+        const vec3 corrected = self_corrected(displacement, sum, thickness);
+        move_to(i, self_bounded(led ? self_led(corrected, by) : corrected, xyz(contact_.before[i]),
                                 xyz(contact_.record.carried), thickness));
     }
 }
@@ -368,6 +421,10 @@ void Twin::run_contact(const Step& step) {
             return contact.common();
         case StepKind::self_boxes:
             return contact.boxes();
+        case StepKind::self_crossings:
+            return contact.crossings();
+        case StepKind::self_apart:
+            return contact.apart();
         case StepKind::self_pairs:
             return contact.pairs();
         case StepKind::self_contact:

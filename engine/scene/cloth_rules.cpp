@@ -178,6 +178,17 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
     }
 }
 
+/// What becomes of it, and what would help.
+std::string crossing_fate(const SceneDescription& scene, const StartCrossing& crossing) {
+    if (crossing.first == crossing.second) return ": no frame is proved; less jitter would help";
+    const std::string elsewhere = "; place one of them elsewhere";
+    if (is_led_apart(scene, crossing))
+        return fmt::format(": they are led apart at {} m/s and meet from then on{}", parting_speed, elsewhere);
+    if (is_worked_apart(crossing))
+        return ": held as both are, they are not led apart, and meet only once they have come apart" + elsewhere;
+    return ": the two will not meet, and no frame is proved" + elsewhere;
+}
+
 /// Of cloths that start through each other or themselves, where cloths meet: a warning, or an error where the scene
 /// refuses that, or contact would hold all of a cloth in one place.
 void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
@@ -190,9 +201,7 @@ void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
                                            : "expected cloths that start apart (/overlap is \"refuse\"): ") +
                         text);
         else
-            blamed.warn(text + (crossing.first == crossing.second
-                                    ? ": no frame is proved; less jitter would help"
-                                    : ": the two will not meet, and no frame is proved; place one of them elsewhere"));
+            blamed.warn(text + crossing_fate(scene, crossing));
     }
 }
 

@@ -423,9 +423,8 @@ const Object<SceneDescription> scene{
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
          "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "
-         "`resolve` "
-         "moves it out of the collider by contact, at no more than 0.1 m/s, while the two cloths never meet; `refuse` "
-         "makes it an error of the scene."},
+         "`resolve` moves it out of the collider by contact, at no more than 0.1 m/s, and leads the two cloths apart, "
+         "at 1 m/s, which meet from then on; `refuse` makes it an error of the scene."},
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},

@@ -75,17 +75,30 @@ bool boxes_meet(const Sheet& a, const Sheet& b, double within) {
     return true;
 }
 
-/// m, of the part of `b` on that side of the plane of `a` where it has less; not finite where that is no plane.
-double depth_beyond(const Sheet& a, const Sheet& b) {
+/// Where a sheet goes to be off another one.
+struct WayOff {
+    double depth;  ///< m; not finite: nowhere
+    Vec3 way;      ///< unit
+};
+
+/// Of `b`: to that side of the plane of `a` on which it has more.
+WayOff way_off(const Sheet& a, const Sheet& b) {
     const Vec3 normal = start_normal(*a.cloth);
-    if (!(length(normal) > 0)) return std::numeric_limits<double>::infinity();
+    if (!(length(normal) > 0)) return {std::numeric_limits<double>::infinity(), {}};
     double above = 0, below = 0;
     for (const Vec3& x : b.at) {
         const double height = dot(normal, minus(x, a.at.front()));
         above = std::max(above, height);
         below = std::max(below, -height);
     }
-    return std::min(above, below);
+    const double side = above < below ? -1 : 1;
+    return {std::min(above, below), {side * normal[0], side * normal[1], side * normal[2]}};
+}
+
+WayOff shorter_way_off(const Sheet& a, const Sheet& b) {
+    const WayOff second = way_off(a, b), first = way_off(b, a);
+    if (!(first.depth < second.depth)) return second;
+    return {first.depth, {-first.way[0], -first.way[1], -first.way[2]}};
 }
 
 bool touches(const Sheet& a, const Sheet& b, double within) {
@@ -136,11 +149,12 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
                     return one != other;
                 });
             if (crossings > 0 || touches(a, b, within)) {
-                const double depth = std::min(depth_beyond(a, b), depth_beyond(b, a));
+                const WayOff off = shorter_way_off(a, b);
                 all.push_back({.first = first,
                                .second = second,
                                .triangles = crossings,
-                               .depth = std::isfinite(depth) ? depth : 0});
+                               .depth = std::isfinite(off.depth) ? off.depth : 0,
+                               .way = off.way});
             }
         }
     return all;
@@ -148,6 +162,16 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
 
 bool is_refused(const SceneDescription& scene, const StartCrossing& crossing) {
     return crossing.gathered || scene.overlap == Overlap::refuse;
+}
+
+bool is_worked_apart(const StartCrossing& crossing) {
+    const bool through = crossing.triangles > 0 || crossing.depth > touching_depth;
+    return crossing.first != crossing.second && through && length(crossing.way) > 0;
+}
+
+bool is_led_apart(const SceneDescription& scene, const StartCrossing& crossing) {
+    const bool both_held = !scene.cloths[crossing.first].pins.empty() && !scene.cloths[crossing.second].pins.empty();
+    return is_worked_apart(crossing) && !both_held;
 }
 
 std::string crossing_text(const SceneDescription& scene, const StartCrossing& crossing) {

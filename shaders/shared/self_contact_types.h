@@ -48,6 +48,24 @@ struct SelfCloth {
     float lightness;   // of its particles' relative inverse masses, in those of the first cloth
 };
 
+/// Two cloths that started through each other, and how they are worked apart.
+struct SelfCrossed {
+    vec4 way;      // xyz: unit, along which the second one leaves the first; w unused
+    ivec2 cloths;  // the first, the second
+    vec2 parts;    // how much of the way apart each of them goes: 1 together, or 0 where both are held
+};
+
+/// What a substep found of them.
+struct SelfCrossings {
+    int count;  // pairs of cells that cross
+    int sum;    // of how fast these part, self_parting_units to each that parts as fast as it should
+};
+const int self_parting_units = 1024;
+
+/// Of a pair of cloths in the table of meetings: they do not meet, they do; from here on, those that started through
+/// each other meet in substeps that begin with no crossing of the two.
+const uint self_meets_not = 0u, self_meets = 1u, self_meets_apart = 2u;
+
 /// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other,
 /// so that what holds for a grid holds for it, and a column and a row name a particle of the scene.
 struct SelfContactPush {
@@ -66,6 +84,10 @@ struct SelfContactPush {
     int round;        // contact, push, room: which
     int held;         // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
+    vec2 parting;       // m that cloths that started through each other should part by in a substep, and by which more
+                        // than in the one before, at most
+    int crossed_count;  // pairs of them
+    int unused;
     SelfCloth cloth;  // the first: looked up here where it is the only one
 };
 
@@ -86,6 +108,7 @@ struct SelfRecord {
     uint cell_count;       // pairs of cells of this substep
     uint candidate_count;  // pairs of cells that may meet in it or later
     uint block_count;      // pairs of blocks of cells that the last search found
+    uint crossing_count;   // pairs of cells of cloths that started through each other and still cross in this substep
     uint most_pairs;       // of the frame
     uint most_near;        // likewise, by boxes
     uint most_cells;       // likewise, the most of the three

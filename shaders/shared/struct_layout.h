@@ -70,7 +70,7 @@ std::vector<std::uint32_t> offsets_in(const T& whole, const Members&... members)
 template <class T>
 std::vector<std::uint32_t> member_offsets() {
     constexpr std::size_t count = member_count<T>();
-    static_assert(count >= 1 && count <= 16, "a struct shared with GLSL has 1 to 16 members");
+    static_assert(count >= 1 && count <= 19, "a struct shared with GLSL has 1 to 19 members");
     const T v{};
 #define DRAPE_MEMBERS(number, ...)         \
     if constexpr (count == number) {       \
@@ -93,6 +93,9 @@ std::vector<std::uint32_t> member_offsets() {
     DRAPE_MEMBERS(14, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
     DRAPE_MEMBERS(15, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o)
     DRAPE_MEMBERS(16, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p)
+    DRAPE_MEMBERS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
+    DRAPE_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
+    DRAPE_MEMBERS(19, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s)
 #undef DRAPE_MEMBERS
 }
 

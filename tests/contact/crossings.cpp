@@ -97,7 +97,7 @@ FloatMesh mesh_at(const RunCloth& cloth, std::uint64_t frame) {
 /// What a manifest says about its run.
 struct Told {
     bool meets = false, proved = false;
-    std::int64_t first_unproved = -1;
+    std::int64_t first_unproved = -1, apart_since = -1;
     std::set<std::string> meet_themselves;
     std::set<std::pair<std::string, std::string>> excepted;
     double frame_ms = 0;
@@ -110,6 +110,7 @@ struct Told {
         meets = !contact.isNull();
         proved = contact["proved"].asBool();
         if (contact.isMember("first_unproved_frame")) first_unproved = contact["first_unproved_frame"].asInt64();
+        if (contact.isMember("apart_since_frame")) apart_since = contact["apart_since_frame"].asInt64();
         for (const Json::Value& name : contact["cloths"]) meet_themselves.insert(name.asString());
         for (const Json::Value& pair : contact["crossed_at_start"])
             excepted.insert({pair[0].asString(), pair[1].asString()});
@@ -118,6 +119,7 @@ struct Told {
     bool denies(std::int64_t frame, const std::string& one, const std::string& other, bool alone) const {
         if (!meets || (first_unproved >= 0 && frame >= first_unproved)) return false;
         if (one == other) return alone || meet_themselves.contains(one);
+        if (apart_since >= 0 && frame >= apart_since) return true;
         return !excepted.contains({one, other}) && !excepted.contains({other, one});
     }
 };

@@ -38,9 +38,11 @@ SeenFrame see(const Simulation& simulation) {
     return seen;
 }
 
-/// Whether two cloths meet where cloths do.
-bool meet(const SceneDescription& scene, const SelfContactReport& told, std::array<std::uint32_t, 2> pair) {
+/// Whether two cloths meet where cloths do; those that started through each other once they are told to be apart.
+bool meet(const SceneDescription& scene, const SelfContactReport& told, std::array<std::uint32_t, 2> pair,
+          std::uint32_t frame) {
     if (pair[0] == pair[1]) return scene.cloths[pair[0]].self_collision.has_value();
+    if (told.last_crossed && frame > *told.last_crossed) return true;
     return std::ranges::none_of(told.crossed, [&](const auto& each) {
         return std::min(each.first, each.second) == pair[0] && std::max(each.first, each.second) == pair[1];
     });
@@ -69,10 +71,11 @@ JudgedRun judged_run(const SceneDescription& scene, const Device& device) {
     judged.most_pairs = told.most_pairs;
     judged.cut_short = told.truncated;
     judged.crossed_at_start = !told.crossed.empty();
+    judged.came_apart = told.last_crossed && *told.last_crossed + 1 < judged.frames;
     for (const SeenFrame& each : seen) {
         const bool proved = !told.first_unproved || each.frame < *told.first_unproved;
-        const bool crossed =
-            std::ranges::any_of(each.crossed, [&](const auto& pair) { return !report || meet(scene, told, pair); });
+        const bool crossed = std::ranges::any_of(
+            each.crossed, [&](const auto& pair) { return !report || meet(scene, told, pair, each.frame); });
         judged.proved_frames += proved ? 1 : 0;
         judged.crossed_frames += crossed ? 1 : 0;
         if (proved && crossed) judged.contradictions.push_back(each.frame);

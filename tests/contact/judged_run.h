@@ -15,7 +15,8 @@ struct JudgedRun {
     std::size_t crossed_frames = 0;  ///< in which some of what meets crosses
     std::uint32_t most_pairs = 0;    ///< that were near each other
     std::uint64_t cut_short = 0;
-    bool crossed_at_start = false;  ///< cloths that therefore never meet
+    bool crossed_at_start = false;  ///< cloths, which therefore do not meet before they have come apart
+    bool came_apart = false;        ///< all of those
     bool implausible = false;       ///< some frame was no result, by the run's own judgement
     std::string ended;              ///< by an exception: its text
     /// Frames in which triangles cross that were proved not to; must be none.

@@ -60,6 +60,30 @@ TEST(TwinSelfContactTest, ClothsOfAKind) {
     expect_contact(scene);
 }
 
+void expect_parting(SceneDescription scene) {
+    scene.gravity = {0, -9.81, 0};
+    scene.cloths[0].size = {0.6, 1};
+    scene.cloths[0].placement.origin[2] = -0.5;
+    scene.cloths[1].size = {0.37, 0.9};
+    scene.cloths[1].placement.origin[1] = 0.93;
+    const glsl::SelfRecord last = compare(scene);
+    EXPECT_GT(last.crossing_count, 0u) << "they were apart before the end";
+}
+TEST(TwinSelfContactTest, ClothsThatStartThroughEachOtherLine) { expect_parting(test::crossed(SolverMethod::line, 5)); }
+TEST(TwinSelfContactTest, ClothsThatStartThroughEachOtherExplicit) {
+    expect_parting(test::crossed(SolverMethod::explicit_steps, 9));
+}
+/// Apart before the end, and pushed from then on.
+TEST(TwinSelfContactTest, ClothsThatHaveComeApartMeet) {
+    SceneDescription scene = test::crossed(SolverMethod::line, 5);
+    scene.gravity = {0, -9.81, 0};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 10), test::pin_box(12, 0, 12, 10)};
+    scene.cloths[1].placement.origin[1] = 0.78;
+    const glsl::SelfRecord last = compare(scene);
+    EXPECT_EQ(last.crossing_count, 0u);
+    EXPECT_GT(last.most_pairs, 0u);
+}
+
 TEST(TwinSelfContactTest, ThreeClothsLine) { expect_contact(test::layers(SolverMethod::line, 12)); }
 
 }  // namespace

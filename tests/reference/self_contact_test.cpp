@@ -187,17 +187,6 @@ TEST(SelfContactTest, ClothsThatAreHeldAgainstEachOther) {
     expect_apart(scene, 40, true);
 }
 
-TEST(SelfContactTest, ClothsThatStartThroughEachOtherDoNotMeet) {
-    SceneDescription scene = test::layers(SolverMethod::line, 16);
-    scene.cloths[1].placement.u = {0, 1, 0};
-    scene.cloths[1].placement.origin = {0.02, 0.02, -0.25};
-    const SimulationModel model(scene);
-    ASSERT_EQ(model.self_contact->crossed.size(), 1u);
-    EXPECT_EQ(model.self_contact->crossed[0].first, 0u);
-    EXPECT_EQ(model.self_contact->crossed[0].second, 1u);
-    EXPECT_EQ(model.self_contact->meetings, (std::vector<glsl::uint>{1, 0, 1, 0, 0, 1, 1, 1, 0}));
-}
-
 /// Metres times kg: where the mass of all cloths is, times that mass.
 double mass_moment(const SimulationModel& model, const Twin& twin) {
     double moment = 0;

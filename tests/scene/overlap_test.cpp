@@ -160,10 +160,15 @@ TEST(StartCrossingTest, IsSaidOfClothsThatMeet) {
         ElementsAre(AllOf(HasSubstr("crossing.json:5:16: /cloths/1/placement: cloths \"sheet\" and \"other\" "
                                     "start through each other (6 pairs of triangles cross; moved by 0.2 m one would "
                                     "be off the other)"),
-                          HasSubstr("the two will not meet, and no frame is proved"))));
+                          HasSubstr("they are led apart at 1 m/s and meet from then on; place one"))));
     EXPECT_THAT(warned(crossing(along)), ElementsAre(HasSubstr("start on or through each other (moved by 0.25 m")))
         << "along lines of both grids";
-    EXPECT_THAT(warned(crossing(upon)), ElementsAre(HasSubstr("start on each other")));
+    EXPECT_THAT(warned(crossing(upon)),
+                ElementsAre(AllOf(HasSubstr("start on each other"), HasSubstr("the two will not meet, and no frame"))));
+    const std::string pins = R"(=[{"box": [[0, 0], [0, 0]]}])";
+    EXPECT_THAT(warned(crossing(upright, {"/cloths/0/pins" + pins})), ElementsAre(HasSubstr("led apart at 1 m/s")));
+    EXPECT_THAT(warned(crossing(upright, {"/cloths/0/pins" + pins, "/cloths/1/pins" + pins})),
+                ElementsAre(HasSubstr("held as both are, they are not led apart")));
     EXPECT_THAT(warned(crossing(beside)), IsEmpty());
     EXPECT_THAT(warned(crossing(above)), IsEmpty());
     EXPECT_THAT(warned(crossing(upright, {"/cloths/0/holes=[[[0,2],[4,3]]]"})), IsEmpty()) << "through a hole";

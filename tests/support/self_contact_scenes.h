@@ -86,6 +86,27 @@ inline SceneDescription layers(SolverMethod method, std::uint32_t substeps) {
     return scene;
 }
 
+/// A sheet that lies, and a smaller, lighter one that stands through it, its upper third above: both free, in no
+/// gravity.
+inline SceneDescription crossed(SolverMethod method, std::uint32_t substeps) {
+    SceneDescription scene = sheet(13, 11, 0.6, 0.5, substeps);
+    scene.solver.method = method;
+    scene.gravity = {0, 0, 0};
+    Cloth& lying = scene.cloths[0];
+    lying.self_collision = SelfCollision{0.01, {}};
+    lying.stiffness = {false, 200, 40, 1e-4};
+    lying.damping = 0;
+    Cloth standing = lying;
+    standing.name = "standing";
+    standing.grid = {9, 8};
+    standing.size = {0.37, 0.3};
+    standing.areal_density *= 0.5;
+    lying.placement = {{-0.3, 0.5, -0.25}, {1, 0, 0}, {0, 0, 1}};
+    standing.placement = {{-0.2, 0.6, 0.013}, {1, 0, 0}, {0, -1, 0}};
+    scene.cloths.push_back(standing);
+    return scene;
+}
+
 /// Sheets of n x n particles, each turned against the one below, that fall onto a ball and each other.
 inline SceneDescription stack(std::uint32_t count, std::uint32_t n, SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = sheet(n, n, 0.7, 0.7, substeps);

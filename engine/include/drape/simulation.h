@@ -113,8 +113,12 @@ struct SelfContactReport {
     std::optional<std::uint32_t> first_unproved;
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, near each other
     std::uint64_t truncated = 0;   ///< motions cut short because they would have crossed
-    /// Cloths that started through each other: these do not meet, and of them nothing is proved.
+    /// Cloths that started through each other: these do not meet before they have come apart, and of them nothing is
+    /// proved until then.
     std::vector<std::pair<std::size_t, std::size_t>> crossed = {};
+    /// Last frame that ended with some of them through each other; nothing: none can tell, because some start on each
+    /// other and never meet.
+    std::optional<std::uint32_t> last_crossed = {};
 };
 
 /// What a kind of pass does in a frame that is handed out, of the substeps that the scene begins with.

@@ -1,0 +1,89 @@
+// How cloths that started through each other are worked apart (docs/physics.md 5): while a cell of one crosses a cell
+// of the other they do not meet, and are led apart as wholes, along the way that was shortest when they started.
+#ifndef DRAPE_SELF_APART_H
+#define DRAPE_SELF_APART_H
+
+#include "include/self_gap.h"
+#include "shared/self_contact_types.h"
+
+/// Two triangles and three edges by the corners of a cell, and bits of those that exist: triangles 1 and 2, edges from
+/// 4 on (self_edge).
+struct SelfCell {
+    vec3 first, right, below, last;
+    uint bits;
+};
+
+/// Whether the edge p-q meets the triangle a-b-c, or comes nearer to it where it meets its plane than `doubt`, m,
+/// leaves open. Of a triangle without area nothing is known.
+SHARED bool self_pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c, float doubt) {
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 ap = p - a;
+    precise vec3 aq = q - a;
+    vec3 square = ordered_cross(ab, ac);
+    precise float area = sqrt(ordered_dot(square, square));
+    precise vec3 normal = square / area;
+    float height_p = ordered_dot(normal, ap), height_q = ordered_dot(normal, aq);
+    precise float whole = abs(height_p) + abs(height_q);
+    precise vec3 edge = q - p;
+    precise vec3 at = ap + edge * self_ratio(abs(height_p), whole);
+    vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
+    vec3 weights = nearest_in_triangle(at, nothing, ab, ac);
+    precise vec3 off = (ab * weights.y + ac * weights.z) - at;
+    bool beside = (height_p > doubt && height_q > doubt) || (height_p < -doubt && height_q < -doubt);
+    // How far off the place may be along an edge that is all but level; no farther, or what lies beside a triangle in
+    // its plane would count.
+    precise float loose = doubt * self_least(1.0f + self_ratio(sqrt(ordered_dot(edge, edge)), whole), 16.0f);
+    precise float within = loose * loose;
+    return !beside && ordered_dot(off, off) <= within;
+}
+
+/// Whether edge k of a cell meets one of another's triangles.
+SHARED bool self_edge_pierces(SelfCell one, int k, SelfCell other, float doubt) {
+    vec3 p = k == 2 ? one.right : one.first, q = k == 0 ? one.right : one.below;
+    bool upper = (other.bits & 1u) != 0u && self_pierces(p, q, other.first, other.right, other.below, doubt);
+    bool lower = (other.bits & 2u) != 0u && self_pierces(p, q, other.right, other.last, other.below, doubt);
+    return (one.bits & (4u << k)) != 0u && (upper || lower);
+}
+
+/// Where surfaces cross an edge of one goes through a triangle of the other.
+SHARED bool self_cells_cross(SelfCell one, SelfCell other) {
+    float doubt = self_doubt(self_largest(self_largest_coordinate(one.first), self_largest_coordinate(other.first)));
+    precise float touching = doubt * 4.0f;
+    bool crosses = false;
+    for (int k = 0; k < 3; ++k)
+        crosses = crosses || self_edge_pierces(one, k, other, touching) || self_edge_pierces(other, k, one, touching);
+    return crosses;
+}
+
+/// How fast two that cross part along the way, in units, as far as that matters.
+SHARED int self_parting_of(vec3 way, vec3 moved_first, vec3 moved_second, vec2 parting) {
+    precise vec3 relative = moved_second - moved_first;
+    precise float share = ordered_dot(way, relative) / parting.x;
+    float most = share < 1.0f ? share : 1.0f;
+    precise float units = (share > -1.0f ? most : -1.0f) * float(self_parting_units);
+    return int(units);
+}
+
+/// m by which two cloths are to part more than they do.
+SHARED float self_lacking(SelfCrossings found, vec2 parting) {
+    precise float mean = float(found.sum) / (float(found.count) * float(self_parting_units));
+    precise float lacking = parting.x - parting.x * mean;
+    float wanted = self_least(self_largest(lacking, 0.0f), parting.y);
+    return found.count > 0 ? wanted : 0.0f;
+}
+
+/// What one of them is led by, if it is either, added to what the pairs before have led it by.
+SHARED vec3 self_led_apart(vec3 led, SelfCrossed pair, int cloth, float lacking) {
+    float part = cloth == pair.cloths.x ? -pair.parts.x : cloth == pair.cloths.y ? pair.parts.y : 0.0f;
+    precise vec3 sum = led + vec3(pair.way.x, pair.way.y, pair.way.z) * (part * lacking);
+    return sum;
+}
+
+/// A displacement led on by that.
+SHARED vec3 self_led(vec3 displacement, vec3 led) {
+    precise vec3 moved = displacement + led;
+    return moved;
+}
+
+#endif
