@@ -22,7 +22,7 @@ int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
 bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
     int other = block_owner(block);
     if (other < 0 || meetings[owner * push.cloth_count + other] == self_meets_not) return false;
-    return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]), push.margin);
+    return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]));
 }
 
 void main() {
@@ -42,7 +42,7 @@ void main() {
         ivec2 size = self_tree_size(push.grid, level);
         int place = first + node.y * size.x + node.x;
         bool open = entered && ((node.y + 1) << (level - 1)) > own.y && (level > 1 || place > begin + index) &&
-                    self_boxes_meet(box, box_at(place), push, most, push.margin);
+                    self_boxes_meet(box, box_at(place), push, most);
         ++visits;
         if (visits > self_visit_limit) {
             atomicAdd(record[0].block_count, uint(push.cell_room));

@@ -38,7 +38,7 @@ Block block_of(int block) {
 bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
     ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
     bool may = inside(a) && inside(b) && !self_neighbours(a, b);
-    return may && self_boxes_meet(box, other_box, push, thickness, push.margin);
+    return may && self_boxes_meet(box, other_box, push, thickness);
 }
 
 /// Bits of the cells of another block that cell k of one meets.

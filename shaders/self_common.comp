@@ -23,26 +23,28 @@ vec3 sample_of(int k) {
 
 void main() {
     int samples = self_samples * self_samples * push.cloth_count;
-    int count = push.held == 0 && gl_GlobalInvocationID.x == 0u ? samples : 0;
+    int count = gl_GlobalInvocationID.x == 0u ? samples : 0;
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < count; ++k) sum = sum + sample_of(k);
     vec3 mean = self_mean(sum, push.cloth_count);
     float least = 1.0f;
     for (int k = 0; k < count; ++k) least = self_least(least, self_part_made(sample_of(k), mean));
     if (gl_GlobalInvocationID.x > 0u) return;
-    record[0].carried = vec4(self_common_motion(mean, least), 0.0f);
+    vec3 made = self_common_motion(mean, least);
+    record[0].carried = vec4(push.held != 0 ? vec3(0.0f, 0.0f, 0.0f) : made, 0.0f);
+    record[0].travel = vec4(self_travelled(record[0].travel.xyz, record[0].mean.xyz), 0.0f);
+    record[0].mean = vec4(mean, 0.0f);
     record[0].point_count = 0u;
     record[0].edge_count = 0u;
     record[0].near_point_count = 0u;
     record[0].near_edge_count = 0u;
     record[0].cell_count = 0u;
-    record[0].drift = self_drift(record[0].drift, uintBitsToFloat(record[0].moved));
-    record[0].moved = 0u;
 #ifdef CROSSED
     for (int k = 0; k < push.crossed_count; ++k) crossings[k] = SelfCrossings(0, 0);
 #endif
     for (int k = self_size_of_substep; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
     if (push.first == 0) return;
+    sizes[self_size_search].x = 1u;
     record[0].most_pairs = 0u;
     record[0].most_near = 0u;
     record[0].most_cells = 0u;

@@ -26,11 +26,6 @@ void move(int place, float thickness) {
     bool changed = bounded.x != displacement.x || bounded.y != displacement.y || bounded.z != displacement.z;
     bool cut = share < 1.0f || changed;
     vec3 moved = self_relative_motion(bounded, carried);
-    precise vec3 part = moved * share;
-    vec3 made = held ? moved : part;
-    uint motion = floatBitsToUint(self_motion(made));
-    // Most that come here find one that moved farther.
-    if (motion > record[0].moved) atomicMax(record[0].moved, motion);
     if (cut && held) atomicAdd(record[0].unproved, 1u);
     if (cut && !held) {
         atomicAdd(record[0].truncated, 1u);

@@ -18,7 +18,7 @@ layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
 
 void judge(ivec2 pair) {
     float thickness = self_mean_thickness(cloth_at(texel_of(pair.x)), cloth_at(texel_of(pair.y)));
-    if (self_boxes_meet(box_at(pair.x), box_at(pair.y), push, thickness, 0.0f)) {
+    if (self_boxes_meet(box_at(pair.x), box_at(pair.y), push, thickness)) {
         uint place = place_after(atomicAdd(record[0].cell_count, 1u), 1u);
         if (place < uint(push.cell_room)) cells[place] = pair;
     }

@@ -60,7 +60,8 @@ enum class Field : std::uint8_t {
     self_led,            ///< by cloth: what it is led by to come apart from others, m
     self_positions,      ///< by place on the sheet: position at the start of the substep, m; w: relative inverse mass
     self_displacements,  ///< likewise: motion within it, m; w: bits of the triangles and edges that it owns
-    self_boxes,          ///< tree of boxes, the lowest level first (shaders/include/self_contact.h)
+    self_boxes,          ///< by place, what its cell is in in this substep (shaders/include/self_contact.h)
+    self_kept,           ///< tree of boxes in which cells were looked for, the lowest level first
     self_candidates,     ///< pairs of cells that may come near each other until the next search
     self_cells,          ///< those that are in this substep
     self_near,           ///< pairs of primitives whose boxes are near each other

@@ -85,9 +85,10 @@ class ContactSteps {
         const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
         add_for_cloths(StepKind::self_gather);
         add_one(StepKind::self_common);
-        for (push.level = 0; push.level <= push.top; push.level = push.last + 1) {
+        for (const StepKind kind : {StepKind::self_boxes, StepKind::self_search, StepKind::self_kept}) add_one(kind);
+        for (push.level = 1; push.level <= push.top; push.level = push.last + 1) {
             push.last = last_level(push, push.level);
-            add_one(StepKind::self_boxes);
+            add_one(StepKind::self_levels);
         }
         for (const StepKind kind :
              {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_bent})

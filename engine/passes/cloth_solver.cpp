@@ -318,6 +318,9 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_self_return(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::self_common:
         case StepKind::self_boxes:
+        case StepKind::self_search:
+        case StepKind::self_kept:
+        case StepKind::self_levels:
         case StepKind::self_blocks:
         case StepKind::self_cells:
         case StepKind::self_near:
@@ -347,6 +350,12 @@ void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const
             return add_self_common(graph, pipelines_, state, step);
         case StepKind::self_boxes:
             return add_self_boxes(graph, pipelines_, state, step);
+        case StepKind::self_search:
+            return add_self_search(graph, pipelines_, state, step);
+        case StepKind::self_kept:
+            return add_self_kept(graph, pipelines_, state, step);
+        case StepKind::self_levels:
+            return add_self_levels(graph, pipelines_, state, step);
         case StepKind::self_blocks:
             return add_self_blocks(graph, pipelines_, state, step);
         case StepKind::self_cells:

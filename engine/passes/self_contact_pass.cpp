@@ -154,31 +154,49 @@ void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
 }
 
 void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    const auto& push = step.push<glsl::SelfContactPush>();
-    const bool leaves = push.level == 0;
-    if (leaves)
-        return add_pass(graph, step, "self boxes", pipeline_of(pipelines, "self_boxes_leaves.comp", step),
-                        over_sheet(pipelines, step), [&](PassSetup& setup) {
-                            read_sheet(setup, contact);
-                            write(setup, contact, Field::self_boxes, "boxes");
-                            write(setup, contact, Field::self_corrections, "corrections");
-                            write(setup, contact, Field::self_shares, "shares");
-                            read(setup, contact, Field::self_record, "record");
-                            write(setup, contact, Field::self_before, "before");
-                        });
-    const int count =
-        push.last > push.level ? glsl::workgroup_width : static_cast<int>(self_tree_boxes_of(push.grid, push.level));
-    add_pass(graph, step, "self boxes above", pipelines.get("self_boxes.comp"), count, [&](PassSetup& setup) {
-        update_in_place(setup, contact, Field::self_boxes, "boxes");
-        update_in_place(setup, contact, Field::self_record, "record");
-        update_in_place(setup, contact, Field::self_sizes, "sizes");
-    });
+    add_pass(graph, step, "self boxes", listing_pipeline(pipelines, "self_boxes.comp", step),
+             over_sheet(pipelines, step), [&](PassSetup& setup) {
+                 read_sheet(setup, contact);
+                 write(setup, contact, Field::self_boxes, "boxes");
+                 write(setup, contact, Field::self_corrections, "corrections");
+                 write(setup, contact, Field::self_shares, "shares");
+                 read(setup, contact, Field::self_record, "record");
+                 write(setup, contact, Field::self_before, "before");
+                 read(setup, contact, Field::self_kept, "kept");
+                 update_in_place(setup, contact, Field::self_sizes, "sizes");
+             });
+}
+
+void add_self_search(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_sized_pass(graph, contact, step, "self search",
+                   pipelines.get("self_search.comp", {{"entries_each", pipelines.entries_each()}}),
+                   glsl::self_size_search, [&](PassSetup& setup) {
+                       update_in_place(setup, contact, Field::self_record, "record");
+                       update_in_place(setup, contact, Field::self_sizes, "sizes");
+                   });
+}
+
+void add_self_kept(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_sized_pass(graph, contact, step, "self kept", pipeline_of(pipelines, "self_kept.comp", step),
+                   glsl::self_size_kept, [&](PassSetup& setup) {
+                       read(setup, contact, Field::self_boxes, "boxes");
+                       read(setup, contact, Field::self_displacements, "displacements");
+                       read(setup, contact, Field::self_owners, "owners");
+                       read(setup, contact, Field::self_record, "record");
+                       update_in_place(setup, contact, Field::self_kept, "kept");
+                   });
+}
+
+void add_self_levels(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+    add_sized_pass(graph, contact, step, "self levels", pipelines.get("self_levels.comp"),
+                   glsl::self_size_levels + step.push<glsl::SelfContactPush>().level - 1,
+                   [&](PassSetup& setup) { update_in_place(setup, contact, Field::self_kept, "boxes"); });
 }
 
 void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self blocks", listing_pipeline(pipelines, "self_blocks.comp", step),
                    glsl::self_size_blocks, [&](PassSetup& setup) {
-                       read(setup, contact, Field::self_boxes, "boxes");
+                       read(setup, contact, Field::self_kept, "boxes");
                        read_cloths(setup, contact);
                        read(setup, contact, Field::self_meetings, "meetings");
                        fill(setup, contact, Field::self_cells, "blocks");
@@ -188,7 +206,7 @@ void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
 void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self cells", listing_pipeline(pipelines, "self_cells.comp", step),
                    glsl::self_size_cells, [&](PassSetup& setup) {
-                       read(setup, contact, Field::self_boxes, "boxes");
+                       read(setup, contact, Field::self_kept, "boxes");
                        read_cloths(setup, contact);
                        read(setup, contact, Field::self_cells, "blocks");
                        fill(setup, contact, Field::self_candidates, "candidates");

@@ -18,13 +18,19 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
 
 /// Reads displacement; begins the record anew.
 void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads position, displacement, record; writes levels of the tree of boxes. The lowest also begins the sums and shares
-/// anew and writes the displacement before contact; the root's says whether candidates are searched.
+/// Reads position, displacement, record, kept boxes; writes boxes, begins the sums and shares anew, writes the
+/// displacement before contact; says whether candidates are searched.
 void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 // From here on most run as far as the passes before said that there is something to do (Field::self_sizes).
-/// Reads boxes; writes the list of cells, for now with blocks of them, counts them in the record.
+/// Begins a search: counts in the record anew.
+void add_self_search(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads boxes, displacement, record; writes the lowest level of kept boxes.
+void add_self_kept(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Updates kept boxes: levels from the levels below.
+void add_self_levels(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// Reads kept boxes; writes the list of cells, for now with blocks of them, counts them in the record.
 void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
-/// Reads boxes and that list; writes the candidates, counts them in the record.
+/// Reads kept boxes and that list; writes the candidates, counts them in the record.
 void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads boxes, candidates; writes the list of cells, counts them in the record.
 void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);

@@ -55,7 +55,7 @@ class ContactStep {
     }
     bool boxes_meet(std::size_t a, std::size_t b) const {
         return self_boxes_meet(contact_.boxes[a], contact_.boxes[b], push_,
-                               self_mean_thickness(cloth_at(a), cloth_at(b)), 0);
+                               self_mean_thickness(cloth_at(a), cloth_at(b)));
     }
     SelfCell cell(std::size_t place) const;
     bool inside(const SelfCloth& cloth, ivec2 texel) const {
@@ -151,7 +151,6 @@ SelfBox ContactStep::cell_box(ivec2 own) const {
 }
 
 void ContactStep::boxes() {
-    if (push_.level != 0) return;
     const std::size_t count = contact_.positions.size();
     contact_.corrections.assign(count, {});
     contact_.pairs.clear();

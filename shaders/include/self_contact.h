@@ -104,21 +104,40 @@ SHARED float self_reach(SelfBox a, SelfContactPush push, float thickness) {
     return reach;
 }
 
-/// Whether what is in two boxes may be listed, with `margin` for the substeps to come. `thickness`: the mean of theirs.
-SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness, float margin) {
-    precise float reach = self_reach(a, push, thickness) + margin;
-    return self_box_distance(a, b) <= reach;
+/// Whether what is in two boxes may be listed. `thickness`: the mean of theirs.
+SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness) {
+    return self_box_distance(a, b) <= self_reach(a, push, thickness);
 }
 
-/// Whether candidates have to be searched again: in the frame's first substep, and when the margin may be used up.
-SHARED bool self_searches(SelfContactPush push, float drift, float motion) {
-    precise float used = drift + motion * 2.0f;
-    return push.first != 0 || !(used <= push.margin);
+/// How many substeps ahead a search looks, as if every cell went on as it goes, against the mean motion.
+const float self_substeps_ahead = 4.0f;
+
+/// What a cell is looked for in, in this substep and those after it as long as it stays inside.
+SHARED SelfBox self_kept_box(SelfBox box, vec3 motion, vec3 mean, float margin) {
+    precise vec3 on = (motion - mean) * self_substeps_ahead;
+    precise float half_margin = margin * 0.5f;
+    vec3 room = vec3(half_margin, half_margin, half_margin);
+    vec3 down = vec3(self_least(on.x, 0.0f), self_least(on.y, 0.0f), self_least(on.z, 0.0f));
+    vec3 up = vec3(self_largest(on.x, 0.0f), self_largest(on.y, 0.0f), self_largest(on.z, 0.0f));
+    precise vec3 kept_lower = vec3(box.lower.x, box.lower.y, box.lower.z) + (down - room);
+    precise vec3 kept_upper = vec3(box.upper.x, box.upper.y, box.upper.z) + (up + room);
+    return SelfBox(vec4(kept_lower.x, kept_lower.y, kept_lower.z, 0.0f),
+                   vec4(kept_upper.x, kept_upper.y, kept_upper.z, 0.0f));
 }
 
-/// Drift after a substep in which no particle moved by more than that.
-SHARED float self_drift(float drift, float moved) {
-    precise float sum = (drift + moved * 2.0f) * 1.000001f;
+/// Whether it is still inside, by more than rounding: all have travelled by the same since then, which brings none
+/// nearer to another.
+SHARED bool self_stays_inside(SelfBox box, vec3 travel, SelfBox kept, float least) {
+    precise vec3 above =
+        (vec3(box.lower.x, box.lower.y, box.lower.z) - travel) - vec3(kept.lower.x, kept.lower.y, kept.lower.z);
+    precise vec3 below =
+        vec3(kept.upper.x, kept.upper.y, kept.upper.z) - (vec3(box.upper.x, box.upper.y, box.upper.z) - travel);
+    return above.x >= least && above.y >= least && above.z >= least && below.x >= least && below.y >= least &&
+           below.z >= least;
+}
+
+SHARED vec3 self_travelled(vec3 travel, vec3 mean) {
+    precise vec3 sum = travel + mean;
     return sum;
 }
 
@@ -248,7 +267,7 @@ SHARED SelfBox self_no_box() {
 
 SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
     return SelfBox(vec4(self_least(a.lower.x, b.lower.x), self_least(a.lower.y, b.lower.y),
-                        self_least(a.lower.z, b.lower.z), self_largest(a.lower.w, b.lower.w)),
+                        self_least(a.lower.z, b.lower.z), 0.0f),
                    vec4(self_largest(a.upper.x, b.upper.x), self_largest(a.upper.y, b.upper.y),
                         self_largest(a.upper.z, b.upper.z), 0.0f));
 }
@@ -256,7 +275,7 @@ SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
 /// Of a particle: from where it is to where it is going, against the common motion.
 SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
     precise vec3 end = at + motion;
-    return SelfBox(vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), self_motion(motion)),
+    return SelfBox(vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), 0.0f),
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 

@@ -17,11 +17,11 @@ const float self_correction_units = 1048576.0f, self_weight_units = 65536.0f;
 /// How many times as fast as of one that is all but kept a missing thickness is given back where nothing is left of it.
 const float self_deep_recovery = 10.0f;
 
-/// A node of the tree of boxes, in which level 0 has a box per particle and each next one a box per 2 x 2 of those
-/// before. In the box: the triangles and edges that a particle owns, or all that of the nodes below.
+/// What a particle's cell is in while its corners make any part of their motions; or, of a node of the tree of boxes,
+/// in which level 0 has a box per particle and each next one a box per 2 x 2 of those before, all of the nodes below.
 struct SelfBox {
-    vec4 lower;  // xyz m; w: most that one of its particles moves in this substep, m
-    vec4 upper;  // xyz m; w unused
+    vec4 lower;  // xyz m; w unused
+    vec4 upper;  // likewise
 };
 
 /// Times that pairs push each other in a substep.
@@ -29,13 +29,18 @@ const int self_iterations = 3;
 /// Rounds in which motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 
-/// Which of the sizes of indirect dispatches a pass takes: those of its own round where it has several. What there is
-/// nothing to do for is not dispatched: on the default device an invocation without work costs what one with it does.
-const int self_size_blocks = 0, self_size_cells = 1, self_size_near = 2, self_size_primitives = 3, self_size_pairs = 4,
-          self_size_contact = 5, self_size_push = self_size_contact + self_iterations,
+/// Levels that a tree may have above its lowest: those of a sheet of 2^16 x 2^16 places.
+const int self_most_levels = 16;
+/// Which of the sizes of indirect dispatches a pass takes: those of its own round, or level, where it has several. What
+/// there is nothing to do for is not dispatched: on the default device an invocation without work costs what one with
+/// it does.
+const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_size_levels = 3,
+          self_size_blocks = self_size_levels + self_most_levels, self_size_cells = self_size_blocks + 1,
+          self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
+          self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + self_iterations,
           self_size_room = self_size_push + self_iterations, self_size_count = self_size_room + self_rounds;
 /// The first of those that begin anew with every substep, not with a search.
-const int self_size_of_substep = self_size_primitives;
+const int self_size_of_substep = self_size_search;
 
 /// A cloth on the sheet.
 struct SelfCloth {
@@ -73,7 +78,7 @@ struct SelfContactPush {
     float thickness;  // m: the largest that a cloth keeps
     float recovery;   // m that a substep gives back of a thickness that is all but kept
     float least;      // m: distances that rounding leaves in doubt
-    float margin;     // m: by how much more than it needs to the search for cells looks
+    float margin;     // m: by how much more than it needs to, and than it foresees, the search for cells looks
     int pair_room;    // pairs that their list can hold
     int near_room;    // likewise of pairs of primitives whose boxes are near each other
     int cell_room;    // likewise of pairs of cells, and of candidates
@@ -101,6 +106,8 @@ struct SelfClothPush {
 /// What contact between the scene's cloths was in the substeps of a frame so far. m. Counts include what found no room.
 struct SelfRecord {
     vec4 carried;           // motion that all particles are measured against in this substep; w unused
+    vec4 mean;              // of the motions of a few in this substep, before contact; w unused
+    vec4 travel;            // m: sum of those since the last search; w unused
     uint point_count;       // pairs of this substep of a particle and a triangle
     uint edge_count;        // of two edges
     uint near_point_count;  // of both kinds those whose boxes are near each other
@@ -114,8 +121,6 @@ struct SelfRecord {
     uint most_cells;       // likewise, the most of the three
     uint unproved;         // motions of held particles that were not proved to cross nothing, pairs that touched
     uint truncated;        // motions of free particles that were cut short
-    uint moved;            // bits: most that a particle moved in the substep before
-    float drift;           // twice what was moved since the last search, summed by substep
 };
 
 #ifdef __cplusplus
