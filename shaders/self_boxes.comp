@@ -37,13 +37,25 @@ SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
     return box;
 }
 
+/// Whether a cell has left what it was looked for in, but for rounding: all have travelled by the same since then, which
+/// brings none nearer to another. Nothing that is short-circuited: it would be branches.
+bool has_left(SelfBox box, SelfBox was) {
+    vec3 least = vec3(push.least);
+    precise vec3 above = (box.lower.xyz - travel) - was.lower.xyz;
+    precise vec3 below = was.upper.xyz - (box.upper.xyz - travel);
+    bvec2 inside = bvec2(all(greaterThanEqual(above, least)), all(greaterThanEqual(below, least)));
+    return !all(inside);
+}
+
 void begin(int place, int count) {
     int owner = owner_of(place);
     SelfBox box = self_no_box();
     if (owner >= 0) box = cell_box(texel_of(place), cloth_at(texel_of(place)));
     boxes[place] = box;
     SelfBox was = SelfBox(imageLoad(kept, 2 * place), imageLoad(kept, 2 * place + 1));
-    searches = searches || (owner >= 0 && !self_stays_inside(box, travel, was, push.least));
+    bool left = has_left(box, was);
+    left = owner >= 0 ? left : false;
+    searches = left ? true : searches;
     before[place] = vec4(imageLoad(displacements, texel_of(place)).xyz, 0.0f);
     corrections[place] = ivec4(0, 0, 0, 0);
     for (int round = 0; round < self_rounds; ++round) shares[round * count + place] = floatBitsToUint(1.0f);

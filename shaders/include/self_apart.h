@@ -26,16 +26,17 @@ SHARED bool self_pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c, float doubt) {
     float height_p = ordered_dot(normal, ap), height_q = ordered_dot(normal, aq);
     precise float whole = abs(height_p) + abs(height_q);
     precise vec3 edge = q - p;
+    // Where it meets the plane; of an edge beside the plane a point that is not on it, so farther off than is left
+    // open.
     precise vec3 at = ap + edge * self_ratio(abs(height_p), whole);
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
     vec3 weights = nearest_in_triangle(at, nothing, ab, ac);
     precise vec3 off = (ab * weights.y + ac * weights.z) - at;
-    bool beside = (height_p > doubt && height_q > doubt) || (height_p < -doubt && height_q < -doubt);
     // How far off the place may be along an edge that is all but level; no farther, or what lies beside a triangle in
     // its plane would count.
     precise float loose = doubt * self_least(1.0f + self_ratio(sqrt(ordered_dot(edge, edge)), whole), 16.0f);
     precise float within = loose * loose;
-    return !beside && ordered_dot(off, off) <= within;
+    return ordered_dot(off, off) <= within;
 }
 
 /// Whether edge k of a cell meets one of another's triangles.

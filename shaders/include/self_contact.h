@@ -125,17 +125,6 @@ SHARED SelfBox self_kept_box(SelfBox box, vec3 motion, vec3 mean, float margin) 
                    vec4(kept_upper.x, kept_upper.y, kept_upper.z, 0.0f));
 }
 
-/// Whether it is still inside, by more than rounding: all have travelled by the same since then, which brings none
-/// nearer to another.
-SHARED bool self_stays_inside(SelfBox box, vec3 travel, SelfBox kept, float least) {
-    precise vec3 above =
-        (vec3(box.lower.x, box.lower.y, box.lower.z) - travel) - vec3(kept.lower.x, kept.lower.y, kept.lower.z);
-    precise vec3 below =
-        vec3(kept.upper.x, kept.upper.y, kept.upper.z) - (vec3(box.upper.x, box.upper.y, box.upper.z) - travel);
-    return above.x >= least && above.y >= least && above.z >= least && below.x >= least && below.y >= least &&
-           below.z >= least;
-}
-
 SHARED vec3 self_travelled(vec3 travel, vec3 mean) {
     precise vec3 sum = travel + mean;
     return sum;
