@@ -25,7 +25,10 @@ void main() {
 #ifdef BEFORE
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
 #endif
-    if (position.w == 0.0f) return;
+    if (position.w == 0.0f) {
+        STORE_VECTOR(displacement_out, texel, moved);
+        return;
+    }
     vec4 force = force_on(texel);
     vec3 increment =
         verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w, push.force_step, push.damping_loss);

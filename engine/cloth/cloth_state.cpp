@@ -28,6 +28,7 @@ bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool adaptive(Context c) { return c.model.adaptive(); }
 bool gathers(Context c) { return c.cloth.plan.spare_state; }
+bool turns(Context c) { return gathers(c) || c.cloth.plan.spare_displacement; }
 bool second_order(Context c) { return c.cloth.plan.second_order; }
 bool line_solved(Context c) { return c.cloth.plan.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
@@ -147,7 +148,7 @@ const std::vector<FieldRow>& rows() {
         {Field::position_remainder, "position remainder", stored, vector, state, always, particles},
         {Field::displacement_remainder, "displacement remainder", stored, vector, state, always, particles},
         {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
-        {Field::displacement_spare, "displacement spare", stored, vector, frame, gathers, particles},
+        {Field::displacement_spare, "displacement spare", stored, vector, frame, turns, particles},
         {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
         {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
          particles},

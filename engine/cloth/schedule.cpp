@@ -134,40 +134,4 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     return steps;
 }
 
-namespace {
-
-/// No frame's first step, for that finds other positions (Step::substep); no last one (steps_in_flight); none that
-/// bends.
-bool can_fly(const Step& step) {
-    return step.kind == StepKind::explicit_step && step.substep > 0 && !step.last &&
-           step.push<glsl::ExplicitPush>().twist == 0;
-}
-
-/// Where the `count` steps of a cloth from `first` on are, when nothing else happens to it between them; else nothing.
-std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, std::uint32_t count) {
-    std::vector<std::size_t> places;
-    for (std::size_t k = first; k < steps.size() && places.size() < count; ++k) {
-        if (steps[k].cloth != steps[first].cloth && steps[k].cloth != all_cloths) continue;
-        if (!can_fly(steps[k])) return {};
-        places.push_back(k);
-    }
-    return places.size() == count ? places : std::vector<std::size_t>{};
-}
-
-}  // namespace
-
-std::vector<Step> steps_in_flight(const std::vector<Step>& steps, std::uint32_t count) {
-    std::vector<bool> taken(steps.size());
-    std::vector<Step> merged;
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-        if (taken[k]) continue;
-        merged.push_back(steps[k]);
-        const std::vector<std::size_t> together = run_of(steps, k, count);
-        if (together.empty()) continue;
-        merged.back().count = count;
-        for (const std::size_t place : together) taken[place] = true;
-    }
-    return merged;
-}
-
 }  // namespace drape

@@ -13,9 +13,4 @@ namespace drape {
 /// follows every iteration but a substep's last. Contact between the cloths ends a substep of all of them.
 std::vector<Step> frame_steps(const SimulationModel& model);
 
-/// The same work in fewer steps: every `count` explicit micro-steps of a cloth between which nothing else happens to it
-/// become one. Not those that bend, which need neighbours farther off; not a frame's last, so that the spare images
-/// hold the displacement of the substep before it.
-std::vector<Step> steps_in_flight(const std::vector<Step>& steps, std::uint32_t count);
-
 }  // namespace drape

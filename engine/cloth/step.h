@@ -25,6 +25,7 @@ enum class StepKind {
     bend,
     twist,
     spring,
+    sweep,
     line,
     nested,
     tether,
@@ -55,9 +56,10 @@ enum class StepKind {
 
 /// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
 /// set per iteration.
-using StepConstants = std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush,
-                                   glsl::ExplicitPush, glsl::BendPush, glsl::TwistPush, glsl::SpringPush,
-                                   glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
+using StepConstants =
+    std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
+                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::SweepPush, glsl::LinePush, glsl::NestedPush,
+                 glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {
@@ -83,6 +85,8 @@ struct Step {
     bool conditional = false;
     /// Contact, a second `box_edges`: goes on from what `box_edges` left.
     bool after_edges = false;
+    /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back.
+    bool turns = false;
     /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
 

@@ -34,6 +34,7 @@ bool in_images(StepKind kind) {
         case StepKind::bend:
         case StepKind::twist:
         case StepKind::spring:
+        case StepKind::sweep:
         case StepKind::line:
         case StepKind::box_edges:
         case StepKind::collide:
@@ -55,7 +56,7 @@ bool same_constants(const StepConstants& one, const StepConstants& other) {
 bool same_place(const Step& one, const Step& other) {
     return one.kind == other.kind && one.substep == other.substep && one.iteration == other.iteration &&
            one.last == other.last && one.count == other.count && one.conditional == other.conditional &&
-           one.after_edges == other.after_edges;
+           one.after_edges == other.after_edges && one.turns == other.turns;
 }
 
 bool same_step(const Step& one, const Step& other) {

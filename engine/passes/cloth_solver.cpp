@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
 #include "cloth/step_flops.h"
+#include "cloth/streams.h"
 #include "cloth/together.h"
 #include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
@@ -22,10 +24,10 @@
 #include "passes/self_contact_pass.h"
 #include "passes/spring_pass.h"
 #include "passes/statistics_pass.h"
+#include "passes/sweep_pass.h"
 #include "passes/tension_pass.h"
 #include "passes/tether_pass.h"
 #include "passes/wind_pass.h"
-#include "shared/stream_types.h"
 
 namespace drape {
 
@@ -103,12 +105,12 @@ std::string schedule_obstacle(const vulkan::Device& device, const SimulationMode
     return {};
 }
 
-/// What a kind of device takes for scenes with micro-steps and without, the first that it can: what
+/// What a kind of device takes for scenes with steps that can stream and without, the first that it can: what
 /// `drape bench speed --tune` finds the fastest. Else images: on GPUs nothing was measured, and LINEAR images may load
 /// more slowly there.
 struct PreferredSchedule {
     DeviceKind device;
-    bool micro_steps;
+    bool can_stream;
     Schedule schedule;
 };
 constexpr PreferredSchedule preferred_schedules[] = {
@@ -118,10 +120,10 @@ constexpr PreferredSchedule preferred_schedules[] = {
 };
 
 Schedule chosen(const vulkan::Device& device, const SimulationModel& model) {
-    const bool micro_steps =
-        std::ranges::any_of(model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state; });
+    const bool can_stream = std::ranges::any_of(
+        model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state || cloth.plan.spare_displacement; });
     for (const PreferredSchedule& row : preferred_schedules)
-        if (row.device == device_kind(device.info()) && row.micro_steps == micro_steps &&
+        if (row.device == device_kind(device.info()) && row.can_stream == can_stream &&
             schedule_obstacle(device, model, row.schedule).empty())
             return row.schedule;
     return Schedule::images;
@@ -271,14 +273,14 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
 }
 
 std::vector<Step> ClothSolver::steps() const {
-    std::vector<Step> steps = frame_steps(*run_);
-    if (schedule_ == Schedule::streams) steps = steps_in_flight(steps, glsl::stream_steps);
+    const std::vector<Step> steps = schedule_ == Schedule::streams ? streamed_steps(*run_) : frame_steps(*run_);
     std::vector<std::vector<std::size_t>> lists;
     for (const Together& together : together_) lists.push_back(together.cloths);
     return lists.empty() ? steps : steps_together(steps, lists);
 }
 
 void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
+    if (step.cloth == between_cloths) return add_contact_step(graph, state, step);
     switch (step.kind) {
         case StepKind::release:
             return add_pin_release(graph, pipelines_, state, step);
@@ -300,6 +302,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_twist(graph, pipelines_, state, step);
         case StepKind::spring:
             return add_spring(graph, pipelines_, state, step);
+        case StepKind::sweep:
+            return add_sweep(graph, pipelines_, state, step);
         case StepKind::line:
             return add_line(graph, pipelines_, state, step);
         case StepKind::nested:
@@ -316,26 +320,10 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_self_gather(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::self_return:
             return add_self_return(graph, pipelines_, state, cloths_.front(), step);
-        case StepKind::self_common:
-        case StepKind::self_boxes:
-        case StepKind::self_search:
-        case StepKind::self_kept:
-        case StepKind::self_levels:
-        case StepKind::self_blocks:
-        case StepKind::self_cells:
-        case StepKind::self_near:
-        case StepKind::self_bent:
-        case StepKind::self_crossings:
-        case StepKind::self_apart:
-        case StepKind::self_primitives:
-        case StepKind::self_pairs:
-        case StepKind::self_contact:
-        case StepKind::self_push:
-        case StepKind::self_room:
-        case StepKind::self_move:
-            return add_contact_step(graph, state, step);
         case StepKind::advance:
             return add_advance(graph, pipelines_, state);
+        default:
+            throw std::logic_error("a step of contact that is no cloth's");
     }
 }
 

@@ -22,15 +22,15 @@ std::string pins_name(const ClothState& whole, Field field) {
     return fmt::format("{}/{}", whole.name, row_of(field).name);
 }
 
-/// Alike, of the same contact with colliders, which depends on where cloth is placed, and where micro-steps go to and
-/// fro between two sets of images, together in each of them.
+/// Alike, of the same contact with colliders, which depends on where cloth is placed, and where steps go to and fro
+/// between two sets of images, together in each of them.
 std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
         std::map<std::tuple<std::size_t, float, bool, bool>, std::vector<std::size_t>> parts;
         for (const std::size_t index : alike) {
             const ClothModel& cloth = model.cloths[index];
-            const bool turns = cloth.plan.spare_state;
+            const bool turns = cloth.plan.spare_state || cloth.plan.spare_displacement;
             parts[{cloth.collider_list, cloth.edge_reach, turns && cloth.has_motion, turns && cloth.has_release}]
                 .push_back(index);
         }

@@ -8,13 +8,6 @@ namespace drape {
 
 namespace {
 
-/// Invocations: those of the strips that a grid of so many columns takes.
-std::uint32_t stream_invocations(int columns) {
-    constexpr int halo = 2 * glsl::stream_steps, new_columns = glsl::stream_width - halo;
-    const int strips = columns <= glsl::stream_width ? 1 : (columns - halo + new_columns - 1) / new_columns;
-    return static_cast<std::uint32_t>(strips * glsl::stream_lanes);
-}
-
 /// Several steps at once.
 void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::ExplicitPush>();
@@ -29,7 +22,8 @@ void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
         [&pipeline, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, stream_invocations(push.grid.x), 1, count);
+            context.dispatch(pipeline, push, stream_invocations(push.grid.x, glsl::stream_width, glsl::stream_steps), 1,
+                             count);
         });
     state.turn();
 }

@@ -13,7 +13,9 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
             update(setup, state[Field::position], "position");
-            update(setup, state[Field::displacement], "displacement");
+            graph::Handle& written = state[step.turns ? Field::displacement_spare : Field::displacement];
+            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
+            written = setup.write(written, graph::Access::compute_write, "displacement_out");
             update(setup, state[Field::position_remainder], "position_remainder");
             update(setup, state[Field::displacement_remainder], "displacement_remainder");
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
@@ -25,6 +27,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
             context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
                              static_cast<std::uint32_t>(push.grid.y), count);
         });
+    if (step.turns) state.turn_displacement();
 }
 
 void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {

@@ -51,6 +51,12 @@ std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid) {
     return buffered_obstacle(device, grid);
 }
 
+std::uint32_t stream_invocations(int columns, int width, int halo) {
+    const int new_columns = width - 2 * halo;
+    const int strips = columns <= width ? 1 : (columns - 2 * halo + new_columns - 1) / new_columns;
+    return static_cast<std::uint32_t>(strips * glsl::stream_lanes);
+}
+
 std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
     return cloth.name + "/" + std::string(row.name);
 }
@@ -59,6 +65,8 @@ void ClothState::turn() {
     for (const auto& [field, spare, variable] : spare_fields) std::swap((*this)[field], (*this)[spare]);
     away = !away;
 }
+
+void ClothState::turn_displacement() { std::swap((*this)[Field::displacement], (*this)[Field::displacement_spare]); }
 
 graph::PassName ClothState::pass_name(const std::string& pass, const std::string& stage) const {
     const std::string label = name + "/" + pass;

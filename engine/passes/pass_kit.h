@@ -43,6 +43,10 @@ std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, st
 /// Likewise why its micro-steps cannot stream.
 std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid);
 
+/// Invocations: those of the strips that a grid of so many columns takes, where each subgroup has `width` columns of
+/// which `halo` at either end are of no use.
+std::uint32_t stream_invocations(int columns, int width, int halo);
+
 /// Newest handles of one cloth's resources within the graph being built.
 struct ClothState {
     const ClothModel* model = nullptr;
@@ -67,6 +71,8 @@ struct ClothState {
     bool masked() const { return topology->masked(); }
     /// What a micro-step wrote becomes the state.
     void turn();
+    /// What a prediction or a sweep wrote becomes the displacement.
+    void turn_displacement();
     graph::PassName pass_name(const std::string& pass, const std::string& stage) const;
     graph::PassName step_name(const std::string& pass, const Step& step) const;
 };

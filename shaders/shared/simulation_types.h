@@ -29,6 +29,15 @@ struct SpringPush {
     int unused;
 };
 
+/// All passes of an iteration at once (sweep.comp). Vectors over the spring directions.
+struct SweepPush {
+    ivec2 grid;
+    float compression;  // as SpringPush
+    float unused;
+    vec4 rest_length;  // m
+    vec4 compliance;   // as SpringPush
+};
+
 struct ForcePush {
     ivec2 grid;
     float damping_loss;  // q = 1 - exp(-c h)

@@ -1,4 +1,4 @@
-// Shape of the streams of explicit micro-steps (explicit_stream.comp).
+// Shapes of the streams: of explicit micro-steps (explicit_stream.comp), of relaxation (sweep.comp).
 #ifndef DRAPE_STREAM_TYPES_H
 #define DRAPE_STREAM_TYPES_H
 
@@ -10,6 +10,10 @@ const int stream_lanes = 8;    // invocations of a subgroup, which is a strip of
 const int stream_columns = 5;  // columns of an invocation
 const int stream_width = 40;   // of a strip
 const int stream_steps = 4;    // in flight
+
+const int sweep_columns = 6;  // of an invocation; even, so that which springs of a row are even is known ahead
+const int sweep_width = 48;   // of a strip
+const int sweep_halo = 6;     // of its columns at either end are of no use: one per pass that leads along a row; even
 
 #ifdef __cplusplus
 }  // namespace drape::glsl

@@ -8,6 +8,7 @@
 
 #include "cloth/method_line.h"
 #include "cloth/schedule.h"
+#include "cloth/streams.h"
 #include "support/method_steps.h"
 #include "support/sheets.h"
 
@@ -133,6 +134,40 @@ TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     EXPECT_THAT(in_flight(colliding), alone);
     EXPECT_THAT(in_flight(windy), alone);
     EXPECT_THAT(in_flight(bending), alone);
+}
+
+/// Of a scene's sweeps: the iteration of each, and of its predictions: whether they turn.
+std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDescription& scene) {
+    std::pair<std::vector<std::uint32_t>, std::vector<bool>> found;
+    for (const Step& step : steps_in_sweeps(SimulationModel(scene), frame_steps(SimulationModel(scene)))) {
+        if (step.kind == StepKind::sweep) found.first.push_back(step.iteration);
+        if (step.kind == StepKind::force) found.second.push_back(step.turns);
+    }
+    return found;
+}
+
+TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
+    scene.cloths[0].stiffness = {false, 50, 5, 0};
+    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)));
+    scene.solver.iterations = 2;
+    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(), ElementsAre(false, false))) << "tension is carried on";
+    scene.cloths[0].stiffness.rigid = true;
+    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 1, 0, 1), ElementsAre(false, false)));
+    scene.solver.iterations = 3;
+    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 1, 2, 0, 1, 2), ElementsAre(true, true)));
+    scene.solver.tolerance = 0.1;
+    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true))) << "the device decides on others";
+}
+
+TEST(ScheduleTest, ASweepKnowsTheDirectionsThatThereAre) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 1, 1);
+    scene.cloths[0].stiffness = {false, 50, 0, 0};
+    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
+    ASSERT_EQ(count(steps, StepKind::sweep), 1);
+    EXPECT_EQ(count(steps, StepKind::spring), 0);
+    const auto sweep = std::ranges::find(steps, StepKind::sweep, &Step::kind);
+    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::SweepPush>(), d), d < 2) << d;
 }
 
 TEST(ScheduleTest, LineFramesPredictInSecondOrderWithCollidersToo) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cloth/schedule.h"
+#include "cloth/streams.h"
 #include "support/sheets.h"
 
 namespace drape {

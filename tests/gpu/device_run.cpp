@@ -35,9 +35,9 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
 }  // namespace
 
 DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep,
-                     Schedule schedule)
+                     Schedule schedule, const FrameNeeds& needs)
     : device_(device), model_(model), solver_(device, model, schedule), slots_(device) {
-    solver_.declare(graph_, {.drawing = true});
+    solver_.declare(graph_, needs);
     solver_.add_simulation(graph_);
     solver_.add_normals(graph_);
     for (const ClothState& state : solver_.cloths()) add_normal_readback(graph_, state);
@@ -72,8 +72,9 @@ std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationMo
         model.cloths, [&](const ClothModel& cloth) { return buffered_obstacle(device, cloth.grid).empty(); });
     std::vector<Schedule> all{Schedule::images};
     if (buffered) all.push_back(Schedule::buffers);
-    const bool streamed =
-        buffered && model.cloths[0].plan.spare_state && streamed_obstacle(device, model.cloths[0].grid).empty();
+    const MethodPlan& plan = model.cloths[0].plan;
+    const bool streamed = buffered && (plan.spare_state || plan.spare_displacement) &&
+                          streamed_obstacle(device, model.cloths[0].grid).empty();
     if (streamed) all.push_back(Schedule::streams);
     return all;
 }

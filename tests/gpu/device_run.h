@@ -24,7 +24,7 @@ std::vector<T> texels_of(std::span<const std::byte> bytes) {
 class DeviceRun {
   public:
     DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {},
-              Schedule schedule = Schedule::automatic);
+              Schedule schedule = Schedule::automatic, const FrameNeeds& needs = {.drawing = true});
 
     /// Simulates from frame-1 to `frame` and waits.
     void run_frame(std::uint32_t frame);

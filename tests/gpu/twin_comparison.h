@@ -66,18 +66,19 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 
 /// On every schedule. Returns the record of the last frame's contact between cloths, if they meet.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
-                                const vulkan::Device& on = gpu().device) {
+                                const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true}) {
     const SimulationModel model(scene, options);
     Twin twin(model);
     std::vector<std::unique_ptr<DeviceRun>> devices;
     for (const Schedule schedule : schedules(on, model))
-        devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, schedule));
+        devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, schedule, needs));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
         for (const auto& device : devices) device->run_frame(frame);
-        for_compared_fields(model, twin, [&](std::size_t cloth, const FieldRow& row, const auto& expected) {
+        const auto same = [&](std::size_t cloth, const FieldRow& row, const auto& expected) {
             for (const auto& device : devices) expect_same(row, device->bytes(cloth, row.field), expected, frame);
-        });
+        };
+        for_compared_fields(model, twin, same, needs);
         if (::testing::Test::HasFailure()) return {};
     }
     // The comparison means something only if the cloth moved and stayed finite.

@@ -1,0 +1,123 @@
+#include "cloth/streams.h"
+
+#include <algorithm>
+#include <map>
+
+#include "cloth/schedule.h"
+#include "shared/stream_types.h"
+
+namespace drape {
+
+namespace {
+
+/// No frame's first step, for that finds other positions (Step::substep); no last one (steps_in_flight); none that
+/// bends.
+bool can_fly(const Step& step) {
+    return step.kind == StepKind::explicit_step && step.substep > 0 && !step.last &&
+           step.push<glsl::ExplicitPush>().twist == 0;
+}
+
+/// Where the `count` steps of a cloth from `first` on are, when nothing else happens to it between them; else nothing.
+std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, std::uint32_t count) {
+    std::vector<std::size_t> places;
+    for (std::size_t k = first; k < steps.size() && places.size() < count; ++k) {
+        if (steps[k].cloth != steps[first].cloth && steps[k].cloth != all_cloths) continue;
+        if (!can_fly(steps[k])) return {};
+        places.push_back(k);
+    }
+    return places.size() == count ? places : std::vector<std::size_t>{};
+}
+
+/// Finds the passes that sweeps can do, and makes sweeps of them.
+class SweepMaker {
+  public:
+    SweepMaker(const SimulationModel& model, const std::vector<Step>& steps) : model_(model), steps_(steps) {}
+
+    /// How many steps from `first` on one sweep does, which are all springs of an iteration; 0: it does not. Not those
+    /// that the device may leave out, nor those whose tension is carried on.
+    std::size_t length_at(std::size_t first) const {
+        const Step& step = steps_[first];
+        if (step.kind != StepKind::spring || step.conditional) return 0;
+        std::size_t end = first;
+        while (end < steps_.size() && same_iteration(steps_[end], step)) {
+            if (carries_tension(steps_[end])) return 0;
+            ++end;
+        }
+        return end - first;
+    }
+
+    Step made_of(std::size_t first, std::size_t length) const {
+        Step sweep = steps_[first];
+        sweep.kind = StepKind::sweep;
+        glsl::SweepPush push{};
+        for (std::size_t k = first; k < first + length; ++k) {
+            const auto& spring = steps_[k].push<glsl::SpringPush>();
+            push.grid = spring.grid;
+            push.compression = spring.compression;
+            put(push.rest_length, spring.channel, spring.rest_length);
+            put(push.compliance, spring.channel, spring.compliance);
+        }
+        sweep.constants = push;
+        return sweep;
+    }
+
+  private:
+    static void put(glsl::vec4& values, int channel, float value) {
+        float* const places[] = {&values.x, &values.y, &values.z, &values.w};
+        *places[channel] = value;
+    }
+    static bool same_iteration(const Step& one, const Step& other) {
+        return one.kind == other.kind && one.cloth == other.cloth && one.substep == other.substep &&
+               one.iteration == other.iteration;
+    }
+    bool carries_tension(const Step& step) const {
+        const auto& push = step.push<glsl::SpringPush>();
+        return model_.cloths[step.cloth].plan.carries_tension[static_cast<std::size_t>(push.channel)];
+    }
+
+    const SimulationModel& model_;
+    const std::vector<Step>& steps_;
+};
+
+}  // namespace
+
+std::vector<Step> steps_in_flight(const std::vector<Step>& steps, std::uint32_t count) {
+    std::vector<bool> taken(steps.size());
+    std::vector<Step> merged;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (taken[k]) continue;
+        merged.push_back(steps[k]);
+        const std::vector<std::size_t> together = run_of(steps, k, count);
+        if (together.empty()) continue;
+        merged.back().count = count;
+        for (const std::size_t place : together) taken[place] = true;
+    }
+    return merged;
+}
+
+std::vector<Step> steps_in_sweeps(const SimulationModel& model, const std::vector<Step>& steps) {
+    const SweepMaker maker(model, steps);
+    std::vector<Step> merged;
+    std::map<std::size_t, std::size_t> forces;  // by cloth: its last prediction, among the merged ones
+    for (std::size_t k = 0; k < steps.size();) {
+        if (steps[k].kind == StepKind::force) forces[steps[k].cloth] = merged.size();
+        const std::size_t length = maker.length_at(k);
+        merged.push_back(length > 0 ? maker.made_of(k, length) : steps[k]);
+        // A sweep writes the other image of the displacement, so that a prediction does too before an odd number of
+        // them.
+        if (length > 0) merged[forces.at(steps[k].cloth)].turns ^= true;
+        k += std::max<std::size_t>(length, 1);
+    }
+    return merged;
+}
+
+bool has_direction(const glsl::SweepPush& push, int direction) {
+    const float lengths[] = {push.rest_length.x, push.rest_length.y, push.rest_length.z, push.rest_length.w};
+    return lengths[direction] > 0;
+}
+
+std::vector<Step> streamed_steps(const SimulationModel& model) {
+    return steps_in_sweeps(model, steps_in_flight(frame_steps(model), glsl::stream_steps));
+}
+
+}  // namespace drape

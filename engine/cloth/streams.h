@@ -1,0 +1,27 @@
+// A frame's steps where passes stream down the rows (shaders/explicit_stream.comp, shaders/sweep.comp): the same work,
+// to the same bits, in fewer steps. Pure.
+#pragma once
+
+#include <vector>
+
+#include "cloth/simulation_model.h"
+
+namespace drape {
+
+/// Every `count` explicit micro-steps of a cloth between which nothing else happens to it become one. Not those that
+/// bend, which need neighbours farther off; not a frame's last, so that the spare images hold the displacement of the
+/// substep before it.
+std::vector<Step> steps_in_flight(const std::vector<Step>& steps, std::uint32_t count);
+
+/// All springs of a relaxation iteration become one step, where no tension is carried on and the device does not
+/// decide whether they are relaxed. What takes an odd number of those in a substep begins with a prediction that turns,
+/// so that every substep leaves the displacement where it found it.
+std::vector<Step> steps_in_sweeps(const SimulationModel& model, const std::vector<Step>& steps);
+
+/// Whether a sweep relaxes springs of that direction (engine/cloth/directions.h).
+bool has_direction(const glsl::SweepPush& push, int direction);
+
+/// The steps of a frame (schedule.h), both done.
+std::vector<Step> streamed_steps(const SimulationModel& model);
+
+}  // namespace drape

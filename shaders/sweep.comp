@@ -1,0 +1,200 @@
+// Relaxes all springs of an iteration at once, to the bits of the eight passes of spring.comp: each subgroup streams
+// down the rows of a strip of columns, two rows at a time, and keeps in registers those that later passes of theirs
+// still await. With rows 2k and 2k + 1 loaded, every pass takes the rows whose turn it is:
+//
+//   row                2k-5  2k-4  2k-3  2k-2  2k-1  2k  2k+1
+//   along rows                                       *    *
+//   column even, odd                           o---- oe---e     e: even pairs, o: odd ones
+//   down-right                     o---- oe---e
+//   down-left          o---- oe---e
+//
+// and then the first two are done. A ghost beside an invocation's columns is the first one of the invocation on the right;
+// what a spring moves of it goes back by shuffle. MASKED: the spring shares come from an image. TENSION: the stretch
+// springs' tension is stored, for the stretch error; it starts from zero.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#pragma variants MASKED TENSION
+#define BUFFERED
+#include "shared/simulation_types.h"
+#include "shared/stream_types.h"
+#include "include/spring.h"
+#include "include/verlet.h"
+layout(push_constant) uniform Push { SweepPush push; };
+#define TOGETHER
+#include "include/state_store.h"
+
+layout(local_size_x = stream_lanes) in;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+
+#ifdef TENSION
+SCALAR_OUT(4, TensionRowOut, tension_row_out);
+SCALAR_OUT(5, TensionColumnOut, tension_column_out);
+#endif
+
+layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
+
+const int columns = sweep_columns, ghost = sweep_columns, kept_rows = 5, window = kept_rows + 2;
+
+struct Particle {
+    vec3 position;
+    float weight;
+    vec3 displacement;
+    float mark;  // beside the displacement (verlet.h)
+};
+
+int first_column() {
+    return int(gl_WorkGroupID.x) * (sweep_width - 2 * sweep_halo) + int(gl_SubgroupInvocationID) * columns;
+}
+
+/// What the invocation on the right holds; of a strip's last one, what is of no use.
+vec3 from_right(vec3 value) {
+    int lane = int(gl_SubgroupInvocationID);
+    return subgroupShuffle(value, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
+}
+
+/// What lies outside the grid is a copy of its border.
+Particle load(int x, int y) {
+    ivec2 texel = ivec2(x < push.grid.x ? x : push.grid.x - 1, y < push.grid.y ? y : push.grid.y - 1);
+    vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
+    return Particle(start.xyz, dragged_weight(start.w, moved.w), moved.xyz, moved.w);
+}
+
+void load_row(int y, out Particle row[columns + 1]) {
+    for (int c = 0; c < columns; ++c) row[c] = load(first_column() + c, y);
+    int lane = int(gl_SubgroupInvocationID);
+    row[ghost].position = from_right(row[0].position);
+    row[ghost].weight = subgroupShuffle(row[0].weight, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
+    row[ghost].displacement = row[0].displacement;
+    row[ghost].mark = 0.0f;
+}
+
+/// Whether column c of this invocation's is the strip's to store: the halo is other strips'.
+bool is_own(int c) {
+    int within = int(gl_SubgroupInvocationID) * columns + c;
+    int first = gl_WorkGroupID.x == 0 ? 0 : sweep_halo;
+    int end = gl_WorkGroupID.x + 1 == gl_NumWorkGroups.x ? sweep_width : sweep_width - sweep_halo;
+    return within >= first && within < end;
+}
+
+void store_row(int y, Particle row[columns + 1]) {
+    for (int c = 0; c < columns; ++c) {
+        ivec2 texel = ivec2(first_column() + c, y);
+        if (!is_own(c) || texel.x >= push.grid.x || y < 0 || y >= push.grid.y) continue;
+        STORE_VECTOR(displacement_out, texel, vec4(row[c].displacement, row[c].mark));
+    }
+}
+
+float share_of(ivec2 owner, ivec2 offset, int channel) {
+#ifdef MASKED
+    return LOAD(spring_share_image, ivec2(owner.x < push.grid.x ? owner.x : push.grid.x - 1,
+                                          owner.y < 0 ? 0 : owner.y < push.grid.y ? owner.y : push.grid.y - 1))[channel];
+#else
+    return border_share(owner, offset, push.grid);
+#endif
+}
+
+bool exists(ivec2 owner, ivec2 offset) {
+    return owner.y >= 0 && owner.y + offset.y < push.grid.y && owner.x < push.grid.x &&
+           owner.x + offset.x < push.grid.x;
+}
+
+/// The spring that `owner` is the first particle of. Where the grid has none, nothing moves, not even a zero's sign.
+/// Returns its tension.
+float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel) {
+    vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
+    precise float weight_sum = first.weight + second.weight;
+    SpringResult result =
+        project_spring(edge, weight_sum, push.rest_length[channel], share_of(owner, offset, channel), push.compression,
+                       push.compliance[channel], 0.0f);
+    vec3 moved_first = moved_by(first.displacement, result.correction, -first.weight);
+    vec3 moved_second = moved_by(second.displacement, result.correction, second.weight);
+    bool is_there = exists(owner, offset);
+    first.displacement = is_there ? moved_first : first.displacement;
+    second.displacement = is_there ? moved_second : second.displacement;
+    return result.tension;
+}
+
+void fetch_ghost(inout Particle row[columns + 1]) { row[ghost].displacement = from_right(row[0].displacement); }
+
+/// The strip's first column has no invocation on the left.
+void return_ghost(inout Particle row[columns + 1]) {
+    int lane = int(gl_SubgroupInvocationID);
+    vec3 moved = subgroupShuffle(row[ghost].displacement, uint(lane > 0 ? lane - 1 : 0));
+    row[0].displacement = lane > 0 ? moved : row[0].displacement;
+}
+
+#ifdef TENSION
+#define STORE_TENSION(name, c, owner, offset, value) \
+    if (is_own(c) && exists(owner, offset)) STORE_SCALAR(name, owner, value)
+#else
+#define STORE_TENSION(name, c, owner, offset, value)
+#endif
+
+void relax_along(inout Particle row[columns + 1], int y) {
+    const ivec2 offset = ivec2(1, 0);
+    float tension[columns];
+    for (int c = 0; c < columns; c += 2)
+        tension[c] = relax(row[c], row[c + 1], ivec2(first_column() + c, y), offset, 0);
+    fetch_ghost(row);
+    for (int c = 1; c < columns; c += 2)
+        tension[c] = relax(row[c], row[c + 1], ivec2(first_column() + c, y), offset, 0);
+    return_ghost(row);
+    for (int c = 0; c < columns; ++c)
+        STORE_TENSION(tension_row_out, c, ivec2(first_column() + c, y), offset, tension[c]);
+}
+
+void relax_columns(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(0, 1);
+    for (int c = 0; c < columns; ++c) {
+        float tension = relax(upper[c], lower[c], ivec2(first_column() + c, y), offset, 1);
+        STORE_TENSION(tension_column_out, c, ivec2(first_column() + c, y), offset, tension);
+    }
+}
+
+void relax_down_right(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    fetch_ghost(lower);
+    for (int c = 0; c < columns; ++c) relax(upper[c], lower[c + 1], ivec2(first_column() + c, y), ivec2(1, 1), 2);
+    return_ghost(lower);
+}
+
+void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    fetch_ghost(upper);
+    for (int c = 0; c < columns; ++c) relax(upper[c + 1], lower[c], ivec2(first_column() + c + 1, y), ivec2(-1, 1), 3);
+    return_ghost(upper);
+}
+
+void main() {
+    Particle rows[window][columns + 1];  // of the figure above, from the left
+    for (int r = 0; r < window; ++r)
+        for (int c = 0; c <= columns; ++c) rows[r][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+    for (int y = 0; y < push.grid.y + kept_rows; y += 2) {
+        load_row(y, rows[5]);
+        load_row(y + 1, rows[6]);
+        if ((directions & 1) != 0) {
+            relax_along(rows[5], y);
+            relax_along(rows[6], y + 1);
+        }
+        if ((directions & 2) != 0) {
+            relax_columns(rows[5], rows[6], y);
+            relax_columns(rows[4], rows[5], y - 1);
+        }
+        if ((directions & 4) != 0) {
+            relax_down_right(rows[3], rows[4], y - 2);
+            relax_down_right(rows[2], rows[3], y - 3);
+        }
+        if ((directions & 8) != 0) {
+            relax_down_left(rows[1], rows[2], y - 4);
+            relax_down_left(rows[0], rows[1], y - 5);
+        }
+        store_row(y - 5, rows[0]);
+        store_row(y - 4, rows[1]);
+        for (int r = 0; r < kept_rows; ++r) rows[r] = rows[r + 2];
+    }
+}

@@ -1,0 +1,112 @@
+// Relaxation whose springs are swept, an iteration at once, against the twin, which takes the eight passes one by one.
+#include "cloth/streams.h"
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+/// Columns, rows.
+using Grid2 = std::pair<std::uint32_t, std::uint32_t>;
+
+SceneDescription swept(Grid2 grid) {
+    SceneDescription scene = test::sheet(grid.first, grid.second, 1.1, 0.9, 5, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0.6, 0.8}};
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.damping = 0.7;
+    cloth.velocity = {0.3, -1.5, 0.2};
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(grid.first - 1, 0, grid.first - 1, grid.second - 1)};
+    return scene;
+}
+
+/// `sweeps`: how many of them a frame must have, so that the comparison means something. With the tensions that the
+/// stretch error asks for, where stretch springs give.
+void compare(const SceneDescription& scene, std::ptrdiff_t sweeps) {
+    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
+    EXPECT_EQ(std::ranges::count(steps, StepKind::sweep, &Step::kind), sweeps);
+    const Stiffness& stiffness = scene.cloths[0].stiffness;
+    const bool tense = !stiffness.rigid && stiffness.stretch > 0;
+    test::compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = tense});
+}
+
+class TwinSweepTest : public testing::TestWithParam<Grid2> {};
+
+TEST_P(TwinSweepTest, Plain) { compare(swept(GetParam()), 5); }
+
+TEST_P(TwinSweepTest, RigidInTwoIterations) {
+    SceneDescription scene = swept(GetParam());
+    scene.cloths[0].stiffness.rigid = true;
+    scene.solver.iterations = 2;
+    compare(scene, 10);
+}
+
+TEST_P(TwinSweepTest, WithoutShear) {
+    SceneDescription scene = swept(GetParam());
+    scene.cloths[0].stiffness = {false, 800, 0, 0};
+    compare(scene, 5);
+}
+
+TEST_P(TwinSweepTest, ShearAlone) {
+    SceneDescription scene = swept(GetParam());
+    scene.cloths[0].stiffness = {false, 0, 60, 0};
+    compare(scene, 5);
+}
+
+TEST_P(TwinSweepTest, WithHolesAndSoftInCompression) {
+    SceneDescription scene = swept(GetParam());
+    const auto [columns, rows] = GetParam();
+    if (columns < 4) GTEST_SKIP() << "no room for a hole";
+    scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    scene.cloths[0].stiffness.compression = 0.1;
+    compare(scene, 5);
+}
+
+// One strip, one that just fits, one column more, the two columns after which a strip's halo begins, several strips.
+INSTANTIATE_TEST_SUITE_P(Grids, TwinSweepTest,
+                         testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
+                                         Grid2{49, 7}, Grid2{84, 9}, Grid2{85, 12}, Grid2{129, 40}),
+                         [](const auto& grid) {
+                             return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
+                         });
+
+TEST(TwinSweepTest, AmongWindBendingPinsThatMoveAndColliders) {
+    SceneDescription scene = test::everything();
+    std::erase_if(scene.cloths[0].pins, [](const Pin& pin) { return pin.release.has_value(); });  // asks for tension
+    scene.cloths[0].stiffness.bend = 1e-3;
+    compare(scene, test::substep_count);
+}
+
+TEST(TwinSweepTest, OfClothsTogetherAndOneThatLetsGo) {
+    SceneDescription scene = swept({20, 9});
+    for (const char* name : {"second", "third"}) {
+        Cloth& cloth = scene.cloths.emplace_back(scene.cloths[0]);
+        cloth.name = name;
+        cloth.placement.origin[0] += 2 * static_cast<double>(scene.cloths.size());
+    }
+    scene.cloths[1].pins[1].release = 0.05;
+    compare(scene, 2 * 5);
+}
+
+TEST(TwinSweepTest, IterationsThatTheDeviceMayLeaveOutAreNotSwept) {
+    SceneDescription scene = swept({20, 9});
+    scene.cloths[0].stiffness.rigid = true;
+    scene.solver.iterations = 3;
+    scene.solver.tolerance = 0.05;
+    compare(scene, 5);
+}
+
+TEST(CanaryTest, AMissingBarrierBeforeASweepIsReported) {
+    const SimulationModel model(swept({20, 9}));
+    test::ExpectValidationMessages expected;
+    DeviceRun run(
+        test::gpu().device, model,
+        [](const graph::PlannedPass&, const graph::Barrier& barrier) {
+            return barrier.reason.find("force") == std::string::npos;
+        },
+        Schedule::streams);
+    run.run_frame(1);
+    EXPECT_FALSE(expected.messages().empty());
+}
+
+}  // namespace
+}  // namespace drape
