@@ -8,6 +8,7 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/line.h"
+#include "include/some_at_a_time.h"
 #ifdef BENT
 #include "include/bent_line.h"
 #endif
@@ -36,7 +37,7 @@ coherent VECTOR_OUT(10, RowsOut, rows_out);
 layout(constant_id = 0) const bool first_iteration = true;  // both systems; later iterations repeat the second alone
 
 /// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
-/// them anew, lane by lane, in each of its rounds. For the same reason nothing in the loops below branches.
+/// them anew, lane by lane, in each of its rounds. For the same reason only stores in the loops below branch.
 struct Line {
     int index, last;  // place among the lines; of its particles
     ivec2 step;
@@ -154,7 +155,7 @@ void eliminate_particles(Line line) {
     vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
     float stiffness_before = 0.0f;
-    for (int p = 0; p <= line.last; ++p) {
+    FOR_SOME_AT_A_TIME(p, 0, line.last, 1) {
         bool has_spring = p < line.last;
         LineParticle next = particle_after(line, particle);
         vec3 edge = has_spring ? start_edge_of(particle, next) : vec3(0.0f, 0.0f, 0.0f);
@@ -162,7 +163,7 @@ void eliminate_particles(Line line) {
         stiffness = has_spring ? stiffness : 0.0f;
         eliminated =
             eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        STORE_SCRATCH(scratch_out, line, p, eliminated);
+        if (p <= line.last) STORE_SCRATCH(scratch_out, line, p, eliminated);
         particle = next;
         edge_before = edge;
         stiffness_before = stiffness;
@@ -206,18 +207,21 @@ float eliminate_springs(Line line) {
     LineParticle first = particle_before(line, second);
     vec3 moved_first = filtered(first, delta);
     LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
-    for (int e = line.last - 1; e >= 0; --e) {
+    FOR_SOME_AT_A_TIME(e, line.last - 1, 0, -1) {
         LineParticle before = particle_before(line, first);
         vec3 delta_before = delta_of(line, e > 0 ? e - 1 : 0, delta, turn);
         vec3 moved_before = filtered(before, delta_before);
         LineSpring spring_before = spring_between(line, before, moved_before, first, moved_first);
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
-        float share = share_of(line, first.at), tension = filtered_tension_of(line, first, second, spring);
+        float share = e >= 0 ? share_of(line, first.at) : 0.0f;
+        float tension = filtered_tension_of(line, first, second, spring);
         largest = larger_violation(largest, spring, share, line.compression, tension);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
                                       second.position.w, share, line.compression, line.compliance, tension);
-        STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
-        STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
+        if (e >= 0) {
+            STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
+            STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
+        }
         normal_after = spring.normal;
         spring = spring_before;
         second = first;
@@ -235,18 +239,18 @@ void substitute_springs(Line line) {
     LineParticle first = load_particle(line_start(line.index, line.step));
     vec4 delta = LOAD_SCRATCH(scratch_in, line, 0);  // w: the tension of the spring after it
     vec3 moved_first = filtered(first, delta.xyz);
-    for (int p = 0; p <= line.last; ++p) {
+    FOR_SOME_AT_A_TIME(p, 0, line.last, 1) {
         bool has_spring = p < line.last;
         LineParticle second = particle_after(line, first);
-        vec4 delta_after = LOAD_SCRATCH(scratch_in, line, has_spring ? p + 1 : p);
+        vec4 delta_after = LOAD_SCRATCH(scratch_in, line, has_spring ? p + 1 : line.last);
         vec3 moved_second = filtered(second, delta_after.xyz);
         LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
         vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
-        float change = substitute_spring(LOAD_SCRATCH(rows_in, line, p).xy, change_before);
+        float change = substitute_spring(LOAD_SCRATCH(rows_in, line, has_spring ? p : line.last).xy, change_before);
         change = has_spring ? change : 0.0f;
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
-        STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
+        if (p <= line.last) STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
         float tension =
             changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
         if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));

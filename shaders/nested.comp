@@ -11,7 +11,7 @@
 #include "include/nested.h"
 #include "include/verlet.h"
 
-layout(local_size_x = nested_group_width) in;
+layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
 layout(push_constant) uniform Push { NestedPush push; };
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -154,7 +154,7 @@ void sweep_direction(NestedBox box, int direction, bool second_order) {
         box.first, step, box.size.x, 0, direction, nested_seam(step, box.size.x), particle_count - 1, 0.0f, rest_length,
         second_order ? push.compliance_bdf2[direction] : push.compliance[direction],
         second_order ? push.followed_bdf2[direction] : push.followed[direction], push.compression);
-    for (line.index = int(gl_LocalInvocationIndex); line.index < line_count; line.index += nested_group_width) {
+    for (line.index = int(gl_LocalInvocationIndex); line.index < line_count; line.index += int(gl_WorkGroupSize.x)) {
         line.share = border_share(box.first + line_start(line.index, step), step, push.grid);
         eliminate_line(line);
         substitute_line(line);

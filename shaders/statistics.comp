@@ -44,34 +44,46 @@ float mass_share(ivec2 texel) {
 #endif
 }
 
-StatisticsRecord with_spring(StatisticsRecord record, ivec2 first, vec3 start, int direction, ivec2 offset,
-                             float tension) {
-    ivec2 second = first + offset;
-    if (!inside(second)) return record;
+/// Positions around a particle and of the particle itself.
+struct Neighbours {
+    vec4 here;
+    vec3 right, below_left, below, below_right;
+};
+
+/// Of the springs that a particle owns; what lies outside the grid is of no use.
+vec4 shares_of(ivec2 texel) {
 #ifdef MASKED
-    float share = LOAD(spring_share_image, first)[direction];
+    vec4 shares = LOAD(spring_share_image, texel);
 #else
-    float share = border_share(first, offset, push.grid);
+    vec4 shares = vec4(border_share(texel, ivec2(1, 0), push.grid), border_share(texel, ivec2(0, 1), push.grid), 1.0f,
+                       1.0f);
 #endif
-    return add_spring_strain(record, start, LOAD(position, second).xyz, push.rest_length[direction],
-                             push.half_stiffness[direction], share, push.compression, tension, direction >= 2);
+    bool right = texel.x + 1 < push.grid.x, below = texel.y + 1 < push.grid.y;
+    return vec4(right ? shares.x : 0.0f, below ? shares.y : 0.0f, right && below ? shares.z : 0.0f,
+                texel.x > 0 && below ? shares.w : 0.0f);
 }
 
-StatisticsRecord statistics_of(ivec2 texel) {
-    vec4 at = LOAD(position, texel);
+StatisticsRecord with_spring(StatisticsRecord record, vec3 first, vec3 second, int direction, float share,
+                             float tension) {
+    return add_spring_strain(record, first, second, push.rest_length[direction], push.half_stiffness[direction],
+                             record.counts.x == 0u ? share : 0.0f, push.compression, tension, direction >= 2);
+}
+
+StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
+    vec3 at = around.here.xyz;
     precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
-    StatisticsRecord record = particle_statistics(at.xyz, velocity, mass_share(texel), reference_of_cloth().xyz,
+    StatisticsRecord record = particle_statistics(at, velocity, mass_share(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
-    if (record.counts.x != 0u) return record;
-    record = with_spring(record, texel, at.xyz, 0, ivec2(1, 0), LOAD(tension_row, texel).x);
-    record = with_spring(record, texel, at.xyz, 1, ivec2(0, 1), LOAD(tension_column, texel).x);
-    record = with_spring(record, texel, at.xyz, 2, ivec2(1, 1), 0.0f);
-    record = with_spring(record, texel, at.xyz, 3, ivec2(-1, 1), 0.0f);
+    vec4 shares = shares_of(texel);
+    record = with_spring(record, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);
+    record = with_spring(record, at, around.below, 1, shares.y, LOAD(tension_column, texel).x);
+    record = with_spring(record, at, around.below_right, 2, shares.z, 0.0f);
+    record = with_spring(record, at, around.below_left, 3, shares.w, 0.0f);
 #ifdef COLLIDING
     // The deepest contact that the collision pass would find. It does not move held particles, so those are no measure.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
-    if (at.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at.xyz, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false).depth;
+    if (record.counts.x == 0u && around.here.w != 0.0f)
+        record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false).depth;
 #endif
     return record;
 }
@@ -82,8 +94,18 @@ void main() {
 #endif
     ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(statistics_rows));
     StatisticsRecord record = empty_statistics();
-    for (int row = 0; row < statistics_rows; ++row, ++texel.y)
-        if (inside(texel)) record = joined(record, statistics_of(texel));
+    Neighbours around;
+    around.here = LOAD(position, texel);
+    around.right = LOAD(position, texel + ivec2(1, 0)).xyz;
+    for (int row = 0; row < statistics_rows; ++row, ++texel.y) {
+        vec4 below = LOAD(position, texel + ivec2(0, 1));
+        around.below_left = LOAD(position, texel + ivec2(-1, 1)).xyz;
+        around.below = below.xyz;
+        around.below_right = LOAD(position, texel + ivec2(1, 1)).xyz;
+        if (inside(texel)) record = joined(record, statistics_of(texel, around));
+        around.here = below;
+        around.right = around.below_right;
+    }
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u) {
         uint row = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;

@@ -18,21 +18,18 @@ struct NestedBlock {
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// From the smallest box to the largest and back; on large cloth each end is a walk of its own, and the last list is
-/// for 384 links and more. None where more substeps are cheaper.
+/// Walks up to the largest box and back, with the smallest again and again. Boxes around inner particles have one line
+/// less than a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes along
+/// at a time. The last list is for 384 links and more. None where more substeps are cheaper.
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
     const std::uint32_t links = std::max(grid.columns(), grid.rows()) - 1;
     if (links < 48) return {};
-    if (links < 96) return {{4, 2}, {8, 2}, {16, 1}, {8, 2}, {4, 2}};
-    if (links < 192) return {{4, 4}, {8, 4}, {16, 2}, {32, 1}, {16, 2}, {8, 4}, {4, 4}};
-    const std::vector<NestedBlock> small{{4, 8}, {8, 8}, {16, 4}, {8, 8}, {4, 8}};
-    std::vector<NestedBlock> blocks = small;
+    if (links < 96) return {{7, 4}, {15, 1}, {7, 4}};
+    if (links < 192) return {{7, 4}, {15, 2}, {7, 4}, {31, 1}, {7, 4}, {15, 2}, {7, 4}};
     if (links < 384)
-        blocks.insert(blocks.end(), {{32, 4}, {64, 2}, {32, 4}});
-    else
-        blocks.insert(blocks.end(), {{32, 4}, {64, 2}, {128, 1}, {64, 2}, {32, 4}});
-    blocks.insert(blocks.end(), small.begin(), small.end());
-    return blocks;
+        return {{7, 8}, {15, 4}, {7, 8}, {31, 4}, {7, 8}, {63, 2}, {7, 8}, {31, 4}, {7, 8}, {15, 4}, {7, 8}};
+    return {{7, 8}, {15, 4}, {7, 8}, {31, 4}, {7, 8}, {63, 2}, {7, 8}, {127, 1},
+            {7, 8}, {63, 2}, {7, 8}, {31, 4}, {7, 8}, {15, 4}, {7, 8}};
 }
 
 /// Held particles of the cloth without a held neighbour: column, row.

@@ -8,9 +8,6 @@ namespace drape {
 
 namespace {
 
-/// The default device breaks off, unseen, after some 65,535 rounds of loops of an invocation (docs/devices.md).
-constexpr std::size_t most_loop_rounds = 60000;
-
 /// Particles of a column that an invocation meets colliders with: fewer where each may take many rounds of loops. Per
 /// round over all colliders: two of each that is not among the early ones, and two times Newton's 24 of each ellipsoid.
 std::uint32_t strip_of(const PipelineCache& pipelines, const SimulationModel& model) {

@@ -1,19 +1,60 @@
 #include "passes/nested_pass.h"
 
+#include <algorithm>
+#include <span>
+
+#include "cloth/directions.h"
 #include "passes/step_dispatch.h"
 
 namespace drape {
+
+namespace {
+
+/// Rounds of loops of an invocation of `width` that go along the lines of the boxes around a pin.
+std::uint64_t loop_rounds(const ClothModel& model, const glsl::NestedPush& push, glsl::ivec2 pin, int width) {
+    std::uint64_t rounds = 0;
+    for (int block = 0; block < push.block_count; ++block) {
+        const glsl::ivec4& entry = model.plan.nested_table[static_cast<std::size_t>(block)];
+        const auto side = [radius = entry.x](int at, int count) {
+            return std::min(at + radius, count - 1) - std::max(at - radius, 0) + 1;
+        };
+        const int columns = side(pin.x, push.grid.x), rows = side(pin.y, push.grid.y);
+        for (const SpringDirection& direction : spring_directions) {
+            const int lines = direction.offset.y == 0 ? rows : columns;
+            const int particles = direction.offset.y == 0 ? columns : rows;
+            rounds += static_cast<std::uint64_t>(entry.y) * ((lines + width - 1) / width) * (2 * particles + 2);
+        }
+    }
+    return rounds;
+}
+
+/// Invocations of a workgroup. Where cores are few one subgroup is enough: others would only take turns with it at
+/// every barrier. More where the default device would break off.
+std::uint32_t group_width(const ClothState& state, const glsl::NestedPush& push, std::span<const glsl::ivec4> pins) {
+    constexpr int subgroup = 8, most = glsl::nested_group_width;
+    int width = state.buffered ? subgroup : most;
+    const auto takes_too_many = [&](const glsl::ivec4& pin) {
+        return loop_rounds(*state.model, push, {pin.x, pin.y}, width) > most_loop_rounds;
+    };
+    while (width < most && std::ranges::any_of(pins, takes_too_many)) width *= 2;
+    return static_cast<std::uint32_t>(width);
+}
+
+}  // namespace
 
 void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const ClothModel& model = *state.model;
     const auto& push = step.push<glsl::NestedPush>();
     const bool sheared = push.rest_length.z > 0;
-    const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-        "nested.comp", {{"masked", state.masked()}, {"sheared", sheared}, {"buffered", state.buffered}}));
-    const auto pin_count =
-        static_cast<std::uint32_t>(model.plan.nested_table[static_cast<std::size_t>(push.first_pin)].z);
-    const StepDispatch dispatch(state, step, pipeline, pin_count * static_cast<std::uint32_t>(glsl::nested_group_width),
-                                1);
+    const std::span<const glsl::ivec4> table =
+        std::span(model.plan.nested_table).subspan(static_cast<std::size_t>(push.first_pin));
+    const auto pin_count = static_cast<std::uint32_t>(table[0].z);
+    const std::uint32_t width = group_width(state, push, table.first(pin_count));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("nested.comp",
+                             {{"masked", state.masked()}, {"sheared", sheared}, {"buffered", state.buffered}}),
+        {{vulkan::local_size_names[0], width}});
+    const StepDispatch dispatch(state, step, pipeline, pin_count * width, 1);
     graph.add_pass(
         state.step_name("nested sweeps", step),
         [&](graph::PassSetup& setup) {

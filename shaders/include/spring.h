@@ -70,13 +70,12 @@ SHARED SpringResult project_spring(vec3 edge, float weight_sum, float rest_lengt
     precise float excess = current - rest_length;
     float acting = acting_share(share, compression, excess);
     precise float denominator = acting * weight_sum + compliance;
-    bool acts = length_squared > 0.0f && denominator > 0.0f;
+    if (!(length_squared > 0.0f) || !(denominator > 0.0f)) return SpringResult(vec3(0.0f, 0.0f, 0.0f), tension);
     precise float residual = balancing_tension(excess, compression) - tension;
     precise float change = -(share * residual) / denominator;
     precise vec3 correction = edge * (change / current);
     precise float updated = tension + compliance * (residual / denominator);
-    // No branch: where one remains, streams of springs (sweep.comp) take half as long again.
-    return SpringResult(acts ? correction : vec3(0.0f, 0.0f, 0.0f), acts ? updated : tension);
+    return SpringResult(correction, updated);
 }
 
 #endif

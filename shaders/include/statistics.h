@@ -65,18 +65,17 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
 /// that of the frame's end, m.
 SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float share, vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
-    if (!is_finite(position) || !is_finite(velocity)) {
-        record.counts = uvec4(1u, index, 0u, 0u);
-        return record;
-    }
+    bool finite = is_finite(position) && is_finite(velocity);
     precise vec3 moment = (position - reference) * share;
     precise float moved_squared = ordered_dot(velocity, velocity);
     precise float moving = share * moved_squared;
-    record.squares.w = moving;
-    record.moments = vec4(moment.x, moment.y, moment.z, share);
-    record.extents.x = ordered_dot(position, position);
-    record.extents.y = moved_squared;
-    record.places = uvec4(index, index, index, no_particle);
+    record.squares.w = finite ? moving : -0.0f;
+    record.moments = finite ? vec4(moment.x, moment.y, moment.z, share) : record.moments;
+    record.extents.x = finite ? ordered_dot(position, position) : 0.0f;
+    record.extents.y = finite ? moved_squared : 0.0f;
+    uint place = finite ? index : no_particle;
+    record.places = uvec4(place, place, place, no_particle);
+    record.counts = uvec4(finite ? 0u : 1u, finite ? no_particle : index, 0u, 0u);
     return record;
 }
 
@@ -84,31 +83,33 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float 
 /// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m, of which springs pushed together have
 /// `compression`. Shear belongs to the diagonals. `tension`: applied to the spring, as an extension of its whole
 /// stiffness (m); what would balance the spring beyond that, over its rest length, is the stretch error, which a
-/// perfect solver makes zero. Of shear springs it is not asked.
+/// perfect solver makes zero. Of shear springs it is not asked. Nothing branches: on the default device all numbers of
+/// the record would be blended at the end of every branch, which takes longer than what it leaves out.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
                                           float half_stiffness, float share, float compression, float tension,
                                           bool shear) {
-    if (!(rest_length > 0.0f) || !(share > 0.0f) || !is_finite(second)) return record;
+    bool counts = rest_length > 0.0f && share > 0.0f && is_finite(second);
     precise vec3 edge = second - first;
     precise float current = sqrt(ordered_dot(edge, edge));
     precise float extension = current - rest_length;
     precise float strain = extension / rest_length;
     precise float square = strain * strain;
-    precise float energy = acting_share(share, compression, extension) * half_stiffness * (extension * extension);
+    precise float stored = acting_share(share, compression, extension) * half_stiffness * (extension * extension);
+    float squared = counts ? square : -0.0f, energy = counts ? stored : -0.0f;
+    float longer = counts ? strain : lowest_float, shorter = counts ? -strain : lowest_float;
     record.squares =
-        ordered_sum(record.squares, shear ? vec4(-0.0f, square, energy, -0.0f) : vec4(square, -0.0f, energy, -0.0f));
-    record.strains = larger(record.strains, shear ? vec4(lowest_float, strain, lowest_float, -strain)
-                                                  : vec4(strain, lowest_float, -strain, lowest_float));
-    if (shear) {
-        record.counts.w += 1u;
-        return record;
-    }
+        ordered_sum(record.squares, shear ? vec4(-0.0f, squared, energy, -0.0f) : vec4(squared, -0.0f, energy, -0.0f));
+    record.strains = larger(record.strains, shear ? vec4(lowest_float, longer, lowest_float, shorter)
+                                                  : vec4(longer, lowest_float, shorter, lowest_float));
+    record.counts.z += counts && !shear ? 1u : 0u;
+    record.counts.w += counts && shear ? 1u : 0u;
+    if (shear) return record;  // the caller's constant
     precise float error = (balancing_tension(extension, compression) - tension) / rest_length;
     precise float squared_error = error * error;
-    record.errors = ordered_sum(record.errors, vec4(squared_error, -0.0f, -0.0f, -0.0f));
-    record.places.w = place_of_larger(record.extents.w, abs(error), record.places.w, record.places.x);
-    record.extents = larger(record.extents, vec4(0.0f, 0.0f, 0.0f, abs(error)));
-    record.counts.z += 1u;
+    record.errors = ordered_sum(record.errors, vec4(counts ? squared_error : -0.0f, -0.0f, -0.0f, -0.0f));
+    uint place = place_of_larger(record.extents.w, abs(error), record.places.w, record.places.x);
+    record.places.w = counts ? place : record.places.w;
+    record.extents = larger(record.extents, vec4(0.0f, 0.0f, 0.0f, counts ? abs(error) : 0.0f));
     return record;
 }
 

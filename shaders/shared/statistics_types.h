@@ -10,7 +10,7 @@ namespace drape::glsl {
 
 /// Rows of particles that one invocation of the statistics joins before its workgroup does: the tree costs more
 /// than the particles do (measured: 8 rows take a fifth of the time of 1).
-const int statistics_rows = 8;
+const int statistics_rows = 32;
 
 /// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
 /// down-right, shear down-left.

@@ -49,7 +49,7 @@ class Device {
 struct SceneDescription;
 
 /// Lavapipe hands every dispatch to its worker threads, which takes about 30 us; where no cloth, and no cloths that are
-/// simulated together, have more than 48 x 48 particles and nothing is drawn, all of it is done sooner on the calling
+/// simulated together, have more than 72 x 72 particles and nothing is drawn, all of it is done sooner on the calling
 /// thread (24 x 24: 2.5 times). Where `scene` is such a one, asks for that in the process's devices from the next on,
 /// by the environment variable LP_NUM_THREADS, unless it is set; other drivers do not know it. To be called before
 /// other threads run.

@@ -9,7 +9,8 @@ enum class Schedule {
     automatic,  ///< chosen by the device
     images,     ///< passes load and store the state's images
     buffers,    ///< they store through buffers of the same memory, which a CPU does sooner
-    streams,    ///< likewise; explicit micro-steps stream down the rows, several at once where nothing is between them
+    streams,    ///< likewise; down the rows stream the springs of a relaxation iteration, and explicit micro-steps,
+                ///< several at once where nothing is between them
 };
 inline constexpr Spelling<Schedule> schedule_spellings[] = {{"auto", Schedule::automatic},
                                                             {"images", Schedule::images},
