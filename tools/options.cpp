@@ -233,8 +233,8 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
     for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
     add_option(command, "--schedule", words.c_str(),
                "How passes run on the device, all to the same bits: `buffers` stores through buffers of the images' "
-               "memory, `streams` takes several explicit steps, or all springs of an iteration, at once besides; default: "
-               "by the device and the method",
+               "memory, `streams` takes several explicit steps, or all springs of an iteration, at once besides; "
+               "default: by the device and the method",
                [&scene, words](const std::string& text) {
                    const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
                    if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);

@@ -55,11 +55,11 @@ std::vector<ivec2> lone_pins(const ClothGeometry& cloth) {
 
 double visits(const Grid& grid, ivec2 pin, const std::vector<NestedBlock>& blocks) {
     double sum = 0;
-    for (const auto& [radius, sweeps] : blocks) {
-        const auto extent = [radius](int at, int count) {
+    for (const NestedBlock& block : blocks) {
+        const auto extent = [radius = block.radius](int at, int count) {
             return std::min(at + radius, count - 1) - std::max(at - radius, 0) + 1;
         };
-        sum += static_cast<double>(sweeps) * extent(pin.x, grid.size().x) * extent(pin.y, grid.size().y);
+        sum += static_cast<double>(block.sweeps) * extent(pin.x, grid.size().x) * extent(pin.y, grid.size().y);
     }
     return sum;
 }
