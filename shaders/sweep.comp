@@ -2,11 +2,14 @@
 // down the rows of a strip of columns, two rows at a time, and keeps in registers those that later passes of theirs
 // still await. With rows 2k and 2k + 1 loaded, every pass takes the rows whose turn it is:
 //
-//   row                2k-5  2k-4  2k-3  2k-2  2k-1  2k  2k+1
-//   along rows                                       *    *
-//   column even, odd                           o---- oe---e     e: even pairs, o: odd ones
-//   down-right                     o---- oe---e
-//   down-left          o---- oe---e
+//   row          2k-5   2k-4   2k-3   2k-2   2k-1    2k    2k+1
+//   along                                            *      *
+//   column                                           e------e    even pairs, then
+//                                             o------o           odd ones
+//   down-right                         e------e
+//                               o------o
+//   down-left           e-------e
+//                o------o
 //
 // and then the first two are done. A ghost beside an invocation's columns is the first one of the invocation on the right;
 // what a spring moves of it goes back by shuffle. MASKED: the spring shares come from an image. TENSION: the stretch
