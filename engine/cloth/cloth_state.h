@@ -22,8 +22,8 @@ enum class Field : std::uint8_t {
     displacement,        ///< xyz: motion within the substep, m (X + d is where the particle is now); w 0
     position_remainder,  ///< what rounding lost of the two (compensated sums)
     displacement_remainder,
-    position_spare,  ///< where a method that gathers, or a sweep, writes the next state, which then is the state
-    displacement_spare,
+    position_spare,      ///< where a method that gathers writes the next state, which then is the state
+    displacement_spare,  ///< where sweeps of springs do, too
     position_remainder_spare,
     displacement_remainder_spare,
     line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)

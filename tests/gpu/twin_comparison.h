@@ -48,6 +48,19 @@ inline SceneDescription everything() {
     return scene;
 }
 
+/// Of so many columns, rows: held in a corner and along an edge, nothing but springs acts on it.
+inline SceneDescription thrown_sheet(std::pair<std::uint32_t, std::uint32_t> grid, std::uint32_t substeps) {
+    const auto [columns, rows] = grid;
+    SceneDescription scene = sheet(columns, rows, 1.1, 0.9, substeps, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0.6, 0.8}};
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.damping = 0.7;
+    cloth.velocity = {0.3, -1.5, 0.2};
+    cloth.pins = {pin_box(0, 0, 0, 0), pin_box(columns - 1, 0, columns - 1, rows - 1)};
+    return scene;
+}
+
 /// Every bit of a field.
 inline void expect_same(const FieldRow& row, std::span<const std::byte> device, std::span<const std::byte> twin,
                         std::uint32_t frame) {

@@ -87,14 +87,8 @@ TEST(TwinExplicitTest, PlainHangingSheet) {
 class TwinStreamTest : public testing::TestWithParam<std::pair<std::uint32_t, std::uint32_t>> {};
 
 SceneDescription streaming(std::pair<std::uint32_t, std::uint32_t> grid) {
-    SceneDescription scene = test::sheet(grid.first, grid.second, 1.1, 0.9, test::substep_count);
+    SceneDescription scene = test::thrown_sheet(grid, test::substep_count);
     scene.solver.method = SolverMethod::explicit_steps;
-    Cloth& cloth = scene.cloths[0];
-    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0.6, 0.8}};
-    cloth.stiffness = {false, 800, 60, 0};
-    cloth.damping = 0.7;
-    cloth.velocity = {0.3, -1.5, 0.2};
-    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(grid.first - 1, 0, grid.first - 1, grid.second - 1)};
     return scene;
 }
 

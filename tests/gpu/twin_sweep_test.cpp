@@ -8,16 +8,7 @@ namespace {
 /// Columns, rows.
 using Grid2 = std::pair<std::uint32_t, std::uint32_t>;
 
-SceneDescription swept(Grid2 grid) {
-    SceneDescription scene = test::sheet(grid.first, grid.second, 1.1, 0.9, 5, 1);
-    Cloth& cloth = scene.cloths[0];
-    cloth.placement = {{-0.55, 0.0, -0.45}, {1, 0, 0}, {0, 0.6, 0.8}};
-    cloth.stiffness = {false, 800, 60, 0};
-    cloth.damping = 0.7;
-    cloth.velocity = {0.3, -1.5, 0.2};
-    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(grid.first - 1, 0, grid.first - 1, grid.second - 1)};
-    return scene;
-}
+SceneDescription swept(Grid2 grid) { return test::thrown_sheet(grid, 5); }
 
 /// `sweeps`: how many of them a frame must have, so that the comparison means something. With the tensions that the
 /// stretch error asks for, where stretch springs give.
