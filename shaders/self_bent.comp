@@ -1,10 +1,10 @@
-// Lists the pairs of neighbouring cells whose triangles and edges this substep may bring together: those about which the
-// cloth is not flat.
+// Lists the pairs of cells of a cloth, neighbours and those two columns or rows apart, whose triangles and edges this
+// substep may bring together: those about which it is not flat, or that it does not keep apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/every.h"
-#include "include/self_contact.h"
+#include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
@@ -31,38 +31,65 @@ bool lies_flat(SelfCloth cloth, ivec2 cell) {
         SelfPatch(moved(m), moved(l), moved(r), moved(u), moved(d), moved(cell), moved(ur), moved(dl), moved(dr)));
 }
 
-/// Bits of the pairs of neighbours that a cell of a cloth stands for and that exist.
-uint neighbours_of(SelfCloth cloth, ivec2 own) {
+SelfColumn column_at(ivec2 first, ivec2 last, vec3 from) {
+    precise vec3 a = at(first) - from;
+    precise vec3 b = at(ivec2(first.x, min(first.y + 1, last.y))) - from;
+    precise vec3 c = at(ivec2(first.x, min(first.y + 2, last.y))) - from;
+    precise vec3 d = at(ivec2(first.x, min(first.y + 3, last.y))) - from;
+    return SelfColumn(a, b, c, d);
+}
+SelfColumn column_moved(ivec2 first, ivec2 last) {
+    return SelfColumn(moved(first), moved(ivec2(first.x, min(first.y + 1, last.y))),
+                      moved(ivec2(first.x, min(first.y + 2, last.y))), moved(ivec2(first.x, min(first.y + 3, last.y))));
+}
+
+/// Bits of the pairs of cells that a cell stands for and that the cloth keeps apart.
+uint kept_apart(SelfCloth cloth, ivec2 cell) {
+    ivec2 last = cloth.first + cloth.grid - 1;
+    ivec2 b = ivec2(min(cell.x + 1, last.x), cell.y), c = ivec2(min(cell.x + 2, last.x), cell.y),
+          d = ivec2(min(cell.x + 3, last.x), cell.y);
+    vec3 from = at(cell);
+    SelfColumns x = SelfColumns(column_at(cell, last, from), column_at(b, last, from), column_at(c, last, from),
+                                column_at(d, last, from));
+    SelfColumns motions =
+        SelfColumns(column_moved(cell, last), column_moved(b, last), column_moved(c, last), column_moved(d, last));
+    return self_close_apart(push, cloth, from, x, motions);
+}
+
+/// Bits of the pairs of cells at most two columns and rows apart that a cell of a cloth stands for and that exist.
+uint close_pairs_of(SelfCloth cloth, ivec2 own) {
     uint bits = 0u;
-    for (int k = 0; k < self_neighbour_pairs; ++k) {
-        ivec4 pair = self_neighbour_pair(k);
+    for (int k = 0; k < self_close_pairs; ++k) {
+        ivec4 pair = self_close_pair(k);
         bool exists = own.x + max(pair.x, pair.z) < cloth.grid.x && own.y + max(pair.y, pair.w) < cloth.grid.y;
         bits |= exists ? 1u << k : 0u;
     }
     return bits;
 }
 
-/// Those of them that are not ruled out by how flat the cloth is there.
-uint near_neighbours(ivec2 texel) {
+/// Those of them that are not ruled out by how the cloth lies there.
+uint near_pairs(ivec2 texel) {
     int owner = owner_of(place_of(texel));
     bool meets = owner >= 0 && meetings[max(owner, 0) * (push.cloth_count + 1)] != self_meets_not;
     SelfCloth cloth = cloth_at(texel);
     ivec2 own = texel - cloth.first;
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
-    bool flat_there = inside && lies_flat(cloth, texel);
-    return meets && !flat_there ? neighbours_of(cloth, own) : 0u;
+    uint neighbours = (1u << self_neighbour_pairs) - 1u;
+    uint apart = kept_apart(cloth, texel) | (inside && lies_flat(cloth, texel) ? neighbours : 0u);
+    return meets ? close_pairs_of(cloth, own) & ~apart : 0u;
 }
 
 void judge(ivec2 texel) {
-    uint near = near_neighbours(texel), count = uint(bitCount(near));
+    uint near = near_pairs(texel), count = uint(bitCount(near));
     uint place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
-    for (int k = 0; k < self_neighbour_pairs; ++k) {
-        ivec4 pair = self_neighbour_pair(k);
+    for (;;) {
+        ivec4 pair = self_close_pair(max(findLSB(near), 0));
         ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
-        bool listed = (near & (1u << k)) != 0u;
-        if (listed && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
-        place += listed ? 1u : 0u;
+        if (near != 0u && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
+        ++place;
+        near &= max(near, 1u) - 1u;
+        if (near == 0u) break;
     }
 }
 

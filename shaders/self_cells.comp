@@ -1,4 +1,4 @@
-// After a search: lists the pairs of cells, no neighbours, of the blocks that it found.
+// After a search: lists the pairs of cells, none that are close in their cloth, of the blocks that it found.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -26,18 +26,21 @@ int index_of(ivec2 cell) { return min(cell.y, push.grid.y - 1) * push.grid.x + m
 /// Cells of a block and what they are in.
 struct Block {
     ivec2 at;
+    int cloth;
     SelfBox box0, box1, box2, box3;
 };
 
 Block block_of(int block) {
-    return Block(cell_of(block, 0), box_at(index_of(cell_of(block, 0))), box_at(index_of(cell_of(block, 1))),
+    ivec2 first = cell_of(block, 0);
+    return Block(first, owner_of(place_of(first)), box_at(index_of(cell_of(block, 0))), box_at(index_of(cell_of(block, 1))),
                  box_at(index_of(cell_of(block, 2))), box_at(index_of(cell_of(block, 3))));
 }
 
-/// Whether cell k of one block may come near cell l of another, and neither lies past an edge nor are they neighbours.
+/// Whether cell k of one block may come near cell l of another, and neither lies past an edge nor are they judged by how
+/// their cloth lies between them (self_bent.comp).
 bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
     ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
-    bool may = inside(a) && inside(b) && !self_neighbours(a, b);
+    bool may = inside(a) && inside(b) && !(one.cloth == other.cloth && self_close(a, b));
     return may && self_boxes_meet(box, other_box, push, thickness);
 }
 

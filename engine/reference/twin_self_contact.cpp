@@ -228,7 +228,7 @@ void ContactStep::pairs() {
                 list(own, texel_of(b));
         if (!meet(a, a) || lies_flat(own)) continue;
         for (int k = 0; k < self_neighbour_pairs; ++k) {
-            const ivec4 pair = self_neighbour_pair(k);
+            const ivec4 pair = self_close_pair(k);
             const ivec2 one{own.x + pair.x, own.y + pair.y}, other{own.x + pair.z, own.y + pair.w};
             if (inside(cloth_at(a), one) && inside(cloth_at(a), other)) list(one, other);
         }

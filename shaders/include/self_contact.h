@@ -162,15 +162,20 @@ SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
 }
 
-/// The pairs k of neighbours that a cell stands for, relative to it: first cell xy, second zw. Every pair of a
-/// grid's neighbours is one cell's.
-const int self_neighbour_pairs = 5;
-SHARED ivec4 self_neighbour_pair(int k) {
-    if (k == 0) return ivec4(0, 0, 0, 0);
-    if (k == 1) return ivec4(0, 0, 1, 0);
-    if (k == 2) return ivec4(0, 0, 0, 1);
-    if (k == 3) return ivec4(0, 0, 1, 1);
-    return ivec4(1, 0, 0, 1);
+/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: the one with the lower
+/// place xy, the other zw; neighbours first. Every such pair of a grid is one cell's.
+const int self_neighbour_pairs = 5, self_close_pairs = 13;
+SHARED ivec4 self_close_pair(int k) {
+    // Two bits for each of the four, from the lowest on.
+    uint four = k < 4 ? 0x50401000u : k < 8 ? 0x42602041u : k < 12 ? 0x908082a0u : 0x81u;
+    uint pair = four >> uint(8 * (k & 3));
+    return ivec4(int(pair & 3u), int((pair >> 2) & 3u), int((pair >> 4) & 3u), int((pair >> 6) & 3u));
+}
+
+/// Whether two cells of a cloth are such a pair.
+SHARED bool self_close(ivec2 a, ivec2 b) {
+    int columns = b.x - a.x, rows = b.y - a.y;
+    return columns >= -2 && columns <= 2 && rows >= -2 && rows <= 2;
 }
 
 /// Particles of a patch of 2 x 2 cells: its middle, those beside it, those at its corners.

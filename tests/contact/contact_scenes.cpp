@@ -72,15 +72,16 @@ std::string folding_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t s
                              n, limp, 0.5 / (n - 1)));
 }
 
-std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
+std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps,
+                          std::uint32_t apart_mm) {
     std::vector<std::string> cloths;
     for (std::uint32_t k = 0; k < count; ++k) {
         const double c = std::cos(0.4 * k), s = std::sin(0.4 * k);
         cloths.push_back(fmt::format(R"({{"name": "sheet{0}", "grid": [{1}, {1}], "size": [0.7, 0.7],
   "placement": {{"origin": [{2}, {3}, {4}], "u": [{5}, 0, {6}], "v": [{7}, 0, {5}]}}, {8}, "damping": 1,
   "self_collision": {{"thickness": {9}}}}})",
-                                     k, n, -0.35 * (c - s), 0.36 + 0.05 * k, -0.35 * (c + s), c, s, -s, limp,
-                                     0.3 * 0.7 / (n - 1)));
+                                     k, n, -0.35 * (c - s), 0.36 + 1e-3 * apart_mm * k, -0.35 * (c + s), c, s, -s, limp,
+                                     0.15 * 0.7 / (n - 1)));
     }
     return scene("stack", frames, substeps,
                  fmt::format(R"("cloths": [{}], "colliders": {{"spheres": [{{"radius": 0.3, "friction": 0.4}}],

@@ -16,8 +16,9 @@ std::string wrung_strip(std::uint32_t frames);
 /// A sheet of n x n particles let fall on its lower edge, so that it folds to and fro on the ground.
 std::string folding_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
 
-/// Sheets of n x n particles, each turned against the one below, that fall onto a ball and each other.
-std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
+/// Sheets of n x n particles, so far apart, each turned against the one below, that fall onto a ball and each other.
+std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps,
+                          std::uint32_t apart_mm);
 
 /// An upright sheet of n x n particles, 1 m high, on the ground below a plate that comes down to 6 cm in 6 s.
 std::string crumpled_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);

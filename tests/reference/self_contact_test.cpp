@@ -333,7 +333,7 @@ TEST(SelfContactKernelTest, ContactStaysAboutTheWayThatTheSolverWants) {
 TEST(SelfContactKernelTest, PairsOfTwoCellsThatShareNoCornerAreKnown) {
     std::vector<glsl::ivec2> offsets{{2, 0}, {-2, 1}, {0, 2}, {1, 2}};
     for (int k = 0; k < glsl::self_neighbour_pairs; ++k) {
-        const glsl::ivec4 pair = glsl::self_neighbour_pair(k);
+        const glsl::ivec4 pair = glsl::self_close_pair(k);
         offsets.push_back({pair.z - pair.x, pair.w - pair.y});
     }
     for (const glsl::ivec2 offset : offsets) {
