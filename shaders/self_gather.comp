@@ -2,16 +2,18 @@
 // MASKED: triangles that exist are read from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
+#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfClothPush push; };
+#define STATE_COLUMNS push.columns
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 2, rgba32f) uniform image2D positions;      // of the sheet, where other cloths' stay
-layout(set = 0, binding = 3, rgba32f) uniform image2D displacements;  // likewise
+VECTOR_KEPT(2, Positions, positions);          // of the sheet, where other cloths' stay
+VECTOR_KEPT(3, Displacements, displacements);  // likewise
 #ifdef MASKED
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D existing;
 #endif
@@ -39,7 +41,8 @@ uint owned(ivec2 texel) {
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    imageStore(positions, push.first + texel, imageLoad(position, texel));
+    ivec2 laid = push.first + texel;
+    STORE_VECTOR(positions, laid, imageLoad(position, texel));
     vec3 moved = imageLoad(displacement, texel).xyz;
-    imageStore(displacements, push.first + texel, vec4(moved, float(owned(texel))));
+    STORE_VECTOR(displacements, laid, vec4(moved, float(owned(texel))));
 }

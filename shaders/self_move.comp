@@ -1,6 +1,7 @@
 // Cuts the motions short that would go farther than was proved to cross nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants BUFFERED
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/self_contact.h"
@@ -8,7 +9,9 @@
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
-layout(set = 0, binding = 1, rgba32f) uniform image2D displacements;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
+#include "include/state_store.h"
+VECTOR_OUT(7, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
@@ -20,7 +23,7 @@ void move(int place, float thickness) {
     float share = uintBitsToFloat(shares[(self_rounds - 1) * push.grid.x * push.grid.y + place]);
     ivec2 texel = texel_of(place);
     bool held = !(imageLoad(positions, texel).w > 0.0f);
-    vec4 displacement = imageLoad(displacements, texel);
+    vec4 displacement = imageLoad(displacements_in, texel);
     vec3 first = before[place].xyz;
     vec3 bounded = held ? displacement.xyz : self_bounded(displacement.xyz, first, carried, thickness);
     bool changed = bounded.x != displacement.x || bounded.y != displacement.y || bounded.z != displacement.z;
@@ -29,7 +32,7 @@ void move(int place, float thickness) {
     if (cut && held) atomicAdd(record[0].unproved, 1u);
     if (cut && !held) {
         atomicAdd(record[0].truncated, 1u);
-        imageStore(displacements, texel, vec4(self_truncated(carried, moved, share), displacement.w));
+        STORE_VECTOR(displacements_out, texel, vec4(self_truncated(carried, moved, share), displacement.w));
         before[place].w = 1.0f;
     }
 }

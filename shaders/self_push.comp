@@ -1,7 +1,7 @@
 // Moves the particles by what the pairs push them. CROSSED: in the first round also by what their cloth is led by.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIDE CROSSED
+#pragma variants WIDE CROSSED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #ifdef CROSSED
@@ -12,7 +12,9 @@
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfContactPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
-layout(set = 0, binding = 1, rgba32f) uniform image2D displacements;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
+#include "include/state_store.h"
+VECTOR_OUT(8, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Corrections { ivec4 corrections[]; };
 layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
@@ -25,7 +27,7 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 
 void move(int place) {
     ivec2 texel = texel_of(place);
-    vec4 moved = imageLoad(displacements, texel);
+    vec4 moved = imageLoad(displacements_in, texel);
     ivec4 sum = corrections[place];
 #ifdef WIDE
     sum = self_sums(sum);
@@ -42,7 +44,8 @@ void move(int place) {
 #ifdef CROSSED
         corrected = self_led(corrected, by);
 #endif
-        imageStore(displacements, texel, vec4(self_bounded(corrected, before[place].xyz, carried, thickness), moved.w));
+        vec3 bounded = self_bounded(corrected, before[place].xyz, carried, thickness);
+        STORE_VECTOR(displacements_out, texel, vec4(bounded, moved.w));
         before[place].w = 1.0f;
     }
 }

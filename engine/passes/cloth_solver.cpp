@@ -102,6 +102,7 @@ std::string schedule_obstacle(const vulkan::Device& device, const SimulationMode
                                                                    : buffered_obstacle(device, cloth.grid);
         if (!obstacle.empty()) return fmt::format("cloth '{}': {}", cloth.name, obstacle);
     }
+    if (model.self_contact) return sheet_obstacle(device, model.self_contact->push.grid);
     return {};
 }
 

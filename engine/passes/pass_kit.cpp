@@ -45,6 +45,17 @@ std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, st
     return {};
 }
 
+std::string sheet_obstacle(const vulkan::Device& device, glsl::ivec2 size) {
+    constexpr std::uint32_t step = glsl::state_row_alignment / 16;
+    const auto columns = static_cast<std::uint32_t>(size.x);
+    return graph::buffer_view_obstacle(device,
+                                       {.name = "the cloths' sheet",
+                                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                        .width = columns,
+                                        .height = static_cast<std::uint32_t>(size.y)},
+                                       (columns + step - 1) / step * step);
+}
+
 std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid) {
     constexpr auto lanes = static_cast<std::uint32_t>(glsl::stream_lanes);
     if (!device.shuffles(lanes)) return fmt::format("the device has no subgroups of {} that shuffle", lanes);

@@ -43,7 +43,9 @@ class PipelineCache {
 /// when it can.
 /// `count`: of so many cloths below each other.
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count = 1);
-/// Likewise why its micro-steps cannot stream.
+/// Likewise of the sheet on which cloths meet.
+std::string sheet_obstacle(const vulkan::Device& device, glsl::ivec2 size);
+/// Likewise why a cloth's micro-steps cannot stream.
 std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid);
 
 /// Invocations: those of the strips that a grid of so many columns takes, where each subgroup has `width` columns of

@@ -78,7 +78,7 @@ void read_sheet(PassSetup& setup, const ClothState& contact) {
 /// Of a pass that moves particles.
 void move_on_sheet(PassSetup& setup, ClothState& contact) {
     read(setup, contact, Field::self_positions, "positions");
-    update_in_place(setup, contact, Field::self_displacements, "displacements");
+    update(setup, contact[Field::self_displacements], "displacements");
     read_cloths(setup, contact);
     update_in_place(setup, contact, Field::self_before, "before");
 }
@@ -113,8 +113,8 @@ void add_sized_pass(graph::Graph& graph, const ClothState& contact, const Step& 
 
 void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
                      const Step& step) {
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}}));
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}, {"buffered", cloth.buffered}}));
     add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather", step), step, pipeline, cloth.model->grid.size(),
                                   [&](PassSetup& setup) {
                                       read(setup, cloth, Field::position, "position");
@@ -293,8 +293,9 @@ void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 }
 
 void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    const std::string module =
-        vulkan::variant_name("self_push.comp", {{"wide", pipelines.wide_atomics()}, {"crossed", crossed(step)}});
+    const std::string module = vulkan::variant_name(
+        "self_push.comp",
+        {{"wide", pipelines.wide_atomics()}, {"crossed", crossed(step)}, {"buffered", contact.buffered}});
     add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, module, step),
                    glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        move_on_sheet(setup, contact);
@@ -317,7 +318,8 @@ void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
 }
 
 void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self move", pipeline_of(pipelines, "self_move.comp", step), over_sheet(pipelines, step),
+    const std::string module = vulkan::variant_name("self_move.comp", {{"buffered", contact.buffered}});
+    add_pass(graph, step, "self move", pipeline_of(pipelines, module, step), over_sheet(pipelines, step),
              [&](PassSetup& setup) {
                  move_on_sheet(setup, contact);
                  read(setup, contact, Field::self_shares, "shares");

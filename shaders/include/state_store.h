@@ -1,11 +1,15 @@
 // How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
 // memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
-// either way. VECTOR_KEPT: not all of its texels are written. Needs `push.grid`.
+// either way. VECTOR_KEPT: not all of its texels are written. Needs `push.grid`; STATE_COLUMNS: the images' own, where
+// that is not theirs.
 #include "include/together.h"
+#ifndef STATE_COLUMNS
+#define STATE_COLUMNS push.grid.x
+#endif
 #ifdef BUFFERED
 /// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
-int vector_pitch() { return (push.grid.x + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
-int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
+int vector_pitch() { return (STATE_COLUMNS + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
+int scalar_pitch() { return (STATE_COLUMNS + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
 #define VECTOR_OUT(slot, block, name) \
     layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
 #define SCALAR_OUT(slot, block, name) \
