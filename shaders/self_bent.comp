@@ -22,38 +22,32 @@ vec3 moved(ivec2 texel) {
     return self_relative_motion(imageLoad(displacements, texel).xyz, carried);
 }
 
-bool lies_flat(SelfCloth cloth, ivec2 cell) {
-    ivec2 m = cell + ivec2(1, 1);
-    ivec2 l = m + ivec2(-1, 0), r = m + ivec2(1, 0), u = m + ivec2(0, -1), d = m + ivec2(0, 1);
-    ivec2 ur = m + ivec2(1, -1), dl = m + ivec2(-1, 1), dr = m + ivec2(1, 1);
-    return self_patch_lies_flat(
-        push, cloth, SelfPatch(at(m), at(l), at(r), at(u), at(d), at(cell), at(ur), at(dl), at(dr)),
-        SelfPatch(moved(m), moved(l), moved(r), moved(u), moved(d), moved(cell), moved(ur), moved(dl), moved(dr)));
-}
-
-SelfColumn column_at(ivec2 first, ivec2 last, vec3 from) {
-    precise vec3 a = at(first) - from;
-    precise vec3 b = at(ivec2(first.x, min(first.y + 1, last.y))) - from;
-    precise vec3 c = at(ivec2(first.x, min(first.y + 2, last.y))) - from;
-    precise vec3 d = at(ivec2(first.x, min(first.y + 3, last.y))) - from;
-    return SelfColumn(a, b, c, d);
+/// Particles of a column, over the cloth's edge the last one again.
+SelfColumn column_at(ivec2 first, ivec2 last) {
+    return SelfColumn(at(first), at(ivec2(first.x, min(first.y + 1, last.y))),
+                      at(ivec2(first.x, min(first.y + 2, last.y))), at(ivec2(first.x, min(first.y + 3, last.y))));
 }
 SelfColumn column_moved(ivec2 first, ivec2 last) {
     return SelfColumn(moved(first), moved(ivec2(first.x, min(first.y + 1, last.y))),
                       moved(ivec2(first.x, min(first.y + 2, last.y))), moved(ivec2(first.x, min(first.y + 3, last.y))));
 }
 
+/// Of the 3 x 3 particles from a patch's first on.
+SelfPatch patch_of(SelfColumns x) {
+    return SelfPatch(x.b.b, x.a.b, x.c.b, x.b.a, x.b.c, x.a.a, x.c.a, x.a.c, x.c.c);
+}
+
 /// Bits of the pairs of cells that a cell stands for and that the cloth keeps apart.
-uint kept_apart(SelfCloth cloth, ivec2 cell) {
+uint kept_apart(SelfCloth cloth, ivec2 cell, bool inside) {
     ivec2 last = cloth.first + cloth.grid - 1;
     ivec2 b = ivec2(min(cell.x + 1, last.x), cell.y), c = ivec2(min(cell.x + 2, last.x), cell.y),
           d = ivec2(min(cell.x + 3, last.x), cell.y);
-    vec3 from = at(cell);
-    SelfColumns x = SelfColumns(column_at(cell, last, from), column_at(b, last, from), column_at(c, last, from),
-                                column_at(d, last, from));
+    SelfColumns x =
+        SelfColumns(column_at(cell, last), column_at(b, last), column_at(c, last), column_at(d, last));
     SelfColumns motions =
         SelfColumns(column_moved(cell, last), column_moved(b, last), column_moved(c, last), column_moved(d, last));
-    return self_close_apart(push, cloth, from, x, motions);
+    bool flat_there = inside && self_patch_lies_flat(push, cloth, patch_of(x), patch_of(motions));
+    return self_close_apart(push, cloth, x, motions) | (flat_there ? (1u << self_neighbour_pairs) - 1u : 0u);
 }
 
 /// Bits of the pairs of cells at most two columns and rows apart that a cell of a cloth stands for and that exist.
@@ -74,9 +68,7 @@ uint near_pairs(ivec2 texel) {
     SelfCloth cloth = cloth_at(texel);
     ivec2 own = texel - cloth.first;
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
-    uint neighbours = (1u << self_neighbour_pairs) - 1u;
-    uint apart = kept_apart(cloth, texel) | (inside && lies_flat(cloth, texel) ? neighbours : 0u);
-    return meets ? close_pairs_of(cloth, own) & ~apart : 0u;
+    return meets ? close_pairs_of(cloth, own) & ~kept_apart(cloth, texel, inside) : 0u;
 }
 
 void judge(ivec2 texel) {

@@ -162,7 +162,7 @@ SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
 }
 
-/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: the one with the lower
+/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: that of the lower
 /// place xy, the other zw; neighbours first. Every such pair of a grid is one cell's.
 const int self_neighbour_pairs = 5, self_close_pairs = 13;
 SHARED ivec4 self_close_pair(int k) {

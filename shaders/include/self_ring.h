@@ -40,8 +40,8 @@ SHARED float self_column_size(SelfColumn x) {
 }
 
 SHARED vec3 self_unit(vec3 x) {
-    precise float length = sqrt(self_squared(x));
-    precise vec3 unit = x / length;
+    precise float by = 1.0f / sqrt(self_squared(x));
+    precise vec3 unit = x * by;
     return unit;
 }
 
@@ -115,8 +115,8 @@ SHARED SelfSpread self_turned(SelfSpread x) {
 }
 
 /// What the first column and what the first two columns keep apart from those after them: of pairs of neighbours one
-/// column apart (1) or in one column but for the first's (2), and of pairs two columns apart whose rows are the same (4),
-/// one further on (8) or back (16), or two (32, 64). Rows likewise.
+/// column apart (1) or in one column but for the first's (2), and of pairs two columns apart whose rows are the same
+/// (4), one further on (8) or back (16), or two (32, 64). Rows likewise.
 SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
     float second = self_least(self_least(x.b.x, x.b.y), self_least(x.c.x, x.c.y));
     vec4 lower = self_largest_by_row(x.a, x.b), upper = self_least_by_row(x.c, x.d);
@@ -129,8 +129,8 @@ SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
            (self_clear(self_between(lower.z, lower.w, upper.x, upper.y), play, kept) ? 64u : 0u);
 }
 
-/// What lies before the diagonal from the second column to the second row keeps apart, of a cell itself (1), and what is
-/// on it, of the neighbours right (2), below (4) and past its last corner (8).
+/// What lies before the diagonal from the second column to the second row keeps apart, of a cell itself (1), and what
+/// is on it, of the neighbours right (2), below (4) and past its last corner (8).
 SHARED uint self_diagonal_clear(SelfSpread x, SelfPlay play, float kept_here, float kept) {
     float reached = self_largest(x.a.x, self_largest(x.b.x, x.a.y));
     float here = self_least(self_least(x.b.x, x.a.y), x.b.y), right = self_least(self_least(x.c.x, x.b.y), x.c.y),
@@ -142,18 +142,28 @@ SHARED uint self_diagonal_clear(SelfSpread x, SelfPlay play, float kept_here, fl
            (self_clear(self_between(reached, reached, past, past), play, kept) ? 8u : 0u);
 }
 
-/// Bits of the pairs of self_close_pair that are ruled out. `x`: relative to `from`, a particle of the patch. A patch
-/// over an edge of the cloth repeats its last column or row.
-SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, vec3 from, SelfColumns x, SelfColumns motions) {
+SHARED SelfColumn self_column_from(SelfColumn x, vec3 from) {
+    precise vec3 a = x.a - from;
+    precise vec3 b = x.b - from;
+    precise vec3 c = x.c - from;
+    precise vec3 d = x.d - from;
+    return SelfColumn(a, b, c, d);
+}
+
+/// Bits of the pairs of self_close_pair that are ruled out. A patch over an edge of the cloth repeats its last column
+/// or row.
+SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, SelfColumns at, SelfColumns motions) {
+    // Where coordinates are small.
+    SelfColumns x = SelfColumns(self_column_from(at.a, at.a.a), self_column_from(at.b, at.a.a),
+                                self_column_from(at.c, at.a.a), self_column_from(at.d, at.a.a));
     SelfColumn first = self_columns_sum(x.a, x.b), last = self_columns_sum(x.c, x.d);
     precise vec3 on_columns = self_column_sum(last) - self_column_sum(first);
     precise vec3 on_rows = ((first.c + first.d) + (last.c + last.d)) - ((first.a + first.b) + (last.a + last.b));
     vec3 columns = self_unit(on_columns), rows = self_unit(on_rows);
     precise vec3 across = columns * cloth.spacing.y + rows * cloth.spacing.x;
     SelfPlay play = self_play(x, motions, self_unit(ordered_cross(columns, rows)));
-    precise float farthest =
-        self_largest_coordinate(from) + self_largest(self_largest(self_column_size(x.a), self_column_size(x.b)),
-                                                     self_largest(self_column_size(x.c), self_column_size(x.d)));
+    float farthest = self_largest(self_largest(self_column_size(at.a), self_column_size(at.b)),
+                                  self_largest(self_column_size(at.c), self_column_size(at.d)));
     precise float half_flat = cloth.least_flat * 0.5001f;
     precise float slack = cloth.thickness * self_listed_share;
     precise float doubt = self_doubt(farthest) * 4.0f + push.least;

@@ -39,10 +39,9 @@ struct Patch {
         };
         return {of(pair.x), of(pair.y), of(pair.z), of(pair.w)};
     }
-    glsl::SelfColumns in_columns(const std::array<vec3, across * across>& values, vec3 from) const {
+    glsl::SelfColumns in_columns(const std::array<vec3, across * across>& values) const {
         const auto column = [&](int c) {
-            return glsl::SelfColumn{values[place(c, 0)] - from, values[place(c, 1)] - from, values[place(c, 2)] - from,
-                                    values[place(c, 3)] - from};
+            return glsl::SelfColumn{values[place(c, 0)], values[place(c, 1)], values[place(c, 2)], values[place(c, 3)]};
         };
         return {column(0), column(1), column(2), column(3)};
     }
@@ -55,8 +54,7 @@ glsl::SelfContactPush a_push() {
 }
 
 uint ruled_out(const Patch& patch) {
-    return glsl::self_close_apart(a_push(), patch.cloth, patch.at[0], patch.in_columns(patch.at, patch.at[0]),
-                                  patch.in_columns(patch.moves, {}));
+    return glsl::self_close_apart(a_push(), patch.cloth, patch.in_columns(patch.at), patch.in_columns(patch.moves));
 }
 
 bool is_listed(const Patch& patch, bool edges, glsl::uvec4 pair) {
