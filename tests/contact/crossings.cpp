@@ -1,6 +1,6 @@
 // Which triangles cross in the frames of runs: `crossings RUN...`, folders that `drape simulate` or `drape render`
-// wrote NPY or NPZ files into, judged from these alone. A row per run; exit code 1 where something crosses that the
-// manifest says is proved not to.
+// wrote NPZ files into, which hold the triangles too, judged from these alone. A row per run; exit code 1 where
+// something crosses that the manifest says is proved not to.
 #include <fmt/format.h>
 #include <json/json.h>
 
@@ -41,48 +41,29 @@ Triangles in_threes(const std::vector<std::int32_t>& corners) {
     return triangles;
 }
 
-/// Those of a grid without holes, where no file tells.
-Triangles grid_triangles(std::uint32_t rows, std::uint32_t columns) {
-    Triangles triangles;
-    for (std::uint32_t row = 0; row + 1 < rows; ++row)
-        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
-            const std::uint32_t at = row * columns + column;
-            triangles.push_back({at, at + 1, at + columns});
-            triangles.push_back({at + 1, at + columns + 1, at + columns});
-        }
-    return triangles;
-}
-
-/// The cloth that a file holds the positions of; nothing: it is another file. One cloth alone is not named.
-std::optional<RunCloth> cloth_of(const std::filesystem::path& file, const std::set<std::string>& archives) {
-    const std::string stem = file.stem().string(), kind = file.extension().string();
-    if (!stem.starts_with("positions") || (kind != ".npy" && kind != ".npz")) return {};
-    if (kind == ".npy" && archives.contains(stem)) return {};
+/// The cloth that a file holds; nothing: it is another file. One cloth alone is not named.
+std::optional<RunCloth> cloth_of(const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    if (!stem.starts_with("positions") || file.extension() != ".npz") return {};
     RunCloth cloth{stem == "positions" ? "" : stem.substr(std::strlen("positions_")), {}, {}};
     for (Array& array : compare::load_arrays(file)) {
         if (array.name == "faces" || array.name.starts_with("faces_"))
             cloth.faces[array.name == "faces" ? 0 : std::stoull(array.name.substr(6))] =
                 in_threes(values_of<std::int32_t>(array));
-        else if (array.name.empty() || array.name == "positions")
+        else if (array.name == "positions")
             cloth.positions = std::move(array);
     }
-    const std::vector<std::uint64_t>& shape = cloth.positions.shape;
-    if (cloth.faces.empty())
-        cloth.faces[0] = grid_triangles(static_cast<std::uint32_t>(shape.at(1)), static_cast<std::uint32_t>(shape[2]));
     return cloth;
 }
 
 std::vector<RunCloth> cloths_of(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    std::set<std::string> archives;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        files.push_back(entry.path());
-        if (entry.path().extension() == ".npz") archives.insert(entry.path().stem().string());
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
     std::ranges::sort(files);
     std::vector<RunCloth> cloths;
     for (const auto& file : files)
-        if (std::optional<RunCloth> cloth = cloth_of(file, archives)) cloths.push_back(std::move(*cloth));
+        if (std::optional<RunCloth> cloth = cloth_of(file)) cloths.push_back(std::move(*cloth));
+    if (cloths.empty()) throw std::runtime_error("no NPZ file of positions (drape simulate --export npz)");
     return cloths;
 }
 
