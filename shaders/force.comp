@@ -8,6 +8,7 @@
 #include "include/verlet.h"
 layout(push_constant) uniform Push { ForcePush push; };
 #define TOGETHER
+#include "include/strips.h"
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
@@ -15,9 +16,7 @@ layout(constant_id = 0) const bool advance = false;  // the positions still lack
 VECTOR_OUT(9, DisplacementBefore, displacement_before);
 #endif
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+void predict(ivec2 texel) {
     vec4 position = LOAD(position_in, texel);
     vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
@@ -34,3 +33,5 @@ void main() {
         verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w, push.force_step, push.damping_loss);
     step_displacement(texel, moved, increment, drag_loss(force.w, position.w, push.force_step));
 }
+
+void main() { FOR_STRIP(texel, push.grid, predict(texel)) }

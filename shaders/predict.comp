@@ -10,6 +10,7 @@
 #include "include/verlet.h"
 layout(push_constant) uniform Push { PredictPush push; };
 #define TOGETHER
+#include "include/strips.h"
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
@@ -19,9 +20,9 @@ layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_
 VECTOR_OUT(12, VelocityExcessOut, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+bool second_order;  // read where nothing has branched yet (docs/devices.md)
+
+void predict(ivec2 texel) {
     vec4 position = LOAD(position_in, texel);
     vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
@@ -35,7 +36,7 @@ void main() {
     vec4 force = force_on(texel);
     vec3 increment;
     float loss;
-    if (imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) {
+    if (second_order) {
         vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force.xyz, position.w, push.force_step.y);
         increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
                                    push.loss.y);
@@ -46,4 +47,9 @@ void main() {
         loss = drag_loss(force.w, position.w, push.force_step.x);
     }
     step_displacement(texel, moved, increment, loss);
+}
+
+void main() {
+    second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    FOR_STRIP(texel, push.grid, predict(texel))
 }

@@ -10,6 +10,7 @@ layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfClothPush push; };
 #define STATE_COLUMNS push.columns
 #include "include/state_store.h"
+#include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 VECTOR_KEPT(2, Positions, positions);          // of the sheet, where other cloths' stay
@@ -38,11 +39,11 @@ uint owned(ivec2 texel) {
     return bits;
 }
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+void lay(ivec2 texel) {
     ivec2 laid = push.first + texel;
     STORE_VECTOR(positions, laid, imageLoad(position, texel));
     vec3 moved = imageLoad(displacement, texel).xyz;
     STORE_VECTOR(displacements, laid, vec4(moved, float(owned(texel))));
 }
+
+void main() { FOR_STRIP(texel, push.grid, lay(texel)) }

@@ -10,6 +10,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { SelfClothPush push; };
 #include "include/state_store.h"
+#include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(1, DisplacementOut, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;  // on the sheet
@@ -19,9 +20,7 @@ VECTOR_KEPT(4, DisplacementBefore, displacement_before);
 layout(set = 0, binding = 5, r32ui) uniform uimage2D control;
 #endif
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+void take(ivec2 texel) {
     ivec2 laid = push.first + texel;
     int place = laid.y * push.columns + laid.x;
     if (before[place].w == 0.0f) return;
@@ -35,3 +34,5 @@ void main() {
         imageAtomicMax(control, ivec2(control_hold, 0), line_hold_contact);
 #endif
 }
+
+void main() { FOR_STRIP(texel, push.grid, take(texel)) }

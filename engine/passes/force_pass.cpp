@@ -8,7 +8,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("force.comp", {{"wind", wind}, {"before", before}, {"buffered", state.buffered}}),
-        {{"advance", advances}});
+        {{"advance", advances}, {"strip_rows", pipelines.strip_rows()}});
     graph.add_pass(
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
@@ -23,9 +23,9 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                 state[Field::displacement_before] =
                     setup.write(state[Field::displacement_before], graph::Access::compute_write, "displacement_before");
         },
-        [&pipeline, push = step.push<glsl::ForcePush>(), count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y), count);
+        [&pipeline, push = step.push<glsl::ForcePush>(), rows = pipelines.strips_of(state.model->grid.rows()),
+         count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), rows, count);
         });
     if (step.turns) state.turn_displacement();
 }

@@ -19,8 +19,9 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}), {{"advance", advances}});
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}),
+                      {{"advance", advances}, {"strip_rows", pipelines.strip_rows()}});
     graph.add_pass(
         state.step_name("predict", step),
         [&](graph::PassSetup& setup) {
@@ -33,9 +34,9 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             update(setup, state[Field::velocity_excess], "velocity_excess");
             setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
-        [&pipeline, push = step.push<glsl::PredictPush>(), count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y), count);
+        [&pipeline, push = step.push<glsl::PredictPush>(), rows = pipelines.strips_of(state.model->grid.rows()),
+         count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), rows, count);
         });
 }
 

@@ -28,9 +28,11 @@ class PipelineCache {
     /// Entries of a list that an invocation takes in turn: on a CPU, where one costs as much to begin as some entries,
     /// several.
     std::uint32_t entries_each() const;
-    /// Particles of a column that an invocation looks after in turn, where few of them have work: on a CPU, where what
-    /// one lane of a subgroup does costs as much as if all did it, several.
+    /// Particles of a column that an invocation looks after in turn: several on a CPU, where a workgroup costs as much
+    /// to begin as some particles, and what one lane of a subgroup does as much as if all did it.
     std::uint32_t strip_rows() const;
+    /// So many parts of columns make up all rows.
+    std::uint32_t strips_of(std::size_t rows) const;
     /// As the device's.
     bool wide_atomics() const;
 

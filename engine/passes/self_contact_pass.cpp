@@ -55,6 +55,12 @@ const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const 
         module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
 }
 
+/// Of a pass between a cloth and the sheet: an invocation takes a part of a column.
+glsl::ivec2 over_strips(const PipelineCache& pipelines, const ClothState& cloth) {
+    const glsl::ivec2 size = cloth.model->grid.size();
+    return {size.x, static_cast<int>(pipelines.strips_of(cloth.model->grid.rows()))};
+}
+
 /// Whether some cloths started through each other.
 bool crossed(const Step& step) { return step.push<glsl::SelfContactPush>().crossed_count > 0; }
 
@@ -114,9 +120,10 @@ void add_sized_pass(graph::Graph& graph, const ClothState& contact, const Step& 
 void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
                      const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}, {"buffered", cloth.buffered}}));
-    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather", step), step, pipeline, cloth.model->grid.size(),
-                                  [&](PassSetup& setup) {
+        vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}, {"buffered", cloth.buffered}}),
+        {{"strip_rows", pipelines.strip_rows()}});
+    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather", step), step, pipeline,
+                                  over_strips(pipelines, cloth), [&](PassSetup& setup) {
                                       read(setup, cloth, Field::position, "position");
                                       read(setup, cloth, Field::displacement, "displacement");
                                       if (cloth.masked()) read(setup, cloth, Field::cells, "existing");
@@ -130,9 +137,10 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
                      const Step& step) {
     const bool history = cloth.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("self_return.comp", {{"history", history}, {"buffered", cloth.buffered}}));
-    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self return", step), step, pipeline, cloth.model->grid.size(),
-                                  [&](PassSetup& setup) {
+        pipelines.get(vulkan::variant_name("self_return.comp", {{"history", history}, {"buffered", cloth.buffered}}),
+                      {{"strip_rows", pipelines.strip_rows()}});
+    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self return", step), step, pipeline,
+                                  over_strips(pipelines, cloth), [&](PassSetup& setup) {
                                       read(setup, contact, Field::self_displacements, "displacements");
                                       update_in_place(setup, contact, Field::self_before, "before");
                                       update(setup, cloth[Field::displacement], "displacement");
