@@ -1,6 +1,7 @@
-// Which cells two columns or rows apart, of a patch of 3 x 3, cannot meet in a substep because the cloth between them
-// keeps them apart. Such pairs are most of those whose boxes meet, wherever the cloth lies aslant to the axes. What is
-// ruled out here would not be listed (self_listed_pair): leaving it out changes no bit.
+// Which cells of a patch of 3 x 3 cannot meet in a substep because the cloth between them keeps them apart. Such pairs
+// are most of those whose boxes meet, wherever the cloth is bent or lies aslant to the axes. What is ruled out here
+// would not be listed (self_listed_pair): leaving it out changes no bit. Primitives of a grid that share no corner have
+// their corners on two sides of a column, a row or a diagonal.
 #ifndef DRAPE_SELF_RING_H
 #define DRAPE_SELF_RING_H
 
