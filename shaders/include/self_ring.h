@@ -115,9 +115,9 @@ SHARED SelfSpread self_turned(SelfSpread x) {
                       vec4(x.a.z, x.b.z, x.c.z, x.d.z), vec4(x.a.w, x.b.w, x.c.w, x.d.w));
 }
 
-/// What the first column and what the first two columns keep apart from those after them: of pairs of neighbours one
-/// column apart (1) or in one column but for the first's (2), and of pairs two columns apart whose rows are the same
-/// (4), one further on (8) or back (16), or two (32, 64). Rows likewise.
+/// Which pairs a gap between columns keeps apart. Of neighbours: the first column of the cell from the rest of it and
+/// of the one to its right (1); that of the cell below from the one to the right (2). Of pairs two columns apart: in
+/// the same rows (4), the second a row further on (8) or back (16), or two (32, 64). Rows likewise.
 SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
     float second = self_least(self_least(x.b.x, x.b.y), self_least(x.c.x, x.c.y));
     vec4 lower = self_largest_by_row(x.a, x.b), upper = self_least_by_row(x.c, x.d);

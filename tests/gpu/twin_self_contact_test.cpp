@@ -60,6 +60,23 @@ TEST(TwinSelfContactTest, ClothsOfAKind) {
     expect_contact(scene);
 }
 
+/// On the sheet one begins two rows below where the other ends: as near as cells that their own cloth keeps apart, but
+/// these meet.
+TEST(TwinSelfContactTest, BordersOfClothsThatLieNextToEachOtherOnTheSheet) {
+    SceneDescription scene = test::layers(SolverMethod::line, 10);
+    scene.cloths.resize(1);
+    scene.cloths[0].grid = {15, 15};
+    scene.cloths[0].size = {0.7, 0.7};
+    scene.cloths[0].placement.origin = {-0.35, 0.4, -0.35};
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "second";
+    scene.cloths[1].placement.origin = {-0.325, 0.43, 0.34};
+    scene.cloths[1].velocity = {0, -4, 0};
+    const std::vector<glsl::SelfCloth> laid = SimulationModel(scene).self_contact->cloths;
+    ASSERT_EQ(laid[1].first.y, laid[0].grid.y + 1);
+    expect_contact(scene);
+}
+
 void expect_parting(SceneDescription scene) {
     scene.gravity = {0, -9.81, 0};
     scene.cloths[0].size = {0.6, 1};
