@@ -28,6 +28,7 @@ const std::map<std::string, Kind>& kinds() {
           "SHEETS PARTICLES FRAMES SUBSTEPS APART_MM"}},
         {"crumple",
          {3, [](const Numbers& n) { return crumpled_sheet(n[0], n[1], n[2]); }, "PARTICLES FRAMES SUBSTEPS"}},
+        {"heap", {3, [](const Numbers& n) { return collapsing_strip(n[0], n[1], n[2]); }, "LINKS FRAMES SUBSTEPS"}},
         {"random", {2, [](const Numbers& n) { return random_contact_scene(n[0], n[1]); }, "SEED INDEX"}},
     };
     return all;

@@ -99,4 +99,13 @@ std::string crumpled_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t 
                     n, limp, 0.4 / (n - 1)));
 }
 
+std::string collapsing_strip(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
+    return scene("heap", frames, substeps,
+                 fmt::format(R"("cloths": [{{"name": "strip", "grid": [{}, {}], "size": [0.09, 0.72],
+  "placement": {{"origin": [-0.045, 0.75, 0], "u": [1, 0, 0], "v": [0, -1, 0], "jitter": 1e-5, "seed": 1}},
+  "stiffness": {{"stretch": 400, "shear": 60, "bend": 2e-5}}, "damping": 1.5, "friction": 0.4,
+  "self_collision": {{"thickness": 0.002}}}}], "colliders": {{"planes": [{{"friction": 0.6}}]}})",
+                             n / 8 + 1, n + 1));
+}
+
 }  // namespace drape::test

@@ -23,6 +23,9 @@ std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t fr
 /// An upright sheet of n x n particles, 1 m high, on the ground below a plate that comes down to 6 cm in 6 s.
 std::string crumpled_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
 
+/// A strip 0.72 m long, of n links, let fall on its lower edge: how high it lies in the end does not depend on n.
+std::string collapsing_strip(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
+
 /// Scene number `index` of a seed, the same on every machine: one to three cloths of 5 x 5 to 15 x 15 particles and all
 /// that a scene may hold, mostly thrown at each other; some so wildly that the proof is lost.
 std::string random_contact_scene(std::uint64_t seed, std::uint32_t index);
