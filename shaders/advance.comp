@@ -9,6 +9,9 @@
 #include "include/verlet.h"
 layout(push_constant) uniform Push { GridPush push; };
 #define TOGETHER
+#ifndef HOME
+#define IN_PLACE
+#endif
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool collides = false;

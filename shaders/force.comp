@@ -9,6 +9,7 @@
 layout(push_constant) uniform Push { ForcePush push; };
 #define TOGETHER
 #include "include/strips.h"
+#define IN_PLACE
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement

@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { LinePush push; };
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
+TRIPLE_OUT(2, DisplacementOut, displacement_out);
 // Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
 // leaves the spring after it. An invocation reads what it wrote itself.
 layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D scratch_in;
@@ -250,7 +250,7 @@ void substitute_springs(Line line) {
         change = has_spring ? change : 0.0f;
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
-        if (p <= line.last) STORE_VECTOR(displacement_out, first.at, vec4(moved, first.moved.w));
+        if (p <= line.last) STORE_TRIPLE(displacement_out, first.at, moved, first.moved.w);
         float tension =
             changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
         if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));

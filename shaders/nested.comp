@@ -16,11 +16,11 @@ layout(push_constant) uniform Push { NestedPush push; };
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform coherent readonly image2D displacement_in;
-coherent VECTOR_OUT(2, DisplacementOut, displacement_out);
+coherent TRIPLE_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, std430) readonly buffer Table { ivec4 table[]; };
 // Of the spring of a direction that a particle owns: xy eliminated, z its tension before the sweep, m.
 layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D rows_in;
-coherent VECTOR_OUT(5, RowsOut, rows_out);
+coherent TRIPLE_OUT(5, RowsOut, rows_out);
 layout(set = 0, binding = 6, r32f) uniform coherent readonly image2D tension_row_in;
 coherent SCALAR_OUT(7, TensionRowOut, tension_row_out);
 layout(set = 0, binding = 8, r32f) uniform coherent readonly image2D tension_column_in;
@@ -112,7 +112,7 @@ void eliminate_line(NestedLine line) {
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
                                       second.position.w, share_of(line, first), line.compression, line.compliance,
                                       tension);
-        STORE_VECTOR(rows_out, first.at, vec4(eliminated, tension, 0.0f));
+        STORE_TRIPLE(rows_out, first.at, vec3(eliminated, tension), 0.0f);
         normal_after = spring.normal;
         spring = spring_before;
         second = first;
@@ -134,7 +134,7 @@ void substitute_line(NestedLine line) {
         change = has_spring ? change : 0.0f;
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
-        STORE_VECTOR(displacement_out, first.at, vec4(moved, first.displacement.w));
+        STORE_TRIPLE(displacement_out, first.at, moved, first.displacement.w);
         float share = share_of(line, first);
         float tension = changed_tension(row.z, change, share, line.compliance);
         // The spring across the box's seam is not the box's.
@@ -172,8 +172,8 @@ void main() {
     if (imageLoad(position, pin).w != 0.0f) return;
     bool second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
     for (int block = 0; block < push.block_count; ++block) {
-        NestedBox box = nested_box(pin, table[block].x, push.grid);
-        for (int sweep = 0; sweep < table[block].y; ++sweep) {
+        NestedBox box = nested_box(pin, table[block].xy, push.grid);
+        for (int sweep = 0; sweep < table[block].z; ++sweep) {
             // Not a loop: compiled for one direction at a time, a sweep looks at its own tension alone.
             sweep_order(box, 0, second_order);
             sweep_order(box, 1, second_order);

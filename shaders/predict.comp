@@ -11,13 +11,14 @@
 layout(push_constant) uniform Push { PredictPush push; };
 #define TOGETHER
 #include "include/strips.h"
+#define IN_PLACE
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
-VECTOR_OUT(10, DisplacementBeforeOut, displacement_before_out);
+TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
-VECTOR_OUT(12, VelocityExcessOut, velocity_excess_out);
+TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
 
 bool second_order;  // read where nothing has branched yet (docs/devices.md)
@@ -30,8 +31,8 @@ void predict(ivec2 texel) {
     vec3 before = LOAD(displacement_before_in, texel).xyz;
     vec3 excess_before = LOAD(velocity_excess_in, texel).xyz;
     vec3 excess = velocity_excess(displacement, before);
-    STORE_VECTOR(displacement_before_out, texel, vec4(displacement, 0.0f));
-    STORE_VECTOR(velocity_excess_out, texel, vec4(excess, 0.0f));
+    STORE_TRIPLE(displacement_before_out, texel, displacement, 0.0f);
+    STORE_TRIPLE(velocity_excess_out, texel, excess, 0.0f);
     if (position.w == 0.0f) return;
     vec4 force = force_on(texel);
     vec3 increment;

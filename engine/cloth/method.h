@@ -40,7 +40,8 @@ struct MethodPlan {
     bool spare_displacement = false;  ///< sweeps of all springs of an iteration may read one and write the other
     bool second_order = false;        ///< displacement before, velocity excess, line control
     bool line_scratch = false;        ///< lines are solved: line scratch and rows
-    std::vector<glsl::ivec4> nested_table{};  ///< blocks: radius, sweeps; then pins: column, row, pins of their round
+    /// Blocks: radius in columns, in rows, sweeps; then pins: column, row, pins of their round.
+    std::vector<glsl::ivec4> nested_table{};
     /// By direction: from iteration to iteration, from substep to substep, or to the release of a pin.
     PerDirection<bool> carries_tension{};
     glsl::vec4 release_stiffness{};  ///< k h^2/m_inner by direction, where a release asks for tension; else 0

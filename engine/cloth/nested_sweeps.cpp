@@ -3,33 +3,46 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "shared/nested_types.h"
+
 namespace drape {
+
+namespace glsl {
+#include "include/nested.h"
+}  // namespace glsl
 
 namespace {
 
 using glsl::ivec2;
-using glsl::ivec4;
 
-/// Sweeps over the box of a radius around a pin.
+/// Sweeps over the box of particles within `radius` columns and rows of a pin.
 struct NestedBlock {
-    int radius, sweeps;
+    ivec2 radius;
+    int sweeps;
 };
 
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// Walks up to the largest box and back, with the smallest again and again. Boxes around inner particles have one line
-/// less than a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes along
-/// at a time. The last list is for 384 links and more. None where more substeps are cheaper.
+/// Rows on either side of a pin: on the default device a shader's loops end after some 65,535 rounds.
+constexpr int longest_strip = 2048;
+
+/// Up to the largest box and back, with the smallest again and again, and once the strip around the pin's column, which
+/// carries far more than the columns beside it, all the way down. Boxes around inner particles have one line less than
+/// a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes along at a time.
+/// None where more substeps are cheaper. How the lists were found: docs/solvers.md.
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
+    const auto box = [](int radius, int sweeps) { return NestedBlock{{radius, radius}, sweeps}; };
+    const NestedBlock strip{{7, std::min(grid.size().y, longest_strip)}, 1};
     const std::uint32_t links = std::max(grid.columns(), grid.rows()) - 1;
     if (links < 48) return {};
-    if (links < 96) return {{7, 4}, {15, 1}, {7, 4}};
-    if (links < 192) return {{7, 4}, {15, 2}, {7, 4}, {31, 1}, {7, 4}, {15, 2}, {7, 4}};
+    if (links < 96) return {box(7, 4), box(15, 1), strip, box(7, 2)};
+    if (links < 192) return {box(7, 4), box(15, 1), box(7, 4), box(31, 1), strip, box(7, 4), box(15, 2), box(7, 4)};
     if (links < 384)
-        return {{7, 8}, {15, 4}, {7, 8}, {31, 4}, {7, 8}, {63, 2}, {7, 8}, {31, 4}, {7, 8}, {15, 4}, {7, 8}};
-    return {{7, 8}, {15, 4}, {7, 8}, {31, 4}, {7, 8}, {63, 2}, {7, 8}, {127, 1},
-            {7, 8}, {63, 2}, {7, 8}, {31, 4}, {7, 8}, {15, 4}, {7, 8}};
+        return {strip,      box(7, 8), box(15, 4), box(7, 8), box(31, 2), box(7, 8),
+                box(63, 1), box(7, 8), box(31, 2), box(7, 8), box(15, 4), box(7, 8)};
+    return {strip,       box(7, 8), box(15, 4), box(7, 8), box(31, 2), box(7, 8), box(63, 1), box(7, 8),
+            box(127, 1), box(7, 8), box(63, 1), box(7, 8), box(31, 2), box(7, 8), box(15, 4), box(7, 8)};
 }
 
 /// Held particles of the cloth without a held neighbour: column, row.
@@ -56,23 +69,29 @@ std::vector<ivec2> lone_pins(const ClothGeometry& cloth) {
 double visits(const Grid& grid, ivec2 pin, const std::vector<NestedBlock>& blocks) {
     double sum = 0;
     for (const NestedBlock& block : blocks) {
-        const auto extent = [radius = block.radius](int at, int count) {
-            return std::min(at + radius, count - 1) - std::max(at - radius, 0) + 1;
-        };
-        sum += static_cast<double>(block.sweeps) * extent(pin.x, grid.size().x) * extent(pin.y, grid.size().y);
+        const ivec2 size = glsl::nested_box(pin, block.radius, grid.size()).size;
+        sum += static_cast<double>(block.sweeps) * size.x * size.y;
     }
     return sum;
 }
 
-/// Pins in rounds, within which the largest boxes share no particle.
-std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, int radius) {
+/// Whether no block of one pin shares a particle with one of another.
+bool apart(ivec2 pin, ivec2 other, const std::vector<NestedBlock>& blocks) {
+    const ivec2 distance{std::abs(pin.x - other.x), std::abs(pin.y - other.y)};
+    return std::ranges::all_of(blocks, [&](const NestedBlock& a) {
+        return std::ranges::all_of(blocks, [&](const NestedBlock& b) {
+            return distance.x > a.radius.x + b.radius.x || distance.y > a.radius.y + b.radius.y;
+        });
+    });
+}
+
+/// Pins in rounds, within which all are apart.
+std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const std::vector<NestedBlock>& blocks) {
     std::vector<std::vector<ivec2>> rounds;
     for (const ivec2 pin : pins) {
-        const auto apart = [&](const ivec2& other) {
-            return std::max(std::abs(pin.x - other.x), std::abs(pin.y - other.y)) > 2 * radius;
-        };
-        const auto free = std::ranges::find_if(
-            rounds, [&](const std::vector<ivec2>& round) { return std::ranges::all_of(round, apart); });
+        const auto free = std::ranges::find_if(rounds, [&](const std::vector<ivec2>& round) {
+            return std::ranges::all_of(round, [&](ivec2 other) { return apart(pin, other, blocks); });
+        });
         if (free != rounds.end())
             free->push_back(pin);
         else
@@ -118,9 +137,9 @@ void add_nested_sweeps(const ClothGeometry& cloth, MethodPlan& plan) {
     for (const ivec2 pin : pins) sum += visits(cloth.grid, pin, blocks);
     if (sum > most_visits * static_cast<double>(cloth.grid.particle_count()))
         return skip("so many lone pins: more substeps are cheaper");
-    for (const auto& [radius, sweeps] : blocks) plan.nested_table.push_back({radius, sweeps, 0, 0});
+    for (const auto& [radius, sweeps] : blocks) plan.nested_table.push_back({radius.x, radius.y, sweeps, 0});
     push.block_count = static_cast<int>(blocks.size());
-    for (const std::vector<ivec2>& round : rounds_of(pins, std::ranges::max(blocks, {}, &NestedBlock::radius).radius)) {
+    for (const std::vector<ivec2>& round : rounds_of(pins, blocks)) {
         push.first_pin = static_cast<int>(plan.nested_table.size());
         for (const ivec2 pin : round) plan.nested_table.push_back({pin.x, pin.y, static_cast<int>(round.size()), 0});
         plan.iterated.push_back({StepKind::nested, push});

@@ -8,6 +8,10 @@
 
 namespace drape {
 
+namespace glsl {
+#include "include/nested.h"
+}  // namespace glsl
+
 namespace {
 
 /// Rounds of loops of an invocation of `width` that go along the lines of the boxes around a pin.
@@ -15,14 +19,11 @@ std::uint64_t loop_rounds(const ClothModel& model, const glsl::NestedPush& push,
     std::uint64_t rounds = 0;
     for (int block = 0; block < push.block_count; ++block) {
         const glsl::ivec4& entry = model.plan.nested_table[static_cast<std::size_t>(block)];
-        const auto side = [radius = entry.x](int at, int count) {
-            return std::min(at + radius, count - 1) - std::max(at - radius, 0) + 1;
-        };
-        const int columns = side(pin.x, push.grid.x), rows = side(pin.y, push.grid.y);
+        const auto [columns, rows] = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
         for (const SpringDirection& direction : spring_directions) {
             const int lines = direction.offset.y == 0 ? rows : columns;
             const int particles = direction.offset.y == 0 ? columns : rows;
-            rounds += static_cast<std::uint64_t>(entry.y) * ((lines + width - 1) / width) * (2 * particles + 2);
+            rounds += static_cast<std::uint64_t>(entry.z) * ((lines + width - 1) / width) * (2 * particles + 2);
         }
     }
     return rounds;

@@ -96,9 +96,9 @@ void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
         const ivec2 pin{table[k].x, table[k].y};
         if (state[Field::position][at(model.grid, pin)].w != 0.0f) continue;
         for (std::size_t block = 0; block < static_cast<std::size_t>(push.block_count); ++block)
-            for (int sweep = 0; sweep < table[block].y; ++sweep)
+            for (int sweep = 0; sweep < table[block].z; ++sweep)
                 for (int order = 0; order < 4; ++order)
-                    sweep_direction(model, state, push, nested_box(pin, table[block].x, push.grid),
+                    sweep_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
                                     nested_direction(order), is_bdf2);
     }
 }

@@ -3,15 +3,15 @@
 #ifndef DRAPE_NESTED_H
 #define DRAPE_NESTED_H
 
-/// Particles with |column - pin| and |row - pin| <= radius, as far as the sheet reaches.
+/// Particles with |column - pin| <= radius.x and |row - pin| <= radius.y, as far as the sheet reaches.
 struct NestedBox {
     ivec2 first, size;
 };
 
-SHARED NestedBox nested_box(ivec2 pin, int radius, ivec2 grid) {
-    ivec2 first = ivec2(pin.x > radius ? pin.x - radius : 0, pin.y > radius ? pin.y - radius : 0);
-    ivec2 last = ivec2(pin.x + radius < grid.x ? pin.x + radius : grid.x - 1,
-                       pin.y + radius < grid.y ? pin.y + radius : grid.y - 1);
+SHARED NestedBox nested_box(ivec2 pin, ivec2 radius, ivec2 grid) {
+    ivec2 first = ivec2(pin.x > radius.x ? pin.x - radius.x : 0, pin.y > radius.y ? pin.y - radius.y : 0);
+    ivec2 last = ivec2(pin.x + radius.x < grid.x ? pin.x + radius.x : grid.x - 1,
+                       pin.y + radius.y < grid.y ? pin.y + radius.y : grid.y - 1);
     return NestedBox(first, ivec2(last.x - first.x + 1, last.y - first.y + 1));
 }
 

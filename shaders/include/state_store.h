@@ -1,7 +1,8 @@
 // How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
 // memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
-// either way. VECTOR_KEPT: not all of its texels are written. Needs `push.grid`; STATE_COLUMNS: the images' own, where
-// that is not theirs.
+// either way. VECTOR_KEPT: not all of its texels are written. TRIPLE_OUT, STORE_TRIPLE: updated in place where what is
+// `beside` xyz stays as it is; a buffer need not be told, and takes it in less time. Needs `push.grid`; STATE_COLUMNS:
+// the images' own, where that is not theirs.
 #include "include/together.h"
 #ifndef STATE_COLUMNS
 #define STATE_COLUMNS push.grid.x
@@ -12,16 +13,21 @@ int vector_pitch() { return (STATE_COLUMNS + state_row_alignment / 16 - 1) & ~(s
 int scalar_pitch() { return (STATE_COLUMNS + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
 #define VECTOR_OUT(slot, block, name) \
     layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
+#define TRIPLE_OUT(slot, block, name) \
+    layout(set = 0, binding = slot, std430) writeonly buffer block { StateTriple name[]; }
 #define SCALAR_OUT(slot, block, name) \
     layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
 #define VECTOR_KEPT(slot, block, name) \
     layout(set = 0, binding = slot, std430) buffer block { vec4 name[]; }
 #define STORE_VECTOR(name, texel, value) name[placed(texel).y * vector_pitch() + (texel).x] = value
+#define STORE_TRIPLE(name, texel, value, beside) name[placed(texel).y * vector_pitch() + (texel).x].xyz = value
 #define STORE_SCALAR(name, texel, value) name[placed(texel).y * scalar_pitch() + (texel).x] = value
 #else
 #define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform writeonly image2D name
+#define TRIPLE_OUT VECTOR_OUT
 #define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, r32f) uniform writeonly image2D name
 #define VECTOR_KEPT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform image2D name
 #define STORE_VECTOR(name, texel, value) imageStore(name, placed(texel), value)
+#define STORE_TRIPLE(name, texel, value, beside) imageStore(name, placed(texel), vec4(value, beside))
 #define STORE_SCALAR(name, texel, value) imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f))
 #endif

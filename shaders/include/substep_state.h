@@ -1,17 +1,24 @@
 // What the passes share that carry a cloth's state from substep to substep: its images, and the compensated sums that
-// move position and displacement on. WIND: the wind's force is one of the images. Needs `verlet.h`
-// and `push.grid`.
+// move position and displacement on. WIND: the wind's force is one of the images. IN_PLACE: what
+// is written are the images that are read. Needs `verlet.h` and `push.grid`.
 #include "include/state_store.h"
+#ifdef IN_PLACE
+#define STATE_OUT TRIPLE_OUT
+#define STORE_STATE STORE_TRIPLE
+#else
+#define STATE_OUT VECTOR_OUT
+#define STORE_STATE(name, texel, value, beside) STORE_VECTOR(name, texel, vec4(value, beside))
+#endif
 
 layout(local_size_x = workgroup_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-VECTOR_OUT(1, PositionOut, position_out);
+STATE_OUT(1, PositionOut, position_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(3, DisplacementOut, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
-VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
+STATE_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
+STATE_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef WIND
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 #endif
@@ -19,8 +26,8 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 /// X += d.
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, LOAD(position_remainder_in, texel).xyz);
-    STORE_VECTOR(position_out, texel, vec4(advanced.value, position.w));
-    STORE_VECTOR(position_remainder_out, texel, vec4(advanced.remainder, 0.0f));
+    STORE_STATE(position_out, texel, advanced.value, position.w);
+    STORE_STATE(position_remainder_out, texel, advanced.remainder, 0.0f);
 }
 
 /// d += increment, less what the wind's drag takes away: the share `loss`. `displacement`: with what is beside it.
@@ -28,7 +35,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
     CompensatedSum stepped = compensated_add(displacement.xyz, counted, LOAD(displacement_remainder_in, texel).xyz);
     STORE_VECTOR(displacement_out, texel, vec4(stepped.value, loss));
-    STORE_VECTOR(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
+    STORE_STATE(displacement_remainder_out, texel, stepped.remainder, 0.0f);
 }
 
 /// On the particle of a texel: N; w: its drag, N/m.

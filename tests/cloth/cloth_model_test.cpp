@@ -255,6 +255,10 @@ TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
     EXPECT_EQ(table[first].z, 2);
     EXPECT_EQ(table[first + 1].x, 64);
     EXPECT_EQ(table[static_cast<std::size_t>(nested()[1].first_pin)].x, 30);
+    // A strip around a pin's column goes from end to end; so two in a column take turns.
+    EXPECT_TRUE(std::ranges::any_of(table, [](const glsl::ivec4& block) { return block.x == 7 && block.y >= 64; }));
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(0, 64, 0, 64)};
+    EXPECT_EQ(nested().size(), 2u);
     // A pair holds each other.
     cloth.pins = {test::pin_box(0, 0, 1, 0)};
     EXPECT_TRUE(nested().empty());
