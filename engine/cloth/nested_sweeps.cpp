@@ -36,7 +36,7 @@ std::vector<NestedBlock> nested_blocks(const Grid& grid) {
     const NestedBlock strip{{7, std::min(grid.size().y, longest_strip)}, 1};
     const std::uint32_t links = std::max(grid.columns(), grid.rows()) - 1;
     if (links < 48) return {};
-    if (links < 96) return {box(7, 4), box(15, 1), strip, box(7, 2)};
+    if (links < 96) return {strip, box(7, 3), box(15, 1), box(7, 3)};
     if (links < 192) return {box(7, 4), box(15, 1), box(7, 4), box(31, 1), strip, box(7, 4), box(15, 2), box(7, 4)};
     if (links < 384)
         return {strip,      box(7, 8), box(15, 4), box(7, 8), box(31, 2), box(7, 8),
