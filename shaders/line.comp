@@ -5,6 +5,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BENT BUFFERED
+#ifdef BUFFERED
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/line.h"
@@ -21,19 +24,26 @@ layout(push_constant) uniform Push { LinePush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(2, DisplacementOut, displacement_out);
-// Of particle p of a line: eliminated, then xyz what the first system changes of its displacement and w the tension that it
-// leaves the spring after it. An invocation reads what it wrote itself.
+// Two texels for each particle p of a line. The first: eliminated, then xyz what the first system changes of its
+// displacement and w the tension that it leaves the spring after it. The second, xy: that spring, eliminated; before, x: of
+// particle p of a line that bends. An invocation reads what it wrote itself. Buffers take both as pairs of floats: on the
+// default device every store is a loop over the lanes of its own, whose rounds cost by the element.
 layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D scratch_in;
+#ifdef BUFFERED
+struct TwoTexels {
+    u64vec3 pairs;
+    uint64_t unused;
+};
+layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels scratch_out[]; };
+#else
 coherent VECTOR_OUT(4, ScratchOut, scratch_out);
+#endif
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
-// xy: of spring e of a line, eliminated; before, x: of particle e of a line that bends.
-layout(set = 0, binding = 9, rgba32f) uniform coherent readonly image2D rows_in;
-coherent VECTOR_OUT(10, RowsOut, rows_out);
 layout(constant_id = 0) const bool first_iteration = true;  // both systems; later iterations repeat the second alone
 
 /// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
@@ -68,15 +78,26 @@ int place(Line line, int p) {
     return (group * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
 }
 
-/// The scratch images are addressed as if they had only one row.
-ivec2 scratch_texel(int place) { return ivec2(place & (line_scratch_width - 1), place / line_scratch_width); }
+/// The scratch image is addressed as if it had only one row.
+ivec2 scratch_texel(int texel) { return ivec2(texel & (line_scratch_width - 1), texel / line_scratch_width); }
+
+vec4 load_first(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p))); }
+
+vec2 load_second(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
 
 #ifdef BUFFERED
-#define STORE_SCRATCH(name, line, p, value) name[place(line, p)] = value
-#else
-#define STORE_SCRATCH(name, line, p, value) imageStore(name, scratch_texel(place(line, p)), value)
+uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
 #endif
-#define LOAD_SCRATCH(name, line, p) imageLoad(name, scratch_texel(place(line, p)))
+
+void store_scratch(Line line, int p, vec4 first, vec2 second) {
+#ifdef BUFFERED
+    scratch_out[place(line, p)].pairs =
+        u64vec3(pair(first.x, first.y), pair(first.z, first.w), pair(second.x, second.y));
+#else
+    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
+    imageStore(scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
+#endif
+}
 
 float share_of(Line line, ivec2 first) {
 #ifdef MASKED
@@ -120,8 +141,7 @@ float stiffness_of(Line line, LineParticle first, LineParticle second, float sha
 
 #ifdef BENT
 void store_bent(Line line, int p, BentParticle particle) {
-    STORE_SCRATCH(scratch_out, line, p, vec4(particle.turn, particle.by_turn));
-    STORE_SCRATCH(rows_out, line, p, vec4(particle.by_shift, 0.0f, 0.0f, 0.0f));
+    store_scratch(line, p, vec4(particle.turn, particle.by_turn), vec2(particle.by_shift, 0.0f));
 }
 
 /// The first system, from the line's start on.
@@ -163,7 +183,7 @@ void eliminate_particles(Line line) {
         stiffness = has_spring ? stiffness : 0.0f;
         eliminated =
             eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        if (p <= line.last) STORE_SCRATCH(scratch_out, line, p, eliminated);
+        if (p <= line.last) store_scratch(line, p, eliminated, vec2(0.0f, 0.0f));
         particle = next;
         edge_before = edge;
         stiffness_before = stiffness;
@@ -176,10 +196,10 @@ void eliminate_particles(Line line) {
 vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
     if (!first_iteration) return vec3(0.0f, 0.0f, 0.0f);
 #ifdef BENT
-    turn = substitute_turn(LOAD_SCRATCH(scratch_in, line, p), LOAD_SCRATCH(rows_in, line, p).x, turn, delta_after);
+    turn = substitute_turn(load_first(line, p), load_second(line, p).x, turn, delta_after);
     return bent_delta(delta_after, turn);
 #else
-    return substitute_particle(LOAD_SCRATCH(scratch_in, line, p), delta_after);
+    return substitute_particle(load_first(line, p), delta_after);
 #endif
 }
 
@@ -202,7 +222,7 @@ float eliminate_springs(Line line) {
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
     vec3 delta = delta_of(line, line.last, vec3(0.0f, 0.0f, 0.0f), turn);
     vec3 moved_second = filtered(second, delta);
-    STORE_SCRATCH(scratch_out, line, line.last, vec4(delta, 0.0f));
+    store_scratch(line, line.last, vec4(delta, 0.0f), vec2(0.0f, 0.0f));
     delta = delta_of(line, line.last - 1, delta, turn);
     LineParticle first = particle_before(line, second);
     vec3 moved_first = filtered(first, delta);
@@ -218,10 +238,7 @@ float eliminate_springs(Line line) {
         largest = larger_violation(largest, spring, share, line.compression, tension);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
                                       second.position.w, share, line.compression, line.compliance, tension);
-        if (e >= 0) {
-            STORE_SCRATCH(rows_out, line, e, vec4(eliminated, 0.0f, 0.0f));
-            STORE_SCRATCH(scratch_out, line, e, vec4(delta, tension));
-        }
+        if (e >= 0) store_scratch(line, e, vec4(delta, tension), eliminated);
         normal_after = spring.normal;
         spring = spring_before;
         second = first;
@@ -237,16 +254,16 @@ void substitute_springs(Line line) {
     float change_before = 0.0f;
     vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
     LineParticle first = load_particle(line_start(line.index, line.step));
-    vec4 delta = LOAD_SCRATCH(scratch_in, line, 0);  // w: the tension of the spring after it
+    vec4 delta = load_first(line, 0);  // w: the tension of the spring after it
     vec3 moved_first = filtered(first, delta.xyz);
     FOR_SOME_AT_A_TIME(p, 0, line.last, 1) {
         bool has_spring = p < line.last;
         LineParticle second = particle_after(line, first);
-        vec4 delta_after = LOAD_SCRATCH(scratch_in, line, has_spring ? p + 1 : line.last);
+        vec4 delta_after = load_first(line, has_spring ? p + 1 : line.last);
         vec3 moved_second = filtered(second, delta_after.xyz);
         LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
         vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
-        float change = substitute_spring(LOAD_SCRATCH(rows_in, line, has_spring ? p : line.last).xy, change_before);
+        float change = substitute_spring(load_second(line, has_spring ? p : line.last), change_before);
         change = has_spring ? change : 0.0f;
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);

@@ -154,7 +154,6 @@ const std::vector<FieldRow>& rows() {
          particles},
         // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
-        {Field::line_rows, "line rows", stored, vector, device, line_solved, line_scratch},
         {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
         {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
          [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
@@ -221,7 +220,7 @@ FieldExtent line_scratch_extent(const Grid& grid) {
     const std::uint64_t columns = grid.columns(), rows = grid.rows();
     const auto in_groups = [](std::uint64_t lines) { return (lines + group - 1) / group * group; };
     const std::uint64_t places = std::max(in_groups(rows) * columns, in_groups(columns) * rows);
-    return {width, (places + width - 1) / width};
+    return {width, (2 * places + width - 1) / width};
 }
 
 std::uint32_t residual_strip_count(const Grid& grid) {

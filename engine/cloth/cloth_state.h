@@ -26,8 +26,7 @@ enum class Field : std::uint8_t {
     displacement_spare,  ///< where sweeps of springs do, too
     position_remainder_spare,
     displacement_remainder_spare,
-    line_scratch,              ///< within a pass: by particle of a line (shaders/line.comp)
-    line_rows,                 ///< likewise by spring
+    line_scratch,              ///< within a pass: two texels by particle of a line (shaders/line.comp)
     nested_rows,               ///< likewise by first particle (shaders/nested.comp)
     nested_sweeps,             ///< MethodPlan::nested_table
     displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end

@@ -4,8 +4,6 @@
 
 #include "graph/dump.h"
 #include "graph/executor.h"
-#include "shared/simulation_types.h"
-#include "shared/struct_layout.h"
 #include "vulkan/api.h"
 #include "vulkan/structure.h"
 
@@ -23,13 +21,6 @@ std::string_view access_text(bool reads, bool writes) {
 const ReflectedDescriptor* find(const vulkan::Pipeline& pipeline, std::string_view variable) {
     const auto found = std::ranges::find(pipeline.descriptors(), variable, &ReflectedDescriptor::name);
     return found == pipeline.descriptors().end() ? nullptr : &*found;
-}
-
-/// Whether a buffer's elements are texels of a format, whole or for passes that write a part of them.
-bool views_texels(const ReflectedDescriptor& shader, VkFormat format) {
-    if (!shader.element) return shader.stride == vulkan::texel_size(format);
-    return format == VK_FORMAT_R32G32B32A32_SFLOAT &&
-           vulkan::element_difference(shader, glsl::layout_of<glsl::StateTriple>()).empty();
 }
 
 }  // namespace
@@ -75,7 +66,8 @@ void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_v
         return;
     }
     if (!as_image && resource.image.buffer_view) {
-        if (!views_texels(*descriptor, resource.image.format))
+        // Structs are for passes that write parts of texels, or two at a time.
+        if (descriptor->stride == 0 || descriptor->stride % vulkan::texel_size(resource.image.format) != 0)
             unfit(fmt::format("is a buffer of {} texels, the shader has other elements",
                               format_name(resource.image.format)));
         return;

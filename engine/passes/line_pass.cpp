@@ -54,7 +54,6 @@ void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
             update(setup, state[Field::line_scratch], "scratch");
-            update(setup, state[Field::line_rows], "rows");
             update(setup, state[tension_of(direction)], "tension");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");

@@ -29,6 +29,7 @@ std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
 }
 
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
+    if (!device.wide_integers()) return "the device's shaders have no integers of 64 bits";
     const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
     std::vector<std::pair<VkFormat, FieldExtent>> images = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
                                                             {VK_FORMAT_R32_SFLOAT, {width, height}},

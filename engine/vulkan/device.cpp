@@ -119,8 +119,9 @@ void Device::read_features(WideAtomics wide) {
     auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     all.pNext = &features12;
     vkGetPhysicalDeviceFeatures2(physical_, &all);
-    wide_atomics_ = wide == WideAtomics::where_there_are && all.features.shaderInt64 == VK_TRUE &&
-                    features12.shaderBufferInt64Atomics == VK_TRUE;
+    wide_integers_ = all.features.shaderInt64 == VK_TRUE;
+    wide_atomics_ =
+        wide == WideAtomics::where_there_are && wide_integers_ && features12.shaderBufferInt64Atomics == VK_TRUE;
 }
 
 void Device::create() {
@@ -135,7 +136,7 @@ void Device::create() {
     features13.pNext = &features12;
     VkPhysicalDeviceFeatures features{};
     features.shaderClipDistance = VK_TRUE;
-    features.shaderInt64 = features12.shaderBufferInt64Atomics;
+    features.shaderInt64 = wide_integers_ ? VK_TRUE : VK_FALSE;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;

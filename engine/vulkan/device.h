@@ -53,7 +53,9 @@ class Device {
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
-    /// Whether shaders may add integers of 64 bits in buffers atomically.
+    /// Whether shaders have integers of 64 bits.
+    bool wide_integers() const { return wide_integers_; }
+    /// Whether they may add such integers in buffers atomically.
     bool wide_atomics() const { return wide_atomics_; }
     /// Whether subgroups of compute shaders have so many invocations and can shuffle.
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
@@ -100,6 +102,7 @@ class Device {
     std::uint32_t queue_family_ = 0;
     std::uint32_t timestamp_valid_bits_ = 0;
     std::uint32_t max_push_descriptors_ = 0;
+    bool wide_integers_ = false;
     bool wide_atomics_ = false;
     std::uint32_t shuffling_lanes_ = 0;  ///< of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;

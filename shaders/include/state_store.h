@@ -13,6 +13,10 @@ int vector_pitch() { return (STATE_COLUMNS + state_row_alignment / 16 - 1) & ~(s
 int scalar_pitch() { return (STATE_COLUMNS + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
 #define VECTOR_OUT(slot, block, name) \
     layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
+struct StateTriple {
+    vec3 xyz;
+    float beside;
+};
 #define TRIPLE_OUT(slot, block, name) \
     layout(set = 0, binding = slot, std430) writeonly buffer block { StateTriple name[]; }
 #define SCALAR_OUT(slot, block, name) \

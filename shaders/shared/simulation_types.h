@@ -14,12 +14,6 @@ const int workgroup_width = 64;
 /// Bytes: rows of a state image's buffer view begin at multiples of it (include/state_store.h).
 const int state_row_alignment = 64;
 
-/// A texel of a vector image in its buffer view, for passes that write xyz alone.
-struct StateTriple {
-    vec3 xyz;
-    float beside;
-};
-
 /// One parity pass of one spring direction (engine/cloth/directions.h).
 struct SpringPush {
     ivec2 grid;           // columns, rows
