@@ -66,8 +66,10 @@ void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_v
         return;
     }
     if (!as_image && resource.image.buffer_view) {
+        const std::uint32_t texel = vulkan::texel_size(resource.image.format), stride = descriptor->stride;
         // Structs are for passes that write parts of texels, or two at a time.
-        if (descriptor->stride == 0 || descriptor->stride % vulkan::texel_size(resource.image.format) != 0)
+        const bool fits = descriptor->element ? stride > 0 && stride % texel == 0 : stride == texel;
+        if (!fits)
             unfit(fmt::format("is a buffer of {} texels, the shader has other elements",
                               format_name(resource.image.format)));
         return;
