@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "cloth/directions.h"
 #include "shared/nested_types.h"
 
 namespace drape {
@@ -24,8 +25,8 @@ struct NestedBlock {
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// Rows on either side of a pin: on the default device a shader's loops end after some 65,535 rounds.
-constexpr int longest_strip = 2048;
+/// Rows on either side of a pin, so that all blocks together stay below most_loop_rounds.
+constexpr int longest_strip = 1024;
 
 /// Up to the largest box and back, with the smallest again and again, and once the strip around the pin's column, which
 /// carries far more than the columns beside it, all the way down. Boxes around inner particles have one line less than
@@ -144,6 +145,20 @@ void add_nested_sweeps(const ClothGeometry& cloth, MethodPlan& plan) {
         for (const ivec2 pin : round) plan.nested_table.push_back({pin.x, pin.y, static_cast<int>(round.size()), 0});
         plan.iterated.push_back({StepKind::nested, push});
     }
+}
+
+std::uint64_t nested_rounds(const MethodPlan& plan, const glsl::NestedPush& push, ivec2 pin, int width) {
+    std::uint64_t rounds = 0;
+    for (int block = 0; block < push.block_count; ++block) {
+        const glsl::ivec4& entry = plan.nested_table[static_cast<std::size_t>(block)];
+        const auto [columns, rows] = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
+        for (const SpringDirection& direction : spring_directions) {
+            const int lines = direction.offset.y == 0 ? rows : columns;
+            const int particles = direction.offset.y == 0 ? columns : rows;
+            rounds += static_cast<std::uint64_t>(entry.z) * ((lines + width - 1) / width) * (2 * particles + 2);
+        }
+    }
+    return rounds;
 }
 
 }  // namespace drape

@@ -9,4 +9,7 @@ namespace drape {
 /// the plan; or says why not. Sets its `nested_table`.
 void add_nested_sweeps(const ClothGeometry& cloth, MethodPlan& plan);
 
+/// Rounds of loops of an invocation of a workgroup of `width`, which goes along the lines of the blocks around a pin.
+std::uint64_t nested_rounds(const MethodPlan& plan, const glsl::NestedPush& push, glsl::ivec2 pin, int width);
+
 }  // namespace drape

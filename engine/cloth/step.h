@@ -14,6 +14,9 @@
 
 namespace drape {
 
+/// The default device breaks off, unseen, after some 65,535 rounds of loops of an invocation (docs/devices.md).
+inline constexpr std::size_t most_loop_rounds = 60000;
+
 enum class StepKind {
     release,
     wind,

@@ -3,31 +3,12 @@
 #include <algorithm>
 #include <span>
 
-#include "cloth/directions.h"
+#include "cloth/nested_sweeps.h"
 #include "passes/step_dispatch.h"
 
 namespace drape {
 
-namespace glsl {
-#include "include/nested.h"
-}  // namespace glsl
-
 namespace {
-
-/// Rounds of loops of an invocation of `width` that go along the lines of the boxes around a pin.
-std::uint64_t loop_rounds(const ClothModel& model, const glsl::NestedPush& push, glsl::ivec2 pin, int width) {
-    std::uint64_t rounds = 0;
-    for (int block = 0; block < push.block_count; ++block) {
-        const glsl::ivec4& entry = model.plan.nested_table[static_cast<std::size_t>(block)];
-        const auto [columns, rows] = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
-        for (const SpringDirection& direction : spring_directions) {
-            const int lines = direction.offset.y == 0 ? rows : columns;
-            const int particles = direction.offset.y == 0 ? columns : rows;
-            rounds += static_cast<std::uint64_t>(entry.z) * ((lines + width - 1) / width) * (2 * particles + 2);
-        }
-    }
-    return rounds;
-}
 
 /// Invocations of a workgroup. Where cores are few one subgroup is enough: others would only take turns with it at
 /// every barrier. More where the default device would break off.
@@ -35,7 +16,7 @@ std::uint32_t group_width(const ClothState& state, const glsl::NestedPush& push,
     constexpr int subgroup = 8, most = glsl::nested_group_width;
     int width = state.buffered ? subgroup : most;
     const auto takes_too_many = [&](const glsl::ivec4& pin) {
-        return loop_rounds(*state.model, push, {pin.x, pin.y}, width) > most_loop_rounds;
+        return nested_rounds(state.model->plan, push, {pin.x, pin.y}, width) > most_loop_rounds;
     };
     while (width < most && std::ranges::any_of(pins, takes_too_many)) width *= 2;
     return static_cast<std::uint32_t>(width);

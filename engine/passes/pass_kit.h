@@ -15,9 +15,6 @@
 
 namespace drape {
 
-/// The default device breaks off, unseen, after some 65,535 rounds of loops of an invocation (docs/devices.md).
-inline constexpr std::size_t most_loop_rounds = 60000;
-
 /// Compute pipelines by module and constants, made when first asked for.
 class PipelineCache {
   public:

@@ -10,8 +10,9 @@ namespace drape::glsl {
 
 /// Lines are few and long: one subgroup of the default device per workgroup spreads them over the cores.
 const int line_group_width = 8;
-/// Texels in a row of the lines' scratch image, which is addressed as if it had only one.
-const int line_scratch_width = 1024;
+/// Texels in a row of the lines' scratch image, which is addressed as if it had only one. So wide that
+/// images of 16384 a side hold that of 4096 x 4096 particles, and no wider, since small cloths have at least one row.
+const int line_scratch_width = 2048;
 
 /// All lines of one spring direction (include/line.h).
 struct LinePush {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cloth/method_line.h"
+#include "cloth/nested_sweeps.h"
 #include "cloth/schedule.h"
 #include "cloth/streams.h"
 #include "support/method_steps.h"
@@ -267,6 +268,17 @@ TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
     for (std::uint32_t k = 0; k < 100; ++k)
         cloth.pins.push_back(test::pin_box(6 * (k % 10), 6 * (k / 10), 6 * (k % 10), 6 * (k / 10)));
     EXPECT_TRUE(nested().empty());
+}
+
+TEST(ClothModelTest, NestedSweepsEndBeforeTheDeviceBreaksOff) {
+    // So large that no block around the pin in its middle is cut short by an edge.
+    SceneDescription scene = test::sheet(270, 4200, 1, 1, 1);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].pins = {test::pin_box(135, 2100, 135, 2100)};
+    const ClothModel model(scene, 0);
+    const auto nested = test::pushes<glsl::NestedPush>(model.plan);
+    ASSERT_EQ(nested.size(), 1u);
+    EXPECT_LT(nested_rounds(model.plan, nested[0], {135, 2100}, glsl::nested_group_width), most_loop_rounds);
 }
 
 TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {

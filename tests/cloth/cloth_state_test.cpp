@@ -28,6 +28,11 @@ SceneDescription demanding(SolverMethod method) {
     return scene;
 }
 
+TEST(ClothState, LineScratchOfTheLargestSheetFitsAnImage) {
+    EXPECT_LE(line_scratch_extent(Grid(4096, 4096)).height, 16384u);
+    EXPECT_EQ(line_scratch_extent(Grid(32, 32)).height, 1u);
+}
+
 TEST(ClothState, RowsStandInTheOrderOfTheirFieldsUnderNamesOfTheirOwn) {
     std::set<std::string_view> names;
     ASSERT_EQ(cloth_fields().size(), field_count);
