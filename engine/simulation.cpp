@@ -15,6 +15,7 @@
 #include "frame_loop.h"
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
+#include "passes/device_schedule.h"
 #include "scene/overlap.h"
 #include "scene/start.h"
 #include "scene/start_crossings.h"

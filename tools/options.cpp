@@ -231,16 +231,18 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
         "Do the work that is skipped because it changes no bit of the result");
     std::string words;
     for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
-    add_option(command, "--schedule", words.c_str(),
-               "How passes run on the device, all to the same bits: `buffers` stores through buffers of the images' "
-               "memory, `streams` takes several explicit steps, or all springs of an iteration, at once besides; "
-               "default: by the device and the method",
-               [&scene, words](const std::string& text) {
-                   const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
-                   if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
-                   scene.schedule = found->value;
-                   return std::string();
-               });
+    add_option(
+        command, "--schedule", words.c_str(),
+        "How passes run on the device: `buffers` stores through buffers of the images' memory, `streams` takes "
+        "several explicit steps, or all springs of an iteration, at once besides, `tiles` does in shared memory, "
+        "all to the same bits; `cyclic` gives every particle of a line an invocation, with "
+        "other rounding; default: by the device and the method",
+        [&scene, words](const std::string& text) {
+            const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
+            if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
+            scene.schedule = found->value;
+            return std::string();
+        });
 }
 
 void add_image_options(CLI::App& command, SceneRequest& scene) {

@@ -285,7 +285,8 @@ std::vector<bool> CutTopology::beside_cuts(const std::vector<std::size_t>& piece
 void CutTopology::find_crumbs() {
     const std::vector<std::size_t> piece = pieces();
     const auto piece_of = [&](std::size_t drawn) {
-        const std::uint32_t first = indices_[drawn], count = grid_.particle_count();
+        const std::uint32_t first = indices_[drawn];
+        const std::size_t count = grid_.particle_count();
         return piece[first < count ? first : vertices_[first - count].particles.x];
     };
     std::vector<double> areas(piece.size());

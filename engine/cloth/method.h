@@ -70,7 +70,7 @@ struct Method {
     // substep costs (cloth/solver_choice.cpp).
     double (*substeps)(const Hang& hang, double frame, double tolerance);
     double dispatches, particle_ns;
-    bool walks;  ///< an invocation goes along a whole line
+    bool in_lines;  ///< springs are solved along whole lines
     /// In a closed loop: only its substeps need judging (probed); at the substeps that follow everything it resolves
     /// whatever moves (resolves); neither: it is not chosen, since it damps what it does not resolve.
     enum class Trust : std::uint8_t { none, probed, resolves } trust;

@@ -8,6 +8,7 @@
 #include "cloth/method.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
+#include "shared/cyclic_types.h"
 
 namespace drape {
 
@@ -29,13 +30,23 @@ SubstepWork substep_work(const Method& method, const SceneDescription& scene, co
     return work;
 }
 
+/// Milliseconds of one substep of a cloth on a GPU solved along its lines: by cyclic reduction where a workgroup holds
+/// them, else walked. Estimates, no measurement: 0.2 us a round of a reduction, 0.3 us a particle of a walk, two
+/// systems in each of four directions, 3 us a direction of a box of nested sweeps.
+double lines_ms(const Hang& hang) {
+    constexpr double systems = 4 * 2, round_ms = 2e-4, walk_ms = 3e-4, nested_ms = 4e-3;
+    const bool reduced = hang.longest_line <= glsl::cyclic_most_particles;
+    const double solves = systems * (reduced ? std::log2(hang.longest_line) * round_ms : hang.longest_line * walk_ms);
+    return solves + (hang.by_lone_pins ? hang.longest_line * nested_ms : 0);
+}
+
 /// Milliseconds of one substep of one cloth. CPU: per dispatch and per particle, measured on lavapipe with 2 cores.
-/// GPU: dispatches wait for each other, and a line solve walks along its line; estimates, no measurement.
-double substep_ms(const Hang& hang, DeviceKind device, const SubstepWork& work, bool walks) {
+/// GPU: dispatches wait for each other; estimates, no measurement.
+double substep_ms(const Hang& hang, DeviceKind device, const SubstepWork& work, bool in_lines) {
     const auto count = static_cast<double>(hang.particle_count);
     if (device == DeviceKind::cpu) return work.dispatches * 0.07 + count * work.particle_ns * 1e-6;
-    constexpr double dispatch_ms = 0.004, pass_particle_ms = 1e-8, walk_ms = 4 * 2 * 3e-4;
-    return work.dispatches * (dispatch_ms + count * pass_particle_ms) + (walks ? hang.longest_line * walk_ms : 0);
+    constexpr double dispatch_ms = 0.004, pass_particle_ms = 1e-8;
+    return work.dispatches * (dispatch_ms + count * pass_particle_ms) + (in_lines ? lines_ms(hang) : 0);
 }
 
 /// Longest substep of a closed loop, over the time sqrt(size / gravity) of a sheet that swings down. Measured: a sheet
@@ -85,7 +96,7 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
     for (const Cloth& cloth : scene.cloths)
         result.predicted_ms += result.substeps * substep_ms(hang_of(scene, cloth), device,
-                                                            substep_work(method, scene, cloth), method.walks);
+                                                            substep_work(method, scene, cloth), method.in_lines);
     return result;
 }
 

@@ -90,6 +90,8 @@ struct Step {
     bool after_edges = false;
     /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back.
     bool turns = false;
+    /// Lines, nested sweeps: by cyclic reduction (cloth/cyclic_lines.h).
+    bool reduced = false;
     /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
 

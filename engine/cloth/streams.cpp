@@ -5,6 +5,7 @@
 
 #include "cloth/schedule.h"
 #include "shared/stream_types.h"
+#include "shared/tile_types.h"
 
 namespace drape {
 
@@ -17,15 +18,16 @@ bool can_fly(const Step& step) {
            step.push<glsl::ExplicitPush>().twist == 0;
 }
 
-/// Where the `count` steps of a cloth from `first` on are, when nothing else happens to it between them; else nothing.
-std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, std::uint32_t count) {
+/// Where the steps of a cloth from `first` on are, as long as nothing else happens to it between them and they are no
+/// more than may be; nothing where they are too few.
+std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, const FlightSize& size) {
     std::vector<std::size_t> places;
-    for (std::size_t k = first; k < steps.size() && places.size() < count; ++k) {
+    for (std::size_t k = first; k < steps.size() && places.size() < size.most; ++k) {
         if (steps[k].cloth != steps[first].cloth && steps[k].cloth != all_cloths) continue;
-        if (!can_fly(steps[k])) return {};
+        if (!can_fly(steps[k])) break;
         places.push_back(k);
     }
-    return places.size() == count ? places : std::vector<std::size_t>{};
+    return places.size() >= size.least ? places : std::vector<std::size_t>{};
 }
 
 /// Finds the passes that sweeps can do, and makes sweeps of them.
@@ -81,15 +83,17 @@ class SweepMaker {
 
 }  // namespace
 
-std::vector<Step> steps_in_flight(const std::vector<Step>& steps, std::uint32_t count) {
+std::vector<Step> steps_in_flight(const std::vector<Step>& steps,
+                                  const std::function<FlightSize(std::size_t cloth)>& size) {
     std::vector<bool> taken(steps.size());
     std::vector<Step> merged;
     for (std::size_t k = 0; k < steps.size(); ++k) {
         if (taken[k]) continue;
         merged.push_back(steps[k]);
-        const std::vector<std::size_t> together = run_of(steps, k, count);
+        if (steps[k].kind != StepKind::explicit_step) continue;
+        const std::vector<std::size_t> together = run_of(steps, k, size(steps[k].cloth));
         if (together.empty()) continue;
-        merged.back().count = count;
+        merged.back().count = static_cast<std::uint32_t>(together.size());
         for (const std::size_t place : together) taken[place] = true;
     }
     return merged;
@@ -117,7 +121,26 @@ bool has_direction(const glsl::SweepPush& push, int direction) {
 }
 
 std::vector<Step> streamed_steps(const SimulationModel& model) {
-    return steps_in_sweeps(model, steps_in_flight(frame_steps(model), glsl::stream_steps));
+    const auto streamed = [](std::size_t) { return FlightSize{glsl::stream_steps, glsl::stream_steps}; };
+    return steps_in_sweeps(model, steps_in_flight(frame_steps(model), streamed));
+}
+
+std::uint32_t tile_halo_of(const Grid& grid, int halo) {
+    const bool is_whole = grid.columns() <= glsl::tile_width && grid.rows() <= glsl::tile_width;
+    return is_whole ? 0 : static_cast<std::uint32_t>(halo);
+}
+
+std::uint32_t tile_invocations(std::uint32_t particles, std::uint32_t halo) {
+    const std::uint32_t own = glsl::tile_width - 2 * halo;
+    return (particles + own - 1) / own * glsl::tile_width;
+}
+
+std::vector<Step> tiled_steps(const SimulationModel& model) {
+    const auto size = [&](std::size_t cloth) {
+        const bool is_whole = tile_halo_of(model.cloths[cloth].grid, glsl::tile_halo) == 0;
+        return FlightSize{2, static_cast<std::uint32_t>(is_whole ? glsl::tile_most_steps : glsl::tile_halo)};
+    };
+    return steps_in_sweeps(model, steps_in_flight(frame_steps(model), size));
 }
 
 }  // namespace drape

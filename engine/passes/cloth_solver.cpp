@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "cloth/step_flops.h"
-#include "cloth/streams.h"
 #include "cloth/together.h"
 #include "passes/attempt_pass.h"
 #include "passes/bend_pass.h"
@@ -15,6 +14,7 @@
 #include "passes/check_pass.h"
 #include "passes/collision_pass.h"
 #include "passes/cut_pass.h"
+#include "passes/device_schedule.h"
 #include "passes/explicit_pass.h"
 #include "passes/force_pass.h"
 #include "passes/line_pass.h"
@@ -95,60 +95,12 @@ std::string together_name(const SimulationModel& model, const std::vector<std::s
     return name;
 }
 
-/// Why a model cannot run by a schedule other than images; empty when it can.
-std::string schedule_obstacle(const vulkan::Device& device, const SimulationModel& model, Schedule schedule) {
-    for (const ClothModel& cloth : model.cloths) {
-        const std::string obstacle = schedule == Schedule::streams ? streamed_obstacle(device, cloth.grid)
-                                                                   : buffered_obstacle(device, cloth.grid);
-        if (!obstacle.empty()) return fmt::format("cloth '{}': {}", cloth.name, obstacle);
-    }
-    if (model.self_contact) return sheet_obstacle(device, model.self_contact->push.grid);
-    return {};
-}
-
-/// What a kind of device takes for scenes with steps that can stream and without, the first that it can: what
-/// `drape bench speed --tune` finds the fastest. Else images: on GPUs nothing was measured, and LINEAR images may load
-/// more slowly there.
-struct PreferredSchedule {
-    DeviceKind device;
-    bool can_stream;
-    Schedule schedule;
-};
-constexpr PreferredSchedule preferred_schedules[] = {
-    {DeviceKind::cpu, true, Schedule::streams},
-    {DeviceKind::cpu, true, Schedule::buffers},
-    {DeviceKind::cpu, false, Schedule::buffers},
-};
-
-Schedule chosen(const vulkan::Device& device, const SimulationModel& model) {
-    const bool can_stream = std::ranges::any_of(
-        model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state || cloth.plan.spare_displacement; });
-    for (const PreferredSchedule& row : preferred_schedules)
-        if (row.device == device_kind(device.info()) && row.can_stream == can_stream &&
-            schedule_obstacle(device, model, row.schedule).empty())
-            return row.schedule;
-    return Schedule::images;
-}
-
-/// Throws VulkanError where the device has not what it needs.
-Schedule possible(const vulkan::Device& device, const SimulationModel& model, Schedule asked) {
-    if (asked == Schedule::automatic) return chosen(device, model);
-    const std::string obstacle = asked == Schedule::images ? "" : schedule_obstacle(device, model, asked);
-    if (!obstacle.empty())
-        throw vulkan::VulkanError(fmt::format("schedule '{}', {}", spelling(schedule_spellings, asked), obstacle));
-    return asked;
-}
-
 }  // namespace
-
-DeviceKind device_kind(const vulkan::DeviceInfo& device) {
-    return device.type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
-}
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule)
     : model_(model),
       run_(&model),
-      schedule_(possible(device, model, schedule)),
+      schedule_(possible_schedule(device, model, schedule)),
       pipelines_(device),
       most_list_bytes_(std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.max_buffer_size())) {
     if (model.self_contact) self_room_ = limited(model.self_contact->room, most_list_bytes_);
@@ -156,7 +108,7 @@ ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& mo
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
     }
-    if (schedule_ != Schedule::images) find_together(device);
+    if (stores_through_buffers(schedule_)) find_together(device);
     together_of_.assign(model.cloths.size(), together_.size());
     for (std::size_t k = 0; k < together_.size(); ++k)
         for (const std::size_t cloth : together_[k].cloths) together_of_[cloth] = k;
@@ -189,7 +141,7 @@ ClothState ClothSolver::state_of(std::size_t index) const {
     state.index = index;
     state.pinned_count = state.model->pinned.size();
     state.pin_count = state.model->dynamic_pins.size();
-    state.buffered = schedule_ != Schedule::images;
+    state.buffered = stores_through_buffers(schedule_);
     state.index_count = static_cast<std::uint32_t>(topologies_[index].indices().size());
     state.iteration_sizes = iteration_sizes_[index];
     return state;
@@ -274,7 +226,7 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
 }
 
 std::vector<Step> ClothSolver::steps() const {
-    const std::vector<Step> steps = schedule_ == Schedule::streams ? streamed_steps(*run_) : frame_steps(*run_);
+    const std::vector<Step> steps = scheduled_steps(*run_, schedule_);
     std::vector<std::vector<std::size_t>> lists;
     for (const Together& together : together_) lists.push_back(together.cloths);
     return lists.empty() ? steps : steps_together(steps, lists);

@@ -21,9 +21,6 @@ struct CutImages {
     std::size_t index_count, vertex_count;  ///< drawn
 };
 
-/// What method `auto` has to know of a device.
-DeviceKind device_kind(const vulkan::DeviceInfo& device);
-
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.

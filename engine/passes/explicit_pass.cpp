@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "cloth/streams.h"
 #include "shared/stream_types.h"
+#include "shared/tile_types.h"
 
 namespace drape {
 
@@ -28,10 +30,31 @@ void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
     state.turn();
 }
 
+/// Likewise, in tiles.
+void add_tiles(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::ExplicitPush>();
+    const Grid& grid = state.model->grid;
+    const std::uint32_t halo = tile_halo_of(grid, glsl::tile_halo);
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("explicit_tile.comp", {{"masked", state.masked()}}),
+                      {{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u}, {"steps", step.count}, {"halo", halo}});
+    graph.add_pass(
+        state.step_name(fmt::format("{} explicit steps", step.count), step),
+        [&](graph::PassSetup& setup) {
+            write_spare(setup, state);
+            if (state.masked())
+                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
+        },
+        [&pipeline, push, x = tile_invocations(grid.columns(), halo), y = tile_invocations(grid.rows(), halo)](
+            graph::PassContext& context) { context.dispatch(pipeline, push, x, y); });
+    state.turn();
+}
+
 }  // namespace
 
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    if (step.count > 1) return add_stream(graph, pipelines, state, step);
+    if (step.count > 1)
+        return state.buffered ? add_stream(graph, pipelines, state, step) : add_tiles(graph, pipelines, state, step);
     const bool wind = state[Field::wind_force].valid();
     const auto& push = step.push<glsl::ExplicitPush>();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,

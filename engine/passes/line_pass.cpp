@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "cloth/cyclic_lines.h"
 #include "passes/step_dispatch.h"
 
 namespace drape {
@@ -40,20 +41,42 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
         });
 }
 
+namespace {
+
+const vulkan::ComputePipeline& line_pipeline(PipelineCache& pipelines, const ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::LinePush>();
+    const vulkan::SpecializationConstant first{"first_iteration", step.iteration == 0 ? 1u : 0u};
+    if (!step.reduced)
+        return pipelines.get(
+            vulkan::variant_name("line.comp",
+                                 {{"masked", state.masked()}, {"bent", push.bend > 0}, {"buffered", state.buffered}}),
+            {first});
+    const auto [width, lines] = cyclic_group(push.particle_count);
+    return pipelines.get(vulkan::variant_name("line_cyclic.comp", {{"masked", state.masked()}}),
+                         {{vulkan::local_size_names[0], static_cast<std::uint32_t>(width)},
+                          {vulkan::local_size_names[1], static_cast<std::uint32_t>(lines)},
+                          first});
+}
+
+/// Invocations: one per line, or, reduced, one per particle.
+glsl::ivec2 invocations(const Step& step) {
+    const auto& push = step.push<glsl::LinePush>();
+    return step.reduced ? glsl::ivec2{cyclic_group(push.particle_count).x, push.line_count}
+                        : glsl::ivec2{push.line_count, 1};
+}
+
+}  // namespace
+
 void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::LinePush>();
     const auto direction = static_cast<std::size_t>(push.channel);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("line.comp",
-                             {{"masked", state.masked()}, {"bent", push.bend > 0}, {"buffered", state.buffered}}),
-        {{"first_iteration", step.iteration == 0 ? 1u : 0u}});
-    const StepDispatch dispatch(state, step, pipeline, static_cast<std::uint32_t>(push.line_count), 1);
+    const StepDispatch dispatch(state, step, line_pipeline(pipelines, state, step), invocations(step));
     graph.add_pass(
         state.step_name("line " + std::string(spring_directions[direction].name), step),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
-            update(setup, state[Field::line_scratch], "scratch");
+            if (!step.reduced) update(setup, state[Field::line_scratch], "scratch");
             update(setup, state[tension_of(direction)], "tension");
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");

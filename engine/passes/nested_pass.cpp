@@ -22,31 +22,40 @@ std::uint32_t group_width(const ClothState& state, const glsl::NestedPush& push,
     return static_cast<std::uint32_t>(width);
 }
 
+bool is_sheared(const Step& step) { return step.push<glsl::NestedPush>().rest_length.z > 0; }
+
+const vulkan::ComputePipeline& nested_pipeline(PipelineCache& pipelines, const ClothState& state, const Step& step,
+                                               std::span<const glsl::ivec4> pins) {
+    if (step.reduced)
+        return pipelines.get(
+            vulkan::variant_name("nested_cyclic.comp", {{"masked", state.masked()}, {"sheared", is_sheared(step)}}));
+    const std::uint32_t width = group_width(state, step.push<glsl::NestedPush>(), pins);
+    return pipelines.get(
+        vulkan::variant_name("nested.comp",
+                             {{"masked", state.masked()}, {"sheared", is_sheared(step)}, {"buffered", state.buffered}}),
+        {{vulkan::local_size_names[0], width}});
+}
+
 }  // namespace
 
 void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const ClothModel& model = *state.model;
     const auto& push = step.push<glsl::NestedPush>();
-    const bool sheared = push.rest_length.z > 0;
     const std::span<const glsl::ivec4> table =
         std::span(model.plan.nested_table).subspan(static_cast<std::size_t>(push.first_pin));
     const auto pin_count = static_cast<std::uint32_t>(table[0].z);
-    const std::uint32_t width = group_width(state, push, table.first(pin_count));
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("nested.comp",
-                             {{"masked", state.masked()}, {"sheared", sheared}, {"buffered", state.buffered}}),
-        {{vulkan::local_size_names[0], width}});
-    const StepDispatch dispatch(state, step, pipeline, pin_count * width, 1);
+    const vulkan::ComputePipeline& pipeline = nested_pipeline(pipelines, state, step, table.first(pin_count));
+    const StepDispatch dispatch(state, step, pipeline, pin_count * pipeline.local_size()[0], 1);
     graph.add_pass(
         state.step_name("nested sweeps", step),
         [&](graph::PassSetup& setup) {
             setup.read(state[Field::position], graph::Access::compute_read, "position");
             update(setup, state[Field::displacement], "displacement");
             setup.read(state[Field::nested_sweeps], graph::Access::compute_read, "table");
-            update(setup, state[Field::nested_rows], "rows");
+            if (!step.reduced) update(setup, state[Field::nested_rows], "rows");
             update(setup, state[Field::tension_row], "tension_row");
             update(setup, state[Field::tension_column], "tension_column");
-            if (sheared) {
+            if (is_sheared(step)) {
                 update(setup, state[Field::tension_shear_down_right], "tension_down_right");
                 update(setup, state[Field::tension_shear_down_left], "tension_down_left");
             }

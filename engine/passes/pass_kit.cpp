@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "cloth/cyclic_lines.h"
 #include "fmt/format.h"
+#include "shared/cyclic_types.h"
 #include "shared/stream_types.h"
 
 namespace drape {
@@ -64,6 +66,16 @@ std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid) {
     constexpr auto lanes = static_cast<std::uint32_t>(glsl::stream_lanes);
     if (!device.shuffles(lanes)) return fmt::format("the device has no subgroups of {} that shuffle", lanes);
     return buffered_obstacle(device, grid);
+}
+
+std::string large_group_obstacle(const vulkan::Device& device) {
+    constexpr std::uint32_t most = glsl::cyclic_most_particles;
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    if (limits.maxComputeWorkGroupInvocations < most || limits.maxComputeWorkGroupSize[0] < most)
+        return fmt::format("the device has no workgroups of {} invocations", most);
+    if (limits.maxComputeSharedMemorySize < cyclic_shared_bytes(most))
+        return fmt::format("the device's workgroups share less than {} bytes", cyclic_shared_bytes(most));
+    return {};
 }
 
 std::uint32_t stream_invocations(int columns, int width, int halo) {

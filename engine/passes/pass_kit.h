@@ -47,6 +47,9 @@ std::string sheet_obstacle(const vulkan::Device& device, glsl::ivec2 size);
 /// Likewise why a cloth's micro-steps cannot stream.
 std::string streamed_obstacle(const vulkan::Device& device, const Grid& grid);
 
+/// Likewise why no workgroup can hold a tile of a cloth or its longest line.
+std::string large_group_obstacle(const vulkan::Device& device);
+
 /// Invocations: those of the strips that a grid of so many columns takes, where each subgroup has `width` columns of
 /// which `halo` at either end are of no use.
 std::uint32_t stream_invocations(int columns, int width, int halo);

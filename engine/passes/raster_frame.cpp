@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-Vec3 unit(const Vec3& v) {
+Vec3 unit_or_up(const Vec3& v) {
     const double size = length(v);
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 1, 0};
 }
@@ -23,7 +23,7 @@ void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants
         const DirectionalLight& light = scene.lights[i];
         const glsl::vec4 color = linear_color(light.color);
         const auto intensity = static_cast<float>(light.intensity);
-        constants.to_light[i] = texel(unit(sum({0, 0, 0}, light.direction, -1)), 0);
+        constants.to_light[i] = texel(unit_or_up(sum({0, 0, 0}, light.direction, -1)), 0);
         constants.light_radiance[i] = {color.x * intensity, color.y * intensity, color.z * intensity, 0};
     }
 }
@@ -35,11 +35,11 @@ struct ShadowMatrix {
     double texel_size;  ///< m
 };
 
-Vec3 to_first_light(const SceneDescription& scene) { return unit(sum({0, 0, 0}, scene.lights[0].direction, -1)); }
+Vec3 to_first_light(const SceneDescription& scene) { return unit_or_up(sum({0, 0, 0}, scene.lights[0].direction, -1)); }
 
 ShadowMatrix shadow_matrix(const SceneDescription& scene, const BoundingSphere& extent) {
     const Vec3 to_light = to_first_light(scene);
-    const Vec3 across = unit(cross(std::abs(to_light[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, to_light));
+    const Vec3 across = unit_or_up(cross(std::abs(to_light[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, to_light));
     const Vec3 up = cross(to_light, across);
     const double texel_size = 2 * extent.radius / glsl::shadow_map_size;
     ShadowMatrix result{{}, {}, texel_size};
@@ -89,7 +89,7 @@ void write_floor_light(const SceneDescription& scene, const Collider& plane, con
     for (std::size_t k = 0; k < 3; ++k) sums[0][k] = scene.ambient[k] * up + scene.ambient_ground[k] * (1 - up);
     for (std::size_t i = 0; i < light_count(scene); ++i) {
         const DirectionalLight& light = scene.lights[i];
-        const double facing = std::max(0.0, -dot(normal, unit(light.direction)));
+        const double facing = std::max(0.0, -dot(normal, unit_or_up(light.direction)));
         const glsl::vec4 color = linear_color(light.color);
         sums[i == 0] = sum(sums[i == 0], {color.x, color.y, color.z}, light.intensity * facing);
     }

@@ -3,18 +3,46 @@
 #include "cloth/directions.h"
 #include "cloth/streams.h"
 #include "shared/stream_types.h"
+#include "shared/tile_types.h"
 
 namespace drape {
 
-void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const auto& push = step.push<glsl::SweepPush>();
+namespace {
+
+std::uint32_t direction_bits(const glsl::SweepPush& push) {
     std::uint32_t directions = 0;
     for (int d = 0; d < static_cast<int>(spring_directions.size()); ++d)
         if (has_direction(push, d)) directions |= 1u << d;
+    return directions;
+}
+
+struct SweepDispatch {
+    const vulkan::ComputePipeline* pipeline;
+    std::uint32_t width, height;  ///< invocations
+};
+
+/// Strips where the state is stored through buffers, else tiles.
+SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, const glsl::SweepPush& push,
+                             bool tension) {
+    const auto variant = [&](const char* shader) {
+        return vulkan::variant_name(shader, {{"masked", state.masked()}, {"tension", tension}});
+    };
+    const vulkan::SpecializationConstant directions{"directions", direction_bits(push)};
+    if (state.buffered)
+        return {&pipelines.get(variant("sweep.comp"), {directions}),
+                stream_invocations(push.grid.x, glsl::sweep_width, glsl::sweep_halo), 1};
+    const Grid& grid = state.model->grid;
+    const std::uint32_t halo = tile_halo_of(grid, glsl::sweep_tile_halo);
+    return {&pipelines.get(variant("sweep_tile.comp"), {directions, {"halo", halo}}),
+            tile_invocations(grid.columns(), halo), tile_invocations(grid.rows(), halo)};
+}
+
+}  // namespace
+
+void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::SweepPush>();
     const bool tension = step.last && state[Field::tension_row].valid() && push.compliance.x > 0;
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("sweep.comp", {{"masked", state.masked()}, {"tension", tension}}),
-                      {{"directions", directions}});
+    const auto [pipeline, width, height] = sweep_dispatch(pipelines, state, push, tension);
     graph.add_pass(
         state.step_name("sweep of all springs", step),
         [&](graph::PassSetup& setup) {
@@ -28,9 +56,8 @@ void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                                                   std::pair{Field::tension_column, "tension_column_out"}})
                 if (tension) state[field] = setup.write(state[field], graph::Access::compute_write, variable);
         },
-        [&pipeline, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, stream_invocations(push.grid.x, glsl::sweep_width, glsl::sweep_halo), 1,
-                             count);
+        [pipeline, width, height, push, count = state.count](graph::PassContext& context) {
+            context.dispatch(*pipeline, push, width, height, count);
         });
     state.turn_displacement();
 }

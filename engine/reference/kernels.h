@@ -19,6 +19,7 @@ namespace drape::glsl {
 #include "include/box_edges.h"
 #include "include/colliders.h"
 #include "include/cut.h"
+#include "include/cyclic.h"
 #include "include/difference.h"
 #include "include/end_velocity.h"
 #include "include/explicit.h"

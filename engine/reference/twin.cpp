@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "cloth/cyclic_lines.h"
 #include "cloth/step_change.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
@@ -62,14 +63,15 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
     return std::as_bytes(std::span(integer_fields[place]));
 }
 
-Twin::Twin(const SimulationModel& model) : model_(&model) {
+Twin::Twin(const SimulationModel& model, Schedule schedule) : model_(&model), schedule_(schedule) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
 void Twin::run_frame(std::uint32_t frame) {
     const FrameInputs inputs = frame_inputs(*model_, frame);
-    for (const Step& step : frame_steps(*model_)) run_step(step, inputs);
+    const bool cyclic = schedule_ == Schedule::cyclic;
+    for (const Step& step : cyclic ? cyclic_steps(*model_) : frame_steps(*model_)) run_step(step, inputs);
 }
 
 void Twin::change_step(const SimulationModel& run) {

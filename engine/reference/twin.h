@@ -11,6 +11,7 @@
 #include "cloth/cut_topology.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/schedule.h"
+#include "drape/schedule.h"
 
 namespace drape {
 
@@ -76,7 +77,8 @@ struct TwinContact {
 
 class Twin {
   public:
-    explicit Twin(const SimulationModel& model);
+    /// `schedule`: of them all only `cyclic` has bits of its own.
+    explicit Twin(const SimulationModel& model, Schedule schedule = Schedule::images);
 
     /// Simulates from frame-1 to `frame`, step by step of the schedule.
     void run_frame(std::uint32_t frame);
@@ -122,6 +124,7 @@ class Twin {
     void advance(const ClothModel& model, TwinCloth& state);
 
     const SimulationModel* model_;
+    Schedule schedule_;
     std::vector<TwinCloth> cloths_;
     std::optional<TwinContact> contact_;
 };

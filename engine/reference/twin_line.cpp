@@ -3,6 +3,7 @@
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/reduced_system.h"
 #include "reference/twin.h"
 
 namespace drape {
@@ -109,6 +110,22 @@ std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>&
     return delta;
 }
 
+/// The first system by cyclic reduction.
+std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>& stiffness) {
+    std::vector<CyclicRow> rows;
+    vec3 edge_before{0, 0, 0};
+    float stiffness_before = 0;
+    for (std::size_t p = 0; p < line.particles.size(); ++p) {
+        const bool has_spring = p < line.spring_count();
+        const vec3 edge = has_spring ? line.edge(p) : vec3{0, 0, 0};
+        const float after = has_spring ? stiffness[p] : 0.0f;
+        rows.push_back(particle_row(edge_before, stiffness_before, edge, after, line.weight(p)));
+        edge_before = edge;
+        stiffness_before = after;
+    }
+    return reduced(rows);
+}
+
 /// The same of a line that bends.
 std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
     std::vector<BentParticle> eliminated;
@@ -133,14 +150,16 @@ std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& st
 }
 
 /// Lets the tension of the last substep and the bending resist, and follows the tension to where the particles are now.
-void filter(LineView& line, float compliance, float followed, bool bends, float bend) {
+void filter(LineView& line, float compliance, float followed, bool by_reduction, float bend) {
     std::vector<float> per_length, stiffness;
     for (std::size_t e = 0; e < line.spring_count(); ++e) {
         per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
                                                 line.push.rest_length));
         stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), compliance));
     }
-    line.delta = bends ? bent_deltas(line, stiffness, bend) : tension_deltas(line, stiffness);
+    line.delta = by_reduction ? reduced_deltas(line, stiffness)
+                 : bend > 0   ? bent_deltas(line, stiffness, bend)
+                              : tension_deltas(line, stiffness);
     for (std::size_t p = 0; p < line.particles.size(); ++p)
         line.moved[p] = moved_by(line.moved[p], line.delta[p], 1.0f);
     for (std::size_t e = 0; e < line.spring_count(); ++e)
@@ -168,6 +187,23 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     return change;
 }
 
+/// The same by cyclic reduction.
+std::vector<float> reduced_changes(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
+                                   float& largest) {
+    const vec3 none{0, 0, 0};
+    std::vector<CyclicRow> rows;
+    for (std::size_t e = 0; e < springs.size(); ++e) {
+        const float share = line.share(e), compression = line.push.compression;
+        largest = larger_violation(largest, springs[e], share, compression, line.tension[e]);
+        rows.push_back(spring_row(e > 0 ? springs[e - 1].normal : none, springs[e],
+                                  e + 1 < springs.size() ? springs[e + 1].normal : none, line.weight(e),
+                                  line.weight(e + 1), share, compression, compliance, line.tension[e]));
+    }
+    std::vector<float> changes;
+    for (const vec3& change : reduced(rows)) changes.push_back(change.x);
+    return changes;
+}
+
 }  // namespace
 
 void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
@@ -179,14 +215,15 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     for (int k = 0; k < push.line_count; ++k) {
         LineView line(model, push, state, k);
         if (step.iteration == 0)
-            filter(line, compliance, followed, push.bend > 0.0f, is_bdf2 ? push.bend_bdf2 : push.bend);
+            filter(line, compliance, followed, step.reduced, is_bdf2 ? push.bend_bdf2 : push.bend);
         else
             for (std::size_t e = 0; e < line.spring_count(); ++e)
                 line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
         float largest = 0;
-        const std::vector<float> change = solve(line, springs, compliance, largest);
+        const std::vector<float> change = step.reduced ? reduced_changes(line, springs, compliance, largest)
+                                                       : solve(line, springs, compliance, largest);
         if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
         const vec3 none{0, 0, 0};
         for (std::size_t p = 0; p < line.particles.size(); ++p) {

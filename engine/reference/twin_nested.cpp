@@ -1,6 +1,7 @@
 // The twin's nested sweeps around lone pins.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/reduced_system.h"
 #include "reference/twin.h"
 
 namespace drape {
@@ -8,6 +9,8 @@ namespace drape {
 using namespace glsl;
 
 namespace {
+
+constexpr vec3 none{0, 0, 0};
 
 /// One line of a box, in one direction, as the shader sees it.
 struct NestedLine {
@@ -34,35 +37,54 @@ struct NestedLine {
     }
     float& stored(std::size_t e) const { return state.tension(static_cast<std::size_t>(direction))[index(e)]; }
 
-    void solve() const {
-        const std::size_t count = particles.size() - 1;
-        std::vector<LineSpring> springs;
-        for (std::size_t e = 0; e < count; ++e) springs.push_back(spring(e));
+    /// The changes of its springs' multipliers.
+    std::vector<float> changes(const std::vector<LineSpring>& springs) const {
+        const std::size_t count = springs.size();
         std::vector<vec2> eliminated(count);
         vec2 previous{0, 0};
-        const vec3 none{0, 0, 0};
         for (std::size_t e = count; e-- > 0;)
             eliminated[e] = previous =
                 eliminate_spring(previous, e > 0 ? springs[e - 1].normal : none, springs[e],
                                  e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
                                  push.compression, compliance, tension_in_use(stored(e), followed));
+        std::vector<float> changes;
         float before = 0;
+        for (const vec2& row : eliminated) changes.push_back(before = substitute_spring(row, before));
+        return changes;
+    }
+
+    std::vector<float> reduced_changes(const std::vector<LineSpring>& springs) const {
+        const std::size_t count = springs.size();
+        std::vector<CyclicRow> rows;
+        for (std::size_t e = 0; e < count; ++e)
+            rows.push_back(spring_row(e > 0 ? springs[e - 1].normal : none, springs[e],
+                                      e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
+                                      push.compression, compliance, tension_in_use(stored(e), followed)));
+        std::vector<float> changes;
+        for (const vec3& change : reduced(rows)) changes.push_back(change.x);
+        return changes;
+    }
+
+    void solve(bool by_reduction) const {
+        const std::size_t count = particles.size() - 1;
+        std::vector<LineSpring> springs;
+        for (std::size_t e = 0; e < count; ++e) springs.push_back(spring(e));
+        const std::vector<float> change = by_reduction ? reduced_changes(springs) : changes(springs);
         for (std::size_t p = 0; p <= count; ++p) {
-            const float change = p < count ? substitute_spring(eliminated[p], before) : 0.0f;
-            const vec3 correction = line_correction(p > 0 ? springs[p - 1].normal : none, before,
-                                                    p < count ? springs[p].normal : none, change);
+            const bool is_first = p == 0, is_last = p == count;
+            const vec3 correction =
+                line_correction(is_first ? none : springs[p - 1].normal, is_first ? 0.0f : change[p - 1],
+                                is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             state.move_to(index(p), moved_by(xyz(state[Field::displacement][index(p)]), correction, weight(p)));
-            if (p < count && share(p) > 0.0f) {
-                const float tension = tension_in_use(stored(p), followed);
-                stored(p) = stored_tension(changed_tension(tension, change, share(p), compliance), followed);
-            }
-            before = change;
+            if (is_last || !(share(p) > 0.0f)) continue;
+            const float tension = tension_in_use(stored(p), followed);
+            stored(p) = stored_tension(changed_tension(tension, change[p], share(p), compliance), followed);
         }
     }
 };
 
 void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
-                     int direction, bool is_bdf2) {
+                     int direction, bool is_bdf2, bool by_reduction) {
     if (!(component(push.rest_length, direction) > 0.0f)) return;
     const ivec2 step = nested_step(direction);
     const int seam = nested_seam(step, box.size.x);
@@ -81,7 +103,7 @@ void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush
             line.particles.push_back({box.first.x + in_box.x, box.first.y + in_box.y});
             in_box = next_on_line(in_box, step, box.size.x);
         }
-        line.solve();
+        line.solve(by_reduction);
     }
 }
 
@@ -99,7 +121,7 @@ void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
             for (int sweep = 0; sweep < table[block].z; ++sweep)
                 for (int order = 0; order < 4; ++order)
                     sweep_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
-                                    nested_direction(order), is_bdf2);
+                                    nested_direction(order), is_bdf2, step.reduced);
     }
 }
 

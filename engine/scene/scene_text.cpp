@@ -252,15 +252,15 @@ std::string with_finite_numbers(std::string_view text) {
 
 std::vector<std::size_t> trailing_commas(std::string_view text) {
     std::vector<std::size_t> commas;
-    std::optional<std::size_t> comma;
+    constexpr std::size_t none = std::string_view::npos;
+    std::size_t comma = none;
     char before = '[';  // as long as there is nothing, a comma ends no member
     TokenScanner scanner(text);
     while (const auto token = scanner.next()) {
         const char c = token->kind == TokenKind::other ? text[token->begin] : '"';
         if (c == ' ' || c == '\t' || c == '\n' || c == '\r') continue;
-        if (comma && (c == '}' || c == ']')) commas.push_back(*comma);
-        comma.reset();
-        if (c == ',' && before != ',' && before != '[' && before != '{') comma = token->begin;
+        if (comma != none && (c == '}' || c == ']')) commas.push_back(comma);
+        comma = c == ',' && before != ',' && before != '[' && before != '{' ? token->begin : none;
         before = c;
     }
     return commas;

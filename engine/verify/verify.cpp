@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "frame_checks.h"
+#include "passes/device_schedule.h"
 #include "verify/scene_oracles.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"

@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kill{"Pictures", {"render"}, {3, 20}}, Kill{"Arrays", {"simulate"}, {2, 9, 24}},
                     Kill{"EverySort", {"render", "--export", "npy,npz,pc2,obj", "-j", "2"}, {11}},
                     Kill{"ArraysTerminated", {"simulate", "--export", "npz", "-s", "4"}, {15}, SIGTERM}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& each) { return std::string(each.param.name); });
 
 TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
     const SceneFolder folder(eventful_scene(9000));

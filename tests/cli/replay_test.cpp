@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                             8},
                     Failing{"NonsenseFromACheckpoint", R"("method": "relax", "substeps": 1)", {"--checkpoint", "0"}, 5},
                     Failing{"NonsenseThatIsKept", R"("method": "relax", "substeps": 1)", {"--on-failure", "keep"}, 5}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& each) { return std::string(each.param.name); });
 
 class Capsule : public testing::Test {
   protected:

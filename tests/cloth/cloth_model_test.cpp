@@ -104,7 +104,9 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
 /// First substeps and counts of a scene's explicit steps with four in flight.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> in_flight(const SceneDescription& scene, std::size_t cloth = 0) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-    for (const Step& step : steps_in_flight(frame_steps(SimulationModel(scene)), 4))
+    for (const Step& step : steps_in_flight(frame_steps(SimulationModel(scene)), [](std::size_t) {
+             return FlightSize{4, 4};
+         }))
         if (step.kind == StepKind::explicit_step && step.cloth == cloth) found.emplace_back(step.substep, step.count);
     return found;
 }

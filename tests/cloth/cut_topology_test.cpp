@@ -97,14 +97,14 @@ TEST(CutTopologyTest, ASingleParticleCanBeCutFree) {
 
 /// The particle that a drawn index hangs on.
 std::uint32_t anchor(const CutTopology& topology, std::uint32_t index) {
-    const std::uint32_t count = topology.cloth().grid.particle_count();
+    const std::size_t count = topology.cloth().grid.particle_count();
     return index < count ? index : topology.vertices()[index - count].particles.x;
 }
 
 /// Area at rest, m^2, of what is drawn of each piece, by the piece's number.
 std::map<std::size_t, double> drawn_areas(const CutTopology& topology) {
     const auto at = [&](std::uint32_t index) {
-        const std::uint32_t count = topology.cloth().grid.particle_count();
+        const std::size_t count = topology.cloth().grid.particle_count();
         if (index < count) return std::array{0.1 * (index % 9), 0.1 * (index / 9)};
         const glsl::vec4& material = topology.vertices()[index - count].material;
         return std::array{double(material.x), double(material.y)};

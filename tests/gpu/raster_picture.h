@@ -30,8 +30,8 @@ inline double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std:
 /// The tone curve of shaders/include/tone.h, written a second time in double precision: as it is below 0.75, then a
 /// shoulder that reaches 1 at 2.5.
 inline double toned(double radiance) {
-    const double above = (radiance - 0.75) / 0.25, white = 1.75 / 0.25;
-    return above > 0 ? 0.75 + 0.25 * above * (1 + above / (white * white)) / (1 + above) : radiance;
+    const double above = (radiance - 0.75) / 0.25, end = 1.75 / 0.25;
+    return above > 0 ? 0.75 + 0.25 * above * (1 + above / (end * end)) / (1 + above) : radiance;
 }
 /// The radiance that is shown as `shown`, by bisection.
 inline double radiance_of(double shown) {

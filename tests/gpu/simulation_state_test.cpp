@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
                                          Case{"Asleep", sleeping_scene}, Case{"CutByAuto", cut_by_auto.c_str(), true},
                                          Case{"CutByLine", cut_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
                                          Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     const auto simulation_of = [](const std::string& text) {
@@ -180,7 +180,9 @@ TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
         without.erase(name);
         shorter[name].resize(bytes.size() - 1);
         longer[name].resize(bytes.size() + 1);
-        if (!name.starts_with("cuts/")) EXPECT_THROW(simulation_of(cut_by_auto).restore(without), Error) << name;
+        if (!name.starts_with("cuts/")) {
+            EXPECT_THROW(simulation_of(cut_by_auto).restore(without), Error) << name;
+        }
         EXPECT_THROW(simulation_of(cut_by_auto).restore(shorter), Error) << name;
         EXPECT_THROW(simulation_of(cut_by_auto).restore(longer), Error) << name;
     }

@@ -61,6 +61,42 @@ inline SceneDescription thrown_sheet(std::pair<std::uint32_t, std::uint32_t> gri
     return scene;
 }
 
+inline SceneDescription everything_in_lines() {
+    SceneDescription scene = everything();
+    scene.solver.method = SolverMethod::line;
+    return scene;
+}
+
+/// Without colliders: second order.
+inline SceneDescription free_lines() {
+    SceneDescription scene = everything_in_lines();
+    scene.colliders = {};
+    return scene;
+}
+
+inline void add_second_cloth(SceneDescription& scene) {
+    Cloth second = scene.cloths[0];
+    second.name = "second";
+    second.grid = {24, 41};
+    second.holes.clear();
+    second.pins = {pin_top(second)};
+    second.placement.origin = {-0.4, 0.3, -0.2};
+    scene.cloths.push_back(second);
+}
+
+/// Held at both upper corners, in the middle, whose box shares particles with theirs, and, until it lets go, at a third
+/// corner, whose column is that of another.
+inline SceneDescription lone_pins() {
+    SceneDescription scene = sheet(97, 97, 1.0, 1.0, substep_count);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].velocity = {0.5, 0, 1};
+    Pin moved = pin_box(96, 0, 96, 0), released = pin_box(0, 96, 0, 96);
+    moved.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {-0.1, 0.05, 0.1}, {}}};
+    released.release = 0.11;
+    scene.cloths[0].pins = {pin_box(0, 0, 0, 0), moved, released, pin_box(48, 44, 48, 44)};
+    return scene;
+}
+
 /// Every bit of a field.
 inline void expect_same(const FieldRow& row, std::span<const std::byte> device, std::span<const std::byte> twin,
                         std::uint32_t frame) {
@@ -77,13 +113,15 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
     expect_same(row_of(field), one.bytes(0, field), other.bytes(0, field), frame);
 }
 
-/// On every schedule. Returns the record of the last frame's contact between cloths, if they meet.
+/// On every schedule that the default device may take, or on one alone. Returns the record of the last frame's contact
+/// between cloths, if they meet.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
-                                const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true}) {
+                                const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true},
+                                std::optional<Schedule> only = {}) {
     const SimulationModel model(scene, options);
-    Twin twin(model);
+    Twin twin(model, only.value_or(Schedule::images));
     std::vector<std::unique_ptr<DeviceRun>> devices;
-    for (const Schedule schedule : schedules(on, model))
+    for (const Schedule schedule : only ? std::vector{*only} : schedules(on, model))
         devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, schedule, needs));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);

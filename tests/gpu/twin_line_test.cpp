@@ -5,33 +5,14 @@
 namespace drape {
 namespace {
 
+using test::add_second_cloth;
 using test::compare;
 using test::DeviceRun;
 using test::everything;
+using test::everything_in_lines;
 using test::frame_count;
-
-SceneDescription everything_in_lines() {
-    SceneDescription scene = everything();
-    scene.solver.method = SolverMethod::line;
-    return scene;
-}
-
-/// Without colliders: second order.
-SceneDescription free_lines() {
-    SceneDescription scene = everything_in_lines();
-    scene.colliders = {};
-    return scene;
-}
-
-void add_second_cloth(SceneDescription& scene) {
-    Cloth second = scene.cloths[0];
-    second.name = "second";
-    second.grid = {24, 41};
-    second.holes.clear();
-    second.pins = {test::pin_top(second)};
-    second.placement.origin = {-0.4, 0.3, -0.2};
-    scene.cloths.push_back(second);
-}
+using test::free_lines;
+using test::lone_pins;
 
 TEST(TwinLineTest, EverythingAtOnce) { compare(everything_in_lines()); }
 
@@ -178,19 +159,6 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
                                          // Rows of buffer views without padding: of floats, of vectors.
                                          std::array<std::uint32_t, 2>{32, 17}, std::array<std::uint32_t, 2>{20, 11},
                                          std::array<std::uint32_t, 2>{65, 33}));
-
-/// Held at both upper corners, in the middle, whose box shares particles with theirs, and, until it lets go, at a third
-/// corner, whose column is that of another.
-SceneDescription lone_pins() {
-    SceneDescription scene = test::sheet(97, 97, 1.0, 1.0, test::substep_count);
-    scene.solver.method = SolverMethod::line;
-    scene.cloths[0].velocity = {0.5, 0, 1};
-    Pin moved = test::pin_box(96, 0, 96, 0), released = test::pin_box(0, 96, 0, 96);
-    moved.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {-0.1, 0.05, 0.1}, {}}};
-    released.release = 0.11;
-    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), moved, released, test::pin_box(48, 44, 48, 44)};
-    return scene;
-}
 
 TEST(TwinLineTest, NestedSweepsAroundLonePins) {
     const SimulationModel model(lone_pins());

@@ -133,9 +133,9 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
         }
     };
     const Vec3 u = direction(), w = direction();
-    Vec3 across;
-    for (std::size_t k = 0; k < 3; ++k) across[k] = w[k] - dot(w, u) * u[k];
-    const double length = exact::norm(across), longest = (1 + contact_stretch) * std::hypot(x, y);
+    Vec3 aside;
+    for (std::size_t k = 0; k < 3; ++k) aside[k] = w[k] - dot(w, u) * u[k];
+    const double length = exact::norm(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
     double dx, dy, bend;
     do {
         dx = x * stretch(random);
@@ -145,7 +145,7 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     std::array<Vec3, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
         corners[1][k] = dx * u[k];
-        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * across[k] / length);
+        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * aside[k] / length);
     }
     return corners;
 }

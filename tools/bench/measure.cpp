@@ -15,6 +15,7 @@
 #include "drape/simulation.h"
 #include "output/manifest.h"
 #include "passes/cloth_solver.h"
+#include "passes/device_schedule.h"
 #include "spirv_modules.h"
 
 namespace drape::bench {

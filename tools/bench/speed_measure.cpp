@@ -10,6 +10,7 @@
 #include "bench/measure.h"
 #include "native/native_run.h"
 #include "passes/cloth_solver.h"
+#include "passes/device_schedule.h"
 
 namespace drape::bench {
 
@@ -193,9 +194,10 @@ SpeedResult measure_schedules(SpeedDevices& devices, const SpeedCase& speed_case
     const SceneDescription scene = scene_of(speed_case);
     std::vector<std::pair<std::string, std::unique_ptr<DeviceSide>>> sides;
     for (const Spelling<Schedule>& each : schedule_spellings) {
+        const bool is_chosen = each.value == Schedule::automatic;
+        if (!is_chosen && !concerns(each.value, speed_case.method)) continue;
         SimulationOptions options = plain_options(false);
         options.schedule = each.value;
-        const bool is_chosen = each.value == Schedule::automatic;
         try {
             sides.emplace_back(is_chosen ? "frame" : each.name,
                                std::make_unique<DeviceSide>(devices.of(scene, false), scene, options, request));

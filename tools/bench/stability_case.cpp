@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/wild_scenes.h"
+#include "passes/device_schedule.h"
 #include "scene/random.h"
 
 namespace drape::bench {
@@ -145,8 +146,7 @@ void add_singles(const StabilityPlan& plan, std::vector<StabilityCase>& cases) {
             cases.push_back(case_of("single", {index}, method.method));
             if (plan.is_short || table[index].tier == Tier::refused) continue;
             for (const auto& [name, schedule] : schedule_spellings) {
-                const bool streams = method.method == SolverMethod::explicit_steps;
-                if (schedule == Schedule::automatic || (schedule == Schedule::streams && !streams)) continue;
+                if (!concerns(schedule, method.method)) continue;
                 cases.push_back(case_of("single", {index}, method.method));
                 cases.back().name += fmt::format("/{}", name);
                 cases.back().schedule = schedule;

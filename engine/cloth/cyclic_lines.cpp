@@ -1,0 +1,45 @@
+#include "cloth/cyclic_lines.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "cloth/schedule.h"
+#include "shared/cyclic_types.h"
+
+namespace drape {
+
+bool can_reduce(const glsl::LinePush& push) {
+    return push.bend == 0 && push.particle_count <= glsl::cyclic_most_particles;
+}
+
+bool can_reduce(const glsl::NestedPush& push, const MethodPlan& plan) {
+    const auto fits = [&](const glsl::ivec4& block) {
+        return std::min(2 * block.x + 1, push.grid.x) <= glsl::cyclic_most_particles &&
+               std::min(2 * block.y + 1, push.grid.y) <= glsl::cyclic_most_particles;
+    };
+    return std::ranges::all_of(std::span(plan.nested_table).first(static_cast<std::size_t>(push.block_count)), fits);
+}
+
+std::vector<Step> cyclic_steps(const SimulationModel& model) {
+    std::vector<Step> steps = frame_steps(model);
+    for (Step& step : steps) {
+        if (step.kind == StepKind::line) step.reduced = can_reduce(step.push<glsl::LinePush>());
+        if (step.kind == StepKind::nested)
+            step.reduced = can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].plan);
+    }
+    return steps;
+}
+
+std::uint32_t cyclic_shared_bytes(std::uint32_t invocations) {
+    constexpr std::uint32_t row = sizeof(glsl::vec4) + sizeof(glsl::vec2);
+    return invocations * row + glsl::cyclic_least_invocations / glsl::cyclic_least_width * sizeof(glsl::uint);
+}
+
+glsl::ivec2 cyclic_group(int particle_count) {
+    const auto fitting = static_cast<int>(std::bit_ceil(static_cast<unsigned>(particle_count)));
+    const int width = std::max(fitting, glsl::cyclic_least_width);
+    return {width, std::max(1, glsl::cyclic_least_invocations / width)};
+}
+
+}  // namespace drape

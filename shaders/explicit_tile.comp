@@ -1,0 +1,123 @@
+// Some explicit micro-steps at once, none of them a frame's first, to the bits of as many dispatches of explicit.comp,
+// where invocations are many: a workgroup holds a tile of particles, one per invocation, and shows them to each other in
+// shared memory after every step. What its outermost particles lack their neighbours for spreads inwards by one particle
+// a step, so tiles overlap by 2 * `halo`; one that holds the whole cloth needs none. MASKED: as in explicit.comp.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
+#include "shared/simulation_types.h"
+#include "shared/tile_types.h"
+#include "include/explicit.h"
+#include "include/spring.h"
+#include "include/verlet.h"
+#include "include/wind.h"
+layout(push_constant) uniform Push { ExplicitPush push; };
+#include "include/state_store.h"
+
+layout(local_size_x = tile_width, local_size_y = tile_width) in;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
+VECTOR_OUT(1, PositionOut, position_out);
+layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
+VECTOR_OUT(3, DisplacementOut, displacement_out);
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
+VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
+VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
+#ifdef MASKED
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+#endif
+
+layout(constant_id = 0) const bool has_shear = false;
+layout(constant_id = 1) const int steps = 1;
+layout(constant_id = 2) const int halo = 1;
+
+struct Particle {
+    vec3 position;
+    float weight;
+    vec3 displacement;
+    float mark;  // beside the displacement (verlet.h)
+    vec3 position_remainder;
+    vec3 displacement_remainder;
+};
+
+// Position and displacement of every particle of the tile.
+shared vec4 shown[tile_width * tile_width];
+shared vec2 shown_too[tile_width * tile_width];
+
+bool within(ivec2 place, ivec2 size) { return place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y; }
+
+Particle load_particle(ivec2 texel) {
+    vec4 position = LOAD(position_in, texel), moved = LOAD(displacement_in, texel);
+    return Particle(position.xyz, position.w, moved.xyz, moved.w, LOAD(position_remainder_in, texel).xyz,
+                    LOAD(displacement_remainder_in, texel).xyz);
+}
+
+void show(Particle particle) {
+    barrier();  // the last step has looked
+    shown[gl_LocalInvocationIndex] = vec4(particle.position, particle.displacement.x);
+    shown_too[gl_LocalInvocationIndex] = particle.displacement.yz;
+    barrier();
+}
+
+float share_of(ivec2 owner, ivec2 offset, int channel) {
+#ifdef MASKED
+    return LOAD(spring_share_image, owner)[channel];
+#else
+    return border_share(owner, offset, push.grid);
+#endif
+}
+
+/// Adds the pull of the spring to neighbour k.
+vec3 gather(vec3 sum, Particle center, ivec2 texel, int k) {
+    ivec4 around = neighbour(k);
+    if (around.z >= 2 && !has_shear) return sum;
+    ivec2 place = ivec2(gl_LocalInvocationID.xy) + around.xy, there = texel + around.xy;
+    if (!within(there, push.grid) || !within(place, ivec2(tile_width))) return sum;
+    int index = place.y * tile_width + place.x;
+    vec4 first = shown[index];
+    vec3 displacement = vec3(first.w, shown_too[index]);
+    precise vec3 closing = displacement - center.displacement;
+    precise float stiffness =
+        push.relative_stiffness[around.z] * share_of(around.w == 1 ? texel : there, around.xy, around.z);
+    vec3 edge = spring_edge(center.position, first.xyz, center.displacement, displacement);
+    return add_pull(sum, spring_pull(edge, closing, push.rest_length[around.z], stiffness, push.compression.x,
+                                     push.strain_damping));
+}
+
+vec3 pull_on(Particle center, ivec2 texel) {
+    vec3 pull = empty_sum();
+    for (int k = 0; k < neighbour_count; ++k) pull = gather(pull, center, texel, k);
+    return pull;
+}
+
+Particle stepped(Particle particle, vec3 pull) {
+    CompensatedSum advanced = compensated_add(particle.position, particle.displacement, particle.position_remainder);
+    particle.position = advanced.value;
+    particle.position_remainder = advanced.remainder;
+    vec3 increment = explicit_increment(particle.displacement, push.gravity_step.xyz, vec3(0.0f, 0.0f, 0.0f), pull,
+                                        particle.weight, push.force_step, push.damping_loss);
+    CompensatedSum moved = compensated_add(particle.displacement, released_increment(increment, particle.mark),
+                                           particle.displacement_remainder);
+    if (particle.weight != 0.0f) {
+        particle.displacement = moved.value;
+        particle.displacement_remainder = moved.remainder;
+    }
+    particle.mark = 0.0f;
+    return particle;
+}
+
+void main() {
+    ivec2 place = ivec2(gl_LocalInvocationID.xy);
+    ivec2 texel = ivec2(gl_WorkGroupID.xy) * (tile_width - 2 * halo) - halo + place;
+    bool exists = within(texel, push.grid);
+    Particle particle = load_particle(clamp(texel, ivec2(0), push.grid - 1));
+    for (int step = 0; step < steps; ++step) {
+        show(particle);
+        if (exists) particle = stepped(particle, pull_on(particle, texel));
+    }
+    if (!exists || !within(place - halo, ivec2(tile_width - 2 * halo))) return;
+    STORE_VECTOR(position_out, texel, vec4(particle.position, particle.weight));
+    STORE_VECTOR(displacement_out, texel, vec4(particle.displacement, 0.0f));
+    STORE_VECTOR(position_remainder_out, texel, vec4(particle.position_remainder, 0.0f));
+    STORE_VECTOR(displacement_remainder_out, texel, vec4(particle.displacement_remainder, 0.0f));
+}

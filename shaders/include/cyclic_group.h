@@ -1,0 +1,41 @@
+// Cyclic reduction among the invocations of a workgroup, one row each: `group_width` at a time are one system, in which
+// `group_place` is an invocation's place.
+int group_width, group_place;
+shared vec4 handed[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
+shared vec2 handed_too[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
+
+void hand_out(vec4 value) {
+    barrier();  // what was handed out before has been read
+    handed[gl_LocalInvocationIndex] = value;
+    barrier();
+}
+
+bool has_neighbour(int by) {
+    int place = group_place + by;
+    return place >= 0 && place < group_width;
+}
+
+/// Beyond a system's ends: zeros.
+vec4 from_neighbour(int by) {
+    return has_neighbour(by) ? handed[int(gl_LocalInvocationIndex) + by] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+CyclicRow row_of_neighbour(int by) {
+    if (!has_neighbour(by)) return no_cyclic_row();
+    vec4 row = handed[int(gl_LocalInvocationIndex) + by];
+    vec2 right = handed_too[int(gl_LocalInvocationIndex) + by];
+    return CyclicRow(row.x, row.y, row.z, vec3(row.w, right));
+}
+
+/// This invocation's row of a system of `count`, which the first invocations of each system hold, after all others were
+/// eliminated from it. Every invocation of the workgroup must get here, with the same count.
+CyclicRow uncoupled(CyclicRow row, int count) {
+    for (int distance = 1; distance < count; distance *= 2) {
+        barrier();
+        handed[gl_LocalInvocationIndex] = vec4(row.shift, row.before, row.after, row.right.x);
+        handed_too[gl_LocalInvocationIndex] = row.right.yz;
+        barrier();
+        row = reduced_row(row, row_of_neighbour(-distance), row_of_neighbour(distance));
+    }
+    return row;
+}

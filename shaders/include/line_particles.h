@@ -1,0 +1,78 @@
+// Lines of particles as passes read them: what line.comp and line_cyclic.comp do with one differs, not where it lies.
+// Needs the images `position`, `displacement_in`, `tension_in`, `control`, MASKED: `spring_share_image`, the push
+// constants (LinePush) and `first_iteration`: both systems; later iterations repeat the second alone.
+/// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
+/// them anew, lane by lane, in each of its rounds. For the same reason only stores in the loops below branch.
+struct Line {
+    int index, last;  // place among the lines; of its particles
+    ivec2 step;
+    int columns, seam, channel;
+    float share;  // of all its springs, where no image has them
+    float rest_length, compliance, followed, bend, compression;
+};
+
+struct LineParticle {
+    ivec2 at;
+    vec4 position;  // w: as its springs feel it, with the wind's drag
+    vec4 moved;     // xyz: displacement before this pass; w: what is kept beside it
+};
+
+Line read_line(int index) {
+    bool second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel,
+                border_share(line_start(index, push.step), push.step, push.grid), push.rest_length,
+                second_order ? push.compliance_bdf2 : push.compliance,
+                second_order ? push.followed_bdf2 : push.followed, second_order ? push.bend_bdf2 : push.bend,
+                push.compression);
+}
+
+float share_of(Line line, ivec2 first) {
+#ifdef MASKED
+    float share = LOAD(spring_share_image, first)[line.channel];
+#else
+    float share = line.share;
+#endif
+    return first.x == line.seam ? 0.0f : share;
+}
+
+LineParticle load_particle(ivec2 at) {
+    vec4 start = LOAD(position, at), moved = LOAD(displacement_in, at);
+    return LineParticle(at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved);
+}
+
+LineParticle particle_after(Line line, LineParticle particle) {
+    return load_particle(next_on_line(particle.at, line.step, line.columns));
+}
+
+LineParticle particle_before(Line line, LineParticle particle) {
+    return load_particle(next_on_line(particle.at, -line.step, line.columns));
+}
+
+/// Where the first system puts a particle.
+vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
+
+float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.followed); }
+
+float tension_per_length_of(Line line, LineParticle first, LineParticle second) {
+    precise vec3 start_edge = second.position.xyz - first.position.xyz;
+    return tension_per_length(tension_of(line, first.at), start_edge, line.rest_length);
+}
+
+vec3 start_edge_of(LineParticle first, LineParticle second) {
+    return spring_edge(first.position.xyz, second.position.xyz, first.moved.xyz, second.moved.xyz);
+}
+
+float stiffness_of(Line line, LineParticle first, LineParticle second, float share) {
+    return geometric_stiffness(tension_per_length_of(line, first, second), share, line.compliance);
+}
+
+/// Of the spring between two particles after the first system.
+float filtered_tension_of(Line line, LineParticle first, LineParticle second, LineSpring spring) {
+    if (!first_iteration) return tension_of(line, first.at);
+    return filtered_tension(tension_per_length_of(line, first, second), spring);
+}
+
+LineSpring spring_between(Line line, LineParticle first, vec3 moved_first, LineParticle second, vec3 moved_second) {
+    return line_spring(spring_edge(first.position.xyz, second.position.xyz, moved_first, moved_second),
+                       line.rest_length);
+}

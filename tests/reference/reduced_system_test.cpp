@@ -1,0 +1,157 @@
+// Cyclic reduction of the lines' two systems (shaders/include/cyclic.h): against elimination in double precision, and
+// against the lines that are walked.
+#include "reference/reduced_system.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "reference/twin.h"
+#include "support/sheet_state.h"
+#include "support/sheets.h"
+
+namespace drape {
+namespace {
+
+using namespace glsl;
+
+/// A tridiagonal system in double precision: `below` and `above` the diagonal, subtracted.
+struct DoubleSystem {
+    std::vector<double> diagonal, below, above, right;
+
+    std::vector<double> solution() const {
+        const std::size_t count = diagonal.size();
+        std::vector<double> upper(count), value(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double pivot = diagonal[i] - (i > 0 ? below[i] * upper[i - 1] : 0);
+            upper[i] = above[i] / pivot;
+            value[i] = (right[i] + (i > 0 ? below[i] * value[i - 1] : 0)) / pivot;
+        }
+        for (std::size_t i = count - 1; i-- > 0;) value[i] += upper[i] * value[i + 1];
+        return value;
+    }
+};
+
+/// Largest error of x components, by the largest component.
+double relative_error(const std::vector<vec3>& found, const DoubleSystem& exact) {
+    const std::vector<double> expected = exact.solution();
+    double error = 0, largest = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        error = std::max(error, std::abs(found[i].x - expected[i]));
+        largest = std::max(largest, std::abs(expected[i]));
+    }
+    return error / largest;
+}
+
+struct ReducedSystem : testing::TestWithParam<std::size_t> {
+    std::mt19937 random{17};
+    float between(float least, float most) { return std::uniform_real_distribution<float>(least, most)(random); }
+};
+
+/// The first system of a line whose springs have up to `stiffest`, every seventh particle held or all free.
+struct TensionSystem {
+    std::vector<CyclicRow> rows;
+    std::vector<vec4> eliminated;
+    DoubleSystem exact;
+
+    TensionSystem(ReducedSystem& test, std::size_t count, float stiffest, bool held) {
+        vec3 edge_before{0, 0, 0};
+        float before = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool is_last = i + 1 == count;
+            const float after = is_last ? 0 : stiffest * test.between(0.9f, 1.1f);
+            const float weight = held && i % 7 == 3 ? 0.0f : test.between(0.9f, 1.1f);
+            const vec3 edge{is_last ? 0 : test.between(0.9f, 1.1f), 0, 0};
+            rows.push_back(particle_row(edge_before, before, edge, after, weight));
+            const vec4 none{0, 0, 0, 0};
+            eliminated.push_back(
+                eliminate_particle(i > 0 ? eliminated.back() : none, edge_before, before, edge, after, weight));
+            exact.below.push_back(double(weight) * before);
+            exact.above.push_back(double(weight) * after);
+            exact.diagonal.push_back(1 + exact.below.back() + exact.above.back());
+            exact.right.push_back(exact.above.back() * edge.x - exact.below.back() * edge_before.x);
+            edge_before = edge;
+            before = after;
+        }
+    }
+    std::vector<vec3> walked() const {
+        std::vector<vec3> solution(eliminated.size());
+        vec3 after{0, 0, 0};
+        for (std::size_t i = solution.size(); i-- > 0;) after = solution[i] = substitute_particle(eliminated[i], after);
+        return solution;
+    }
+};
+
+/// What rounds is the springs' pull, which both ways begin with: neither has more digits than it leaves.
+TEST_P(ReducedSystem, OfTensionIsAsExactAsALineThatIsWalked) {
+    for (const float stiffest : {1e-3f, 1.0f, 1e3f, 1e6f})
+        for (const bool held : {false, true}) {
+            double walked = 0, reduction = 0;
+            for (int sample = 0; sample < 20; ++sample) {
+                const TensionSystem system(*this, GetParam(), stiffest, held);
+                walked = std::max(walked, relative_error(system.walked(), system.exact));
+                reduction = std::max(reduction, relative_error(reduced(system.rows), system.exact));
+            }
+            EXPECT_LT(reduction, 3 * walked + 3e-7) << "stiffness " << stiffest << ", held " << held;
+        }
+}
+
+/// Rows of springs as spring_row writes them, and the same system as eliminate_spring has it, in double precision.
+TEST_P(ReducedSystem, OfSpringsIsWhatIsEliminatedInDoublePrecision) {
+    for (const float compliance : {1e-4f, 1e-2f, 1.0f}) {
+        const std::size_t count = GetParam();
+        std::vector<LineSpring> springs;
+        std::vector<float> weights, shares;
+        for (std::size_t e = 0; e <= count; ++e) {
+            const vec3 edge{0.01f, between(-0.004f, 0.004f), between(-0.004f, 0.004f)};
+            springs.push_back(line_spring(edge, 0.0105f));
+            weights.push_back(e % 9 == 2 ? 0.0f : between(0.5f, 2));
+            shares.push_back(e % 11 == 5 ? 0.0f : between(0.4f, 1));
+        }
+        std::vector<CyclicRow> rows;
+        DoubleSystem exact;
+        const vec3 none{0, 0, 0};
+        constexpr double compression = 0.3;
+        for (std::size_t e = 0; e < count; ++e) {
+            const vec3 before = e > 0 ? springs[e - 1].normal : none,
+                       after = e + 1 < count ? springs[e + 1].normal : none;
+            rows.push_back(spring_row(before, springs[e], after, weights[e], weights[e + 1], shares[e],
+                                      float(compression), compliance, 1e-3f));
+            const auto dot = [](vec3 a, vec3 b) { return double(a.x) * b.x + double(a.y) * b.y + double(a.z) * b.z; };
+            const bool pushed = springs[e].excess<0, there = shares[e]> 0;
+            const double acting = shares[e] * (pushed ? compression : 1);
+            const double balance = springs[e].excess * (pushed ? compression : 1);
+            exact.below.push_back(there ? acting * weights[e] * dot(before, springs[e].normal) : 0);
+            exact.above.push_back(there ? acting * weights[e + 1] * dot(springs[e].normal, after) : 0);
+            exact.diagonal.push_back(there ? acting * (double(weights[e]) + weights[e + 1]) + compliance : 1);
+            exact.right.push_back(there ? -(shares[e] * (balance - 1e-3f)) : 0);
+        }
+        EXPECT_LT(relative_error(reduced(rows), exact), 2e-5) << "compliance " << compliance;
+    }
+}
+
+// One spring, whole powers of two and one beside them, the longest that a workgroup takes.
+INSTANTIATE_TEST_SUITE_P(Rows, ReducedSystem, testing::Values(2, 3, 4, 31, 32, 33, 257, 1024));
+
+TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
+    SceneDescription scene = test::sheet(49, 49, 1, 1, 6);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].placement.v = {0, 0, 1};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(48, 0, 48, 0)};
+    const SimulationModel model(scene);
+    Twin walked(model), reduced(model, Schedule::cyclic);
+    double distance = 0;
+    for (std::uint32_t frame = 1; frame <= 12; ++frame) {
+        walked.run_frame(frame);
+        reduced.run_frame(frame);
+        for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i)
+            distance = std::max(distance, test::distance(test::position_of(walked.cloth(0), i),
+                                                         test::position_of(reduced.cloth(0), i)));
+    }
+    EXPECT_GT(distance, 0) << "nothing was reduced";
+    EXPECT_LT(distance, 2e-5);
+}
+
+}  // namespace
+}  // namespace drape
