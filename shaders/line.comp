@@ -65,6 +65,14 @@ vec2 load_second(Line line, int p) { return imageLoad(scratch_in, scratch_texel(
 uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
 #endif
 
+void store_first(Line line, int p, vec4 first) {
+#ifdef BUFFERED
+    scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
+#else
+    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
+#endif
+}
+
 void store_scratch(Line line, int p, vec4 first, vec2 second) {
 #ifdef BUFFERED
     scratch_out[place(line, p)].pairs =
@@ -119,7 +127,7 @@ void eliminate_particles(Line line) {
         stiffness = has_spring ? stiffness : 0.0f;
         eliminated =
             eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        if (p <= line.last) store_scratch(line, p, eliminated, vec2(0.0f, 0.0f));
+        if (p <= line.last) store_first(line, p, eliminated);
         particle = next;
         edge_before = edge;
         stiffness_before = stiffness;

@@ -1,13 +1,19 @@
-// Force of the wind: each particle gathers a third of the force, and of the drag, on each of its up to six triangles.
+// Force of the wind: each particle gathers a third of the force, and of the drag, on each of its up to six triangles. An
+// invocation goes down some adjacent columns of particles and hands the triangles between two rows on to the lower one,
+// so that most are looked at once and not by each of their corners; every sum keeps the order of triangle_around.
 // MASKED: the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
+#include "include/triangles.h"
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(constant_id = 20) const int strip_rows = 1;   // of an invocation
+layout(constant_id = 21) const int strip_columns = 1;
+const int most_columns = 2;
 layout(push_constant) uniform Push { WindPush push; };
 #define TOGETHER
 #include "include/state_store.h"
@@ -19,36 +25,94 @@ layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
 #endif
 
-#include "include/neighbourhood.h"
-
-vec3 positions[neighbourhood_count], displacements[neighbourhood_count];
-
-void load_member(int place, ivec2 at) {
-    displacements[place] = LOAD(displacement, at).xyz;
-    precise vec3 now = LOAD(position, at).xyz;
-    if (advance) now = now + displacements[place];
-    positions[place] = now;
-}
+struct Member {
+    vec3 position, displacement;
+};
+/// A row of the invocation's particles, with the one before and the one after them.
+struct Row {
+    Member members[most_columns + 2];
+};
+/// What the triangles between two rows give each of their corners, by cell from the one before the first particle on.
+struct Shares {
+    WindForce upper[most_columns + 1], lower[most_columns + 1];
+};
 
 vec3 wind_velocity;
-ivec2 texel;
-WindForce sum = WindForce(empty_sum(), 0.0f);
+int first_column;
 
-void add_triangle(int k) {
-    ivec4 around = triangle_around(k);
-    int a = corner_in_neighbourhood(around, 0), b = corner_in_neighbourhood(around, 1),
-        c = corner_in_neighbourhood(around, 2);
-    WindForce more = add_wind_share(sum, positions[a], positions[b], positions[c], displacements[a], displacements[b],
-                                    displacements[c], push.inverse_step, wind_velocity, push.drag_coefficient,
-                                    push.lift_coefficient, push.area_limit);
-    if (triangle_exists(texel, around)) sum = more;
+/// Past a border: of the border.
+Row load_row(int y) {
+    Row row;
+    for (int c = 0; c < strip_columns + 2; ++c) {
+        ivec2 at = clamp(ivec2(first_column - 1 + c, y), ivec2(0), push.grid - 1);
+        vec3 moved = LOAD(displacement, at).xyz;
+        precise vec3 now = LOAD(position, at).xyz;
+        if (advance) now = now + moved;
+        row.members[c] = Member(now, moved);
+    }
+    return row;
+}
+
+/// Bits of the triangles of a cell (triangle_around).
+uint triangles_of(ivec2 cell) {
+    if (!cell_inside(cell, push.grid)) return 0u;
+#ifdef MASKED
+    return imageLoad(cells, placed_cell(cell)).x;
+#else
+    return 3u;
+#endif
+}
+
+/// What does not exist adds nothing to a sum, not even a zero's sign.
+WindForce share_of(bool exists, Member a, Member b, Member c) {
+    WindForce share = wind_share(a.position, b.position, c.position, a.displacement, b.displacement, c.displacement,
+                                 push.inverse_step, wind_velocity, push.drag_coefficient, push.lift_coefficient,
+                                 push.area_limit);
+    share.force = exists ? share.force : empty_sum();
+    share.drag = exists ? share.drag : -0.0f;
+    return share;
+}
+
+/// Of the triangles between row `y` and the one below.
+Shares shares_between(Row above, Row below, int y) {
+    Shares shares;
+    for (int c = 0; c < strip_columns + 1; ++c) {
+        uint bits = triangles_of(ivec2(first_column - 1 + c, y));
+        // Corners as triangle_corner has them.
+        shares.upper[c] = share_of((bits & 1u) != 0u, above.members[c], above.members[c + 1], below.members[c]);
+        shares.lower[c] = share_of((bits & 2u) != 0u, above.members[c + 1], below.members[c + 1], below.members[c]);
+    }
+    return shares;
+}
+
+void store_row(Shares above, Shares below, int y) {
+    for (int c = 0; c < strip_columns; ++c) {
+        WindForce sum = WindForce(empty_sum(), 0.0f);
+        sum = add_share(sum, above.lower[c]);
+        sum = add_share(sum, above.upper[c + 1]);
+        sum = add_share(sum, above.lower[c + 1]);
+        sum = add_share(sum, below.upper[c]);
+        sum = add_share(sum, below.lower[c]);
+        sum = add_share(sum, below.upper[c + 1]);
+        ivec2 texel = ivec2(first_column + c, y);
+        if (texel.x < push.grid.x) STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
+    }
 }
 
 void main() {
     wind_velocity = wind[push.substep].xyz;  // before anything branches (docs/devices.md)
-    texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    FOR_NEIGHBOURHOOD(texel, load_member)
-    FOR_TRIANGLES(add_triangle)
-    STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
+    first_column = int(gl_GlobalInvocationID.x) * strip_columns;
+    int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
+    if (first_column >= push.grid.x || y >= end) return;
+    Row row = load_row(y);
+    Shares above = shares_between(load_row(y - 1), row, y - 1);
+    for (;;) {
+        Row next = load_row(y + 1);
+        Shares below = shares_between(row, next, y);
+        store_row(above, below, y);
+        row = next;
+        above = below;
+        ++y;
+        if (y >= end) break;
+    }
 }

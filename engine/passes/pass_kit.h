@@ -28,6 +28,8 @@ class PipelineCache {
     /// Particles of a column that an invocation looks after in turn: several on a CPU, where a workgroup costs as much
     /// to begin as some particles, and what one lane of a subgroup does as much as if all did it.
     std::uint32_t strip_rows() const;
+    /// Of such a part, columns beside each other, where particles share what is costly.
+    std::uint32_t strip_columns() const;
     /// So many parts of columns make up all rows.
     std::uint32_t strips_of(std::size_t rows) const;
     /// As the device's.

@@ -164,10 +164,11 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
                     const ivec2 offset = triangle_corner(which, k);
                     corner[k] = at(model.grid, {cell.x + offset.x, cell.y + offset.y});
                 }
-                sum = add_wind_share(
-                    sum, now(corner[0]), now(corner[1]), now(corner[2]), xyz(state[Field::displacement][corner[0]]),
+                const WindForce share = wind_share(
+                    now(corner[0]), now(corner[1]), now(corner[2]), xyz(state[Field::displacement][corner[0]]),
                     xyz(state[Field::displacement][corner[1]]), xyz(state[Field::displacement][corner[2]]),
                     push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
+                sum = add_share(sum, share);
             });
             state[Field::wind_force][at(model.grid, {x, y})] = texel(sum.force, sum.drag);
         }

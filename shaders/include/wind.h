@@ -43,14 +43,20 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
 /// addition of a zero.
 SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 
-/// `sum` plus one corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
-SHARED WindForce add_wind_share(WindForce sum, vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step,
-                                vec3 wind, float drag_coefficient, float lift_coefficient, float area_limit) {
+/// One corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
+SHARED WindForce wind_share(vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step, vec3 wind,
+                            float drag_coefficient, float lift_coefficient, float area_limit) {
     precise vec3 velocity = (d0 + d1 + d2) * inverse_step / 3.0f;
     WindForce on_triangle =
         triangle_wind_force(p0, p1, p2, velocity, wind, drag_coefficient, lift_coefficient, area_limit);
-    precise vec3 force = sum.force + on_triangle.force / 3.0f;
-    precise float drag = sum.drag + on_triangle.drag * inverse_step / 3.0f;
+    precise vec3 force = on_triangle.force / 3.0f;
+    precise float drag = on_triangle.drag * inverse_step / 3.0f;
+    return WindForce(force, drag);
+}
+
+SHARED WindForce add_share(WindForce sum, WindForce share) {
+    precise vec3 force = sum.force + share.force;
+    precise float drag = sum.drag + share.drag;
     return WindForce(force, drag);
 }
 
