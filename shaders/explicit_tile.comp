@@ -110,7 +110,7 @@ void main() {
     ivec2 place = ivec2(gl_LocalInvocationID.xy);
     ivec2 texel = ivec2(gl_WorkGroupID.xy) * (tile_width - 2 * halo) - halo + place;
     bool exists = within(texel, push.grid);
-    Particle particle = load_particle(clamp(texel, ivec2(0), push.grid - 1));
+    Particle particle = load_particle(max(min(texel, push.grid - 1), ivec2(0)));
     for (int step = 0; step < steps; ++step) {
         show(particle);
         if (exists) particle = stepped(particle, pull_on(particle, texel));

@@ -84,7 +84,7 @@ void relax_direction(ivec2 offset, int channel) {
 }
 
 void main() {
-    ivec2 texel = clamp(own_texel(), ivec2(0), push.grid - 1);
+    ivec2 texel = max(min(own_texel(), push.grid - 1), ivec2(0));
     vec4 start = LOAD(position, texel), displacement = LOAD(displacement_in, texel);
     held[gl_LocalInvocationIndex] = vec4(start.xyz, dragged_weight(start.w, displacement.w));
     moved[gl_LocalInvocationIndex] = displacement.xyz;

@@ -44,7 +44,7 @@ int first_column;
 Row load_row(int y) {
     Row row;
     for (int c = 0; c < strip_columns + 2; ++c) {
-        ivec2 at = clamp(ivec2(first_column - 1 + c, y), ivec2(0), push.grid - 1);
+        ivec2 at = max(min(ivec2(first_column - 1 + c, y), push.grid - 1), ivec2(0));
         vec3 moved = LOAD(displacement, at).xyz;
         precise vec3 now = LOAD(position, at).xyz;
         if (advance) now = now + moved;

@@ -42,7 +42,7 @@ SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, 
 void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::SweepPush>();
     const bool tension = step.last && state[Field::tension_row].valid() && push.compliance.x > 0;
-    const auto [pipeline, width, height] = sweep_dispatch(pipelines, state, push, tension);
+    const SweepDispatch dispatch = sweep_dispatch(pipelines, state, push, tension);
     graph.add_pass(
         state.step_name("sweep of all springs", step),
         [&](graph::PassSetup& setup) {
@@ -56,8 +56,8 @@ void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                                                   std::pair{Field::tension_column, "tension_column_out"}})
                 if (tension) state[field] = setup.write(state[field], graph::Access::compute_write, variable);
         },
-        [pipeline, width, height, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(*pipeline, push, width, height, count);
+        [dispatch, push, count = state.count](graph::PassContext& context) {
+            context.dispatch(*dispatch.pipeline, push, dispatch.width, dispatch.height, count);
         });
     state.turn_displacement();
 }
