@@ -30,6 +30,7 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_imag
 layout(constant_id = 0) const bool has_shear = false;
 layout(constant_id = 1) const int steps = 1;
 layout(constant_id = 2) const int halo = 1;
+#include "include/tile.h"
 
 struct Particle {
     vec3 position;
@@ -43,8 +44,6 @@ struct Particle {
 // Position and displacement of every particle of the tile.
 shared vec4 shown[tile_width * tile_width];
 shared vec2 shown_too[tile_width * tile_width];
-
-bool within(ivec2 place, ivec2 size) { return place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y; }
 
 Particle load_particle(ivec2 texel) {
     vec4 position = LOAD(position_in, texel), moved = LOAD(displacement_in, texel);
@@ -71,7 +70,7 @@ float share_of(ivec2 owner, ivec2 offset, int channel) {
 vec3 gather(vec3 sum, Particle center, ivec2 texel, int k) {
     ivec4 around = neighbour(k);
     if (around.z >= 2 && !has_shear) return sum;
-    ivec2 place = ivec2(gl_LocalInvocationID.xy) + around.xy, there = texel + around.xy;
+    ivec2 place = own_place() + around.xy, there = texel + around.xy;
     if (!within(there, push.grid) || !within(place, ivec2(tile_width))) return sum;
     int index = place.y * tile_width + place.x;
     vec4 first = shown[index];
@@ -107,15 +106,14 @@ Particle stepped(Particle particle, vec3 pull) {
 }
 
 void main() {
-    ivec2 place = ivec2(gl_LocalInvocationID.xy);
-    ivec2 texel = ivec2(gl_WorkGroupID.xy) * (tile_width - 2 * halo) - halo + place;
+    ivec2 texel = own_texel();
     bool exists = within(texel, push.grid);
-    Particle particle = load_particle(max(min(texel, push.grid - 1), ivec2(0)));
+    Particle particle = load_particle(loaded_texel());
     for (int step = 0; step < steps; ++step) {
         show(particle);
         if (exists) particle = stepped(particle, pull_on(particle, texel));
     }
-    if (!exists || !within(place - halo, ivec2(tile_width - 2 * halo))) return;
+    if (!is_own()) return;
     STORE_VECTOR(position_out, texel, vec4(particle.position, particle.weight));
     STORE_VECTOR(displacement_out, texel, vec4(particle.displacement, 0.0f));
     STORE_VECTOR(position_remainder_out, texel, vec4(particle.position_remainder, 0.0f));

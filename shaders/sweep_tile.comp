@@ -27,20 +27,11 @@ SCALAR_OUT(5, TensionColumnOut, tension_column_out);
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 layout(constant_id = 1) const int halo = 0;
+#include "include/tile.h"
 
 // Of every particle of the tile: position and inverse mass; displacement.
 shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
-
-bool within(ivec2 place, ivec2 size) { return place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y; }
-
-ivec2 own_place() { return ivec2(gl_LocalInvocationID.xy); }
-
-ivec2 own_texel() { return ivec2(gl_WorkGroupID.xy) * (tile_width - 2 * halo) - halo + own_place(); }
-
-bool is_own() {
-    return within(own_texel(), push.grid) && within(own_place() - halo, ivec2(tile_width - 2 * halo));
-}
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
@@ -84,7 +75,7 @@ void relax_direction(ivec2 offset, int channel) {
 }
 
 void main() {
-    ivec2 texel = max(min(own_texel(), push.grid - 1), ivec2(0));
+    ivec2 texel = loaded_texel();
     vec4 start = LOAD(position, texel), displacement = LOAD(displacement_in, texel);
     held[gl_LocalInvocationIndex] = vec4(start.xyz, dragged_weight(start.w, displacement.w));
     moved[gl_LocalInvocationIndex] = displacement.xyz;

@@ -10,34 +10,28 @@ namespace drape {
 
 namespace {
 
-/// Several steps at once.
-void add_stream(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    const auto& push = step.push<glsl::ExplicitPush>();
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("explicit_stream.comp", {{"masked", state.masked()}}),
-                      {{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u}});
-    graph.add_pass(
-        state.step_name(fmt::format("{} explicit steps", step.count), step),
-        [&](graph::PassSetup& setup) {
-            write_spare(setup, state);
-            if (state.masked())
-                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
-        },
-        [&pipeline, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, stream_invocations(push.grid.x, glsl::stream_width, glsl::stream_steps), 1,
-                             count);
-        });
-    state.turn();
-}
+struct FlightDispatch {
+    const vulkan::ComputePipeline* pipeline;
+    std::uint32_t width, height;  ///< invocations
+};
 
-/// Likewise, in tiles.
-void add_tiles(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+/// Strips where the state is stored through buffers, else tiles.
+FlightDispatch flight_dispatch(PipelineCache& pipelines, const ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::ExplicitPush>();
+    const auto variant = [&](const char* shader) { return vulkan::variant_name(shader, {{"masked", state.masked()}}); };
+    const vulkan::SpecializationConstant has_shear{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u};
+    if (state.buffered)
+        return {&pipelines.get(variant("explicit_stream.comp"), {has_shear}),
+                stream_invocations(push.grid.x, glsl::stream_width, glsl::stream_steps), 1};
     const Grid& grid = state.model->grid;
     const std::uint32_t halo = tile_halo_of(grid, glsl::tile_halo);
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("explicit_tile.comp", {{"masked", state.masked()}}),
-                      {{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u}, {"steps", step.count}, {"halo", halo}});
+    return {&pipelines.get(variant("explicit_tile.comp"), {has_shear, {"steps", step.count}, {"halo", halo}}),
+            tile_invocations(grid.columns(), halo), tile_invocations(grid.rows(), halo)};
+}
+
+/// Several steps at once.
+void add_flight(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const FlightDispatch dispatch = flight_dispatch(pipelines, state, step);
     graph.add_pass(
         state.step_name(fmt::format("{} explicit steps", step.count), step),
         [&](graph::PassSetup& setup) {
@@ -45,16 +39,16 @@ void add_tiles(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
             if (state.masked())
                 setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
         },
-        [&pipeline, push, x = tile_invocations(grid.columns(), halo), y = tile_invocations(grid.rows(), halo)](
-            graph::PassContext& context) { context.dispatch(pipeline, push, x, y); });
+        [dispatch, push = step.push<glsl::ExplicitPush>(), count = state.count](graph::PassContext& context) {
+            context.dispatch(*dispatch.pipeline, push, dispatch.width, dispatch.height, count);
+        });
     state.turn();
 }
 
 }  // namespace
 
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    if (step.count > 1)
-        return state.buffered ? add_stream(graph, pipelines, state, step) : add_tiles(graph, pipelines, state, step);
+    if (step.count > 1) return add_flight(graph, pipelines, state, step);
     const bool wind = state[Field::wind_force].valid();
     const auto& push = step.push<glsl::ExplicitPush>();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,
