@@ -10,6 +10,4 @@ ivec2 own_texel() { return ivec2(gl_WorkGroupID.xy) * (tile_width - 2 * halo) - 
 ivec2 loaded_texel() { return max(min(own_texel(), push.grid - 1), ivec2(0)); }
 
 /// Whether the particle is this tile's to store: the halo is other tiles'.
-bool is_own() {
-    return within(own_texel(), push.grid) && within(own_place() - halo, ivec2(tile_width - 2 * halo));
-}
+bool is_own() { return within(own_texel(), push.grid) && within(own_place() - halo, ivec2(tile_width - 2 * halo)); }
