@@ -16,8 +16,10 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"
 VECTOR_OUT(8, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
-layout(set = 0, binding = 4, std430) buffer Corrections { ivec4 corrections[]; };
-layout(set = 0, binding = 5, std430) buffer Before { vec4 before[]; };
+layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer corrections_in;  // bits of integers
+layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer before_in;
+layout(set = 0, binding = 9, std430) writeonly buffer CorrectionsOut { ivec4 corrections_out[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Record { SelfRecord record[]; };
 #ifdef CROSSED
 layout(set = 0, binding = 7, std430) readonly buffer Led { vec4 led[]; };
@@ -25,10 +27,22 @@ layout(set = 0, binding = 7, std430) readonly buffer Led { vec4 led[]; };
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
+ivec4 corrections_of(int place) { return floatBitsToInt(imageLoad(corrections_in, place)); }
+
+/// Whether a place is pushed at all, in whatever form its sums are: a weight that the sum below it has borrowed from is
+/// that sum's, not 0.
+bool pushed(int place) {
+#ifdef CROSSED
+    if (push.round == 0) return true;  // led, perhaps
+#endif
+    ivec4 sum = corrections_of(place);
+    return (sum.z | sum.w) != 0;
+}
+
 void move(int place) {
     ivec2 texel = texel_of(place);
     vec4 moved = imageLoad(displacements_in, texel);
-    ivec4 sum = corrections[place];
+    ivec4 sum = corrections_of(place);
 #ifdef WIDE
     sum = self_sums(sum);
 #endif
@@ -38,19 +52,19 @@ void move(int place) {
     moves = moves || by.x != 0.0f || by.y != 0.0f || by.z != 0.0f;
 #endif
     if (owner_of(place) >= 0 && moves && imageLoad(positions, texel).w > 0.0f) {
-        corrections[place] = ivec4(0, 0, 0, 0);
+        corrections_out[place] = ivec4(0, 0, 0, 0);
         float thickness = cloth_at(texel).thickness;
         vec3 corrected = self_corrected(moved.xyz, sum, thickness);
 #ifdef CROSSED
         corrected = self_led(corrected, by);
 #endif
-        vec3 bounded = self_bounded(corrected, before[place].xyz, carried, thickness);
+        vec3 bounded = self_bounded(corrected, imageLoad(before_in, place).xyz, carried, thickness);
         STORE_VECTOR(displacements_out, texel, vec4(bounded, moved.w));
-        before[place].w = 1.0f;
+        before_out[place].w = 1.0f;
     }
 }
 
 void main() {
     carried = record[0].carried.xyz;
-    FOR_EVERY(place, push.grid.x * push.grid.y, move(place))
+    FOR_FOUND(place, push.grid.x * push.grid.y, pushed(place), move(place))
 }

@@ -14,17 +14,20 @@ layout(push_constant) uniform Push { SelfClothPush push; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(1, DisplacementOut, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;  // on the sheet
-layout(set = 0, binding = 3, std430) buffer Before { vec4 before[]; };  // w: 1 where contact has moved the particle
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before_in;  // w: 1 where contact has moved a particle
+layout(set = 0, binding = 6, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
 #ifdef HISTORY
 VECTOR_KEPT(4, DisplacementBefore, displacement_before);
 layout(set = 0, binding = 5, r32ui) uniform uimage2D control;
 #endif
 
+int place_of(ivec2 laid) { return laid.y * push.columns + laid.x; }
+
+bool was_moved(ivec2 texel) { return imageLoad(before_in, place_of(push.first + texel)).w != 0.0f; }
+
 void take(ivec2 texel) {
     ivec2 laid = push.first + texel;
-    int place = laid.y * push.columns + laid.x;
-    if (before[place].w == 0.0f) return;
-    before[place].w = 0.0f;
+    before_out[place_of(laid)].w = 0.0f;
     vec3 displacement = imageLoad(displacements, laid).xyz;
     STORE_VECTOR(displacement_out, texel, vec4(displacement, imageLoad(displacement_in, texel).w));
 #ifdef HISTORY
@@ -35,4 +38,4 @@ void take(ivec2 texel) {
 #endif
 }
 
-void main() { FOR_STRIP(texel, push.grid, take(texel)) }
+void main() { FOR_STRIP_FOUND(texel, push.grid, was_moved(texel), take(texel)) }

@@ -86,7 +86,7 @@ void move_on_sheet(PassSetup& setup, ClothState& contact) {
     read(setup, contact, Field::self_positions, "positions");
     update(setup, contact[Field::self_displacements], "displacements");
     read_cloths(setup, contact);
-    update_in_place(setup, contact, Field::self_before, "before");
+    update(setup, contact[Field::self_before], "before");
 }
 void write(PassSetup& setup, ClothState& contact, Field field, const char* name) {
     contact[field] = setup.write(contact[field], Access::compute_write, name);
@@ -142,7 +142,7 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
     add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self return", step), step, pipeline,
                                   over_strips(pipelines, cloth), [&](PassSetup& setup) {
                                       read(setup, contact, Field::self_displacements, "displacements");
-                                      update_in_place(setup, contact, Field::self_before, "before");
+                                      update(setup, contact[Field::self_before], "before");
                                       update(setup, cloth[Field::displacement], "displacement");
                                       if (!history) return;
                                       update_in_place(setup, cloth, Field::displacement_before, "displacement_before");
@@ -307,7 +307,7 @@ void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
     add_sized_pass(graph, contact, step, "self push", pipeline_of(pipelines, module, step),
                    glsl::self_size_push + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        move_on_sheet(setup, contact);
-                       update_in_place(setup, contact, Field::self_corrections, "corrections");
+                       update(setup, contact[Field::self_corrections], "corrections");
                        read(setup, contact, Field::self_record, "record");
                        if (crossed(step)) read(setup, contact, Field::self_led, "led");
                    });
