@@ -17,10 +17,11 @@ layout(set = 0, binding = 2, std430) writeonly buffer Partials { DifferenceRecor
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(difference_rows));
     DifferenceRecord record = empty_difference();
-    for (int row = 0; row < difference_rows; ++row, ++texel.y) {
-        if (texel.x >= push.grid.x || texel.y >= push.grid.y) continue;
-        vec4 at = imageLoad(position, texel);
+    for (int row = 0, rows = rows_of(texel, difference_rows, push.grid);;) {
+        vec4 at = imageLoad(position, texel);  // w: 0 outside the grid
         record = joined(record, particle_difference(at.w, at.xyz, imageLoad(coarse_position, texel).xyz));
+        ++texel.y;
+        if (++row >= rows) break;
     }
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;

@@ -24,7 +24,7 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_imag
 ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, float rest_length, int channel,
                            float tension) {
     ivec2 second = first + offset;
-    if (second.x >= push.grid.x || second.y >= push.grid.y) return record;
+    if (first.x >= push.grid.x || second.x >= push.grid.x || second.y >= push.grid.y) return record;
 #ifdef MASKED
     float share = imageLoad(spring_share_image, first)[channel];
 #else
@@ -38,10 +38,11 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(residual_rows));
     ResidualRecord record = empty_residual();
-    for (int row = 0; row < residual_rows; ++row, ++texel.y) {
-        if (texel.x >= push.grid.x || texel.y >= push.grid.y) continue;
+    for (int row = 0, rows = rows_of(texel, residual_rows, push.grid);;) {
         record = with_spring(record, texel, ivec2(1, 0), push.rest_length.x, 0, imageLoad(tension_row, texel).x);
         record = with_spring(record, texel, ivec2(0, 1), push.rest_length.y, 1, imageLoad(tension_column, texel).x);
+        ++texel.y;
+        if (++row >= rows) break;
     }
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;

@@ -1,4 +1,4 @@
-// Statistics of a cloth: an invocation per statistics_rows particles of a column, a record per workgroup. A
+// Statistics of a cloth: an invocation and a record per statistics_rows particles of a column. A
 // particle answers for the springs whose first particle it is. MASKED: spring shares and masses come from images (holes,
 // cuts). COLLIDING: the scene has colliders.
 #version 460
@@ -28,10 +28,6 @@ layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Of each cloth, xyz: positions are summed relative to this point, m; w: thickness, m.
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D reference;
-#define RECORD StatisticsRecord
-#include "include/workgroup_reduction.h"
-
-bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
 
 vec4 reference_of_cloth() { return imageLoad(reference, ivec2(0, gl_WorkGroupID.z)); }
 
@@ -97,18 +93,19 @@ void main() {
     Neighbours around;
     around.here = LOAD(position, texel);
     around.right = LOAD(position, texel + ivec2(1, 0)).xyz;
-    for (int row = 0; row < statistics_rows; ++row, ++texel.y) {
+    int end = min(texel.y + statistics_rows, push.grid.y);
+    if (texel.x >= push.grid.x) return;
+    for (;;) {
         vec4 below = LOAD(position, texel + ivec2(0, 1));
         around.below_left = LOAD(position, texel + ivec2(-1, 1)).xyz;
         around.below = below.xyz;
         around.below_right = LOAD(position, texel + ivec2(1, 1)).xyz;
-        if (inside(texel)) record = joined(record, statistics_of(texel, around));
+        record = joined(record, statistics_of(texel, around));
         around.here = below;
         around.right = around.below_right;
+        ++texel.y;
+        if (texel.y >= end) break;
     }
-    record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) {
-        uint row = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
-        partials[row * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
-    }
+    partials[int(gl_GlobalInvocationID.z * gl_NumWorkGroups.y + gl_GlobalInvocationID.y) * push.grid.x + texel.x] =
+        record;
 }

@@ -1,4 +1,4 @@
-// Joins the workgroups' records into each cloth's: lane l takes every 64th from the l-th on, then the tree.
+// Joins records of each cloth's, statistics_chunk to one: lane l takes every 64th of them from the l-th on, then the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -14,8 +14,9 @@ layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord 
 
 void main() {
     StatisticsRecord record = empty_statistics();
-    for (int i = int(gl_LocalInvocationIndex); i < push.partial_count; i += workgroup_width)
+    int chunk = int(gl_WorkGroupID.x) * statistics_chunk, end = min(chunk + statistics_chunk, push.partial_count);
+    for (int i = chunk + int(gl_LocalInvocationIndex); i < end; i += workgroup_width)
         record = joined(record, partials[int(gl_WorkGroupID.z) * push.partial_count + i]);
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) result[gl_WorkGroupID.z] = record;
+    if (gl_LocalInvocationIndex == 0u) result[gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
 }

@@ -10,11 +10,8 @@ std::uint32_t strip_count(const Grid& grid) {
     return (grid.rows() + rows - 1) / rows;
 }
 
-/// One record per workgroup.
-std::uint32_t partial_count(const Grid& grid) {
-    constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
-    return (grid.columns() + width - 1) / width * strip_count(grid);
-}
+/// Records of a cloth that the first pass leaves.
+std::uint32_t partial_count(const Grid& grid) { return grid.columns() * strip_count(grid); }
 
 graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
@@ -26,7 +23,7 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
     }
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", collides}}), constants);
-    graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of workgroups",
+    graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of columns",
                                                                  partial_count(state.model->grid) * state.count,
                                                                  graph::Lifetime::transient);
     graph.add_pass(
@@ -55,26 +52,45 @@ graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothS
     return records;
 }
 
+std::uint32_t chunk_count(std::uint32_t partials) {
+    constexpr auto chunk = static_cast<std::uint32_t>(glsl::statistics_chunk);
+    return (partials + chunk - 1) / chunk;
+}
+
+/// A pass that joins `count` records of each cloth to one of each of their chunks.
+graph::Handle add_sum(graph::Graph& graph, PipelineCache& pipelines, const ClothState& state, const char* name,
+                      graph::Handle records, std::uint32_t count, graph::Handle result) {
+    const vulkan::ComputePipeline& pipeline = pipelines.get("statistics_sum.comp");
+    const glsl::StatisticsSumPush push{static_cast<int>(count)};
+    graph.add_pass(
+        state.pass_name(name, "statistics"),
+        [&](graph::PassSetup& setup) {
+            setup.read(records, graph::Access::compute_read, "partials");
+            result = setup.write(result, graph::Access::compute_write, "result");
+        },
+        [&pipeline, push, chunks = chunk_count(count), cloths = state.count](graph::PassContext& context) {
+            constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
+            context.dispatch(pipeline, push, chunks * width, 1, cloths);
+        });
+    return result;
+}
+
 }  // namespace
 
 std::string statistics_readback_name(const std::string& state) { return state + "/statistics on the host"; }
 
 void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model) {
-    const graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
+    graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
+    const std::uint32_t partials = partial_count(state.model->grid), chunks = chunk_count(partials);
+    if (chunks > 1) {
+        const graph::Handle joined = graph.buffer<glsl::StatisticsRecord>(
+            state.name + "/statistics of chunks", chunks * state.count, graph::Lifetime::transient);
+        records = add_sum(graph, pipelines, state, "statistics chunks", records, partials, joined);
+    }
     const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name), state.count,
                                                                       graph::Lifetime::host_output);
-    const vulkan::ComputePipeline& pipeline = pipelines.get("statistics_sum.comp");
-    const glsl::StatisticsSumPush push{static_cast<int>(partial_count(state.model->grid))};
-    graph.add_pass(
-        state.pass_name("statistics sum", "statistics"),
-        [&](graph::PassSetup& setup) {
-            setup.read(records, graph::Access::compute_read, "partials");
-            static_cast<void>(setup.write(result, graph::Access::compute_write, "result"));
-        },
-        [&pipeline, push, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, 1, 1, count);
-        });
+    add_sum(graph, pipelines, state, "statistics sum", records, chunks > 1 ? chunks : partials, result);
 }
 
 }  // namespace drape

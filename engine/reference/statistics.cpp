@@ -1,6 +1,8 @@
 #include "reference/statistics.h"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
@@ -19,6 +21,18 @@ StatisticsRecord joined_over_workgroup(Workgroup& lanes) {
     return lanes[0];
 }
 
+std::vector<StatisticsRecord> joined_in_chunks(const std::vector<StatisticsRecord>& records) {
+    std::vector<StatisticsRecord> result;
+    for (std::size_t first = 0; first < records.size(); first += statistics_chunk) {
+        Workgroup lanes;
+        lanes.fill(empty_statistics());
+        for (std::size_t i = first; i < std::min(first + statistics_chunk, records.size()); ++i)
+            lanes[i % workgroup_width] = joined(lanes[i % workgroup_width], records[i]);
+        result.push_back(joined_over_workgroup(lanes));
+    }
+    return result;
+}
+
 /// One cloth's state as the shader's invocations see it.
 class Reduction {
   public:
@@ -31,28 +45,21 @@ class Reduction {
           masses_(mass_shares(cloth)) {}
 
     StatisticsRecord run() const {
-        std::vector<StatisticsRecord> partials;
+        std::vector<StatisticsRecord> records;
         for (int row = 0; row < push_.grid.y; row += statistics_rows)
-            for (int column = 0; column < push_.grid.x; column += workgroup_width)
-                partials.push_back(workgroup({column, row}));
-        Workgroup lanes;
-        lanes.fill(empty_statistics());
-        for (std::size_t i = 0; i < partials.size(); ++i)
-            lanes[i % workgroup_width] = joined(lanes[i % workgroup_width], partials[i]);
-        return joined_over_workgroup(lanes);
+            for (int column = 0; column < push_.grid.x; ++column) records.push_back(part_of_column({column, row}));
+        if (records.size() > statistics_chunk) records = joined_in_chunks(records);
+        return joined_in_chunks(records).front();
     }
 
   private:
-    StatisticsRecord workgroup(ivec2 first) const {
-        Workgroup lanes;
-        lanes.fill(empty_statistics());
-        for (int lane = 0; lane < workgroup_width; ++lane)
-            for (int row = 0; row < statistics_rows; ++row) {
-                const ivec2 particle{first.x + lane, first.y + row};
-                StatisticsRecord& record = lanes[static_cast<std::size_t>(lane)];
-                if (inside(particle)) record = joined(record, statistics_of(particle));
-            }
-        return joined_over_workgroup(lanes);
+    StatisticsRecord part_of_column(ivec2 first) const {
+        StatisticsRecord record = empty_statistics();
+        for (int row = 0; row < statistics_rows; ++row) {
+            const ivec2 particle{first.x, first.y + row};
+            if (inside(particle)) record = joined(record, statistics_of(particle));
+        }
+        return record;
     }
 
     bool inside(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < push_.grid.x && p.y < push_.grid.y; }

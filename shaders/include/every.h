@@ -7,24 +7,24 @@
         entry += int(gl_NumWorkGroups.x) * workgroup_width; \
         if (entry >= (count)) break;                        \
     }
-// Of those entries, the ones for which `test`, a call, says that there is something to do: all tests of a word of bits come
-// first, then `statement` as often as the invocation with the most to do has found something. On the default device what
-// is behind a branch runs for every entry.
-#define FOR_FOUND(entry, count, test, statement)                                                                  \
-    for (int stride = int(gl_NumWorkGroups.x) * workgroup_width, batch = int(gl_GlobalInvocationID.x);;) {        \
-        uint found = 0u;                                                                                          \
-        for (int entry = batch, k = 0;;) {                                                                        \
-            if (entry < (count)) found |= test ? 1u << k : 0u;                                                    \
-            entry += stride;                                                                                      \
-            ++k;                                                                                                  \
-            if (k == 32 || entry >= (count)) break;                                                               \
-        }                                                                                                         \
-        for (;;) {                                                                                                \
-            int entry = batch + max(findLSB(found), 0) * stride;                                                  \
-            if (found != 0u) statement;                                                                           \
-            found &= max(found, 1u) - 1u;                                                                         \
-            if (found == 0u) break;                                                                               \
-        }                                                                                                         \
-        batch += 32 * stride;                                                                                     \
-        if (batch >= (count)) break;                                                                              \
+// Of those entries, the ones for which `test`, a call, says that there is something to do: all tests of a word of bits
+// come first, then `statement` as often as the invocation with the most to do has found something. On the default
+// device what is behind a branch runs for every entry.
+#define FOR_FOUND(entry, count, test, statement)                                                           \
+    for (int stride = int(gl_NumWorkGroups.x) * workgroup_width, batch = int(gl_GlobalInvocationID.x);;) { \
+        uint found = 0u;                                                                                   \
+        for (int entry = batch, k = 0;;) {                                                                 \
+            if (entry < (count)) found |= test ? 1u << k : 0u;                                             \
+            entry += stride;                                                                               \
+            ++k;                                                                                           \
+            if (k == 32 || entry >= (count)) break;                                                        \
+        }                                                                                                  \
+        for (;;) {                                                                                         \
+            int entry = batch + max(findLSB(found), 0) * stride;                                           \
+            if (found != 0u) statement;                                                                    \
+            found &= max(found, 1u) - 1u;                                                                  \
+            if (found == 0u) break;                                                                        \
+        }                                                                                                  \
+        batch += 32 * stride;                                                                              \
+        if (batch >= (count)) break;                                                                       \
     }

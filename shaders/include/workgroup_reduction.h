@@ -2,6 +2,11 @@
 // defines RECORD, the type, for which there is a function `joined`.
 shared RECORD lane_records[workgroup_width];
 
+/// Rows that an invocation joins, of `most` from a particle of its column on: it meets a barrier afterwards, so even
+/// one past the last column takes a turn. On the default device a loop over all `most` would cost those it has not,
+/// too.
+int rows_of(ivec2 first, int most, ivec2 grid) { return first.x < grid.x ? min(most, grid.y - first.y) : 0; }
+
 /// Joins the records of all lanes; every lane must call it. The result is lane 0's.
 RECORD joined_over_workgroup(RECORD record) {
     uint lane = gl_LocalInvocationIndex;

@@ -8,9 +8,10 @@
 namespace drape::glsl {
 #endif
 
-/// Rows of particles that one invocation of the statistics joins before its workgroup does: the tree costs more
-/// than the particles do (measured: 8 rows take a fifth of the time of 1).
-const int statistics_rows = 32;
+/// Rows of particles that one invocation of the statistics joins; such records that a workgroup then joins, by a tree
+/// over its lanes at the end. That tree costs the default device what a few hundred particles do, so that a workgroup
+/// each for the first ones took as long for it as for the particles.
+const int statistics_rows = 32, statistics_chunk = 4096;
 
 /// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
 /// down-right, shear down-left.
@@ -26,7 +27,7 @@ struct StatisticsSumPush {
     int partial_count;
 };
 
-/// Statistics of a particle and its springs, of a workgroup, of a cloth: joined by include/statistics.h.
+/// Statistics of a particle and its springs, of a part of a column, of a cloth: joined by include/statistics.h.
 struct StatisticsRecord {
     vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |h v|^2, m^2
     vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
