@@ -1,5 +1,5 @@
-// Some explicit micro-steps at once, none of them a frame's first, to the bits of as many dispatches of explicit.comp:
-// each subgroup streams down the rows of a strip of columns and keeps in registers, per step in flight, the row whose
+// One explicit micro-step, or some at once of which none is a frame's first, to the bits of as many dispatches of
+// explicit.comp: each subgroup streams down the rows of a strip of columns and keeps in registers, per step in flight, the row whose
 // lower neighbours are still to come. Every spring is evaluated once; its other end sees the negated numbers. Column
 // neighbours across invocations come by shuffle, so a step makes one more column at either end of a strip useless:
 // strips overlap by 2 * `steps`. Loops are left to the driver: spirv-opt, told to unroll, loses what is precise.
@@ -33,8 +33,10 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_imag
 #endif
 
 layout(constant_id = 0) const bool has_shear = false;
+layout(constant_id = 1) const int steps = stream_steps;
+layout(constant_id = 2) const bool advance = true;  // as in explicit.comp
 
-const int columns = stream_columns, steps = stream_steps;
+const int columns = stream_columns;
 
 struct Particle {
     vec3 position;
@@ -100,7 +102,8 @@ vec4 shares_of(int x, int y) {
 vec3 pull_between(Particle from, Particle to, int channel, float share) {
     precise vec3 closing = to.displacement - from.displacement;
     precise float stiffness = push.relative_stiffness[channel] * share;
-    vec3 edge = spring_edge(from.position, to.position, from.displacement, to.displacement);
+    precise vec3 edge = to.position - from.position;
+    if (advance) edge = spring_edge(from.position, to.position, from.displacement, to.displacement);
     return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.compression.x, push.strain_damping);
 }
 
@@ -162,9 +165,12 @@ void add_springs(inout Particle above[columns], inout Particle row[columns], int
 
 Particle stepped(Particle particle, float mark) {
     Particle next = particle;
-    CompensatedSum advanced = compensated_add(particle.position, particle.displacement, particle.position_remainder);
-    next.position = advanced.value;
-    next.position_remainder = advanced.remainder;
+    if (advance) {
+        CompensatedSum advanced =
+            compensated_add(particle.position, particle.displacement, particle.position_remainder);
+        next.position = advanced.value;
+        next.position_remainder = advanced.remainder;
+    }
     vec3 increment = explicit_increment(particle.displacement, push.gravity_step.xyz, vec3(0.0f), particle.pull,
                                         particle.weight, push.force_step, push.damping_loss);
     CompensatedSum moved = compensated_add(particle.displacement, released_increment(increment, mark),
@@ -176,23 +182,29 @@ Particle stepped(Particle particle, float mark) {
     return next;
 }
 
+/// Row `y` has come down to a step: the row above it has all its springs then and leaves it. `first`: of the flight.
+void take_step(inout Particle above[columns], inout Particle row[columns], int y, bool first) {
+    Particle done[columns];
+    add_springs(above, row, y);
+    for (int c = 0; c < columns; ++c) {
+        done[c] = stepped(above[c], first ? above[c].mark : 0.0f);
+        above[c] = row[c];
+    }
+    row = done;
+}
+
 void main() {
-    Particle above[steps][columns];
+    Particle above[stream_steps][columns];
     for (int s = 0; s < steps; ++s)
         for (int c = 0; c < columns; ++c)
             above[s][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f));
     for (int y = 0; y < push.grid.y + steps; ++y) {
         Particle row[columns];
         load_row(y, row);
-        for (int s = 0; s < steps; ++s) {
-            Particle done[columns];
-            add_springs(above[s], row, y - s);
-            for (int c = 0; c < columns; ++c) {
-                done[c] = stepped(above[s][c], s > 0 ? 0.0f : above[s][c].mark);
-                above[s][c] = row[c];
-            }
-            row = done;
-        }
+        if (steps == 1)  // a loop of one round would stay one, and index its arrays lane by lane
+            take_step(above[0], row, y, true);
+        else
+            for (int s = 0; s < steps; ++s) take_step(above[s], row, y - s, s == 0);
         store_row(y - steps, row);
     }
 }

@@ -122,7 +122,10 @@ bool has_direction(const glsl::SweepPush& push, int direction) {
 
 std::vector<Step> streamed_steps(const SimulationModel& model) {
     const auto streamed = [](std::size_t) { return FlightSize{glsl::stream_steps, glsl::stream_steps}; };
-    return steps_in_sweeps(model, steps_in_flight(frame_steps(model), streamed));
+    std::vector<Step> steps = steps_in_sweeps(model, steps_in_flight(frame_steps(model), streamed));
+    for (Step& step : steps)
+        step.streams = step.kind == StepKind::explicit_step && step.push<glsl::ExplicitPush>().twist == 0;
+    return steps;
 }
 
 std::uint32_t tile_halo_of(const Grid& grid, int halo) {

@@ -21,19 +21,20 @@ FlightDispatch flight_dispatch(PipelineCache& pipelines, const ClothState& state
     const auto variant = [&](const char* shader) { return vulkan::variant_name(shader, {{"masked", state.masked()}}); };
     const vulkan::SpecializationConstant has_shear{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u};
     if (state.buffered)
-        return {&pipelines.get(variant("explicit_stream.comp"), {has_shear}),
-                stream_invocations(push.grid.x, glsl::stream_width, glsl::stream_steps), 1};
+        return {&pipelines.get(variant("explicit_stream.comp"),
+                               {has_shear, {"steps", step.count}, {"advance", step.substep > 0 ? 1u : 0u}}),
+                stream_invocations(push.grid.x, glsl::stream_width, static_cast<int>(step.count)), 1};
     const Grid& grid = state.model->grid;
     const std::uint32_t halo = tile_halo_of(grid, glsl::tile_halo);
     return {&pipelines.get(variant("explicit_tile.comp"), {has_shear, {"steps", step.count}, {"halo", halo}}),
             tile_invocations(grid.columns(), halo), tile_invocations(grid.rows(), halo)};
 }
 
-/// Several steps at once.
+/// Steps at once, or one that streams.
 void add_flight(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const FlightDispatch dispatch = flight_dispatch(pipelines, state, step);
     graph.add_pass(
-        state.step_name(fmt::format("{} explicit steps", step.count), step),
+        state.step_name(step.count > 1 ? fmt::format("{} explicit steps", step.count) : "explicit step", step),
         [&](graph::PassSetup& setup) {
             write_spare(setup, state);
             if (state.masked())
@@ -48,8 +49,8 @@ void add_flight(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
 }  // namespace
 
 void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
-    if (step.count > 1) return add_flight(graph, pipelines, state, step);
     const bool wind = state[Field::wind_force].valid();
+    if (step.count > 1 || (step.streams && !wind)) return add_flight(graph, pipelines, state, step);
     const auto& push = step.push<glsl::ExplicitPush>();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0, has_shear = push.relative_stiffness.z > 0 ? 1 : 0,
                         has_bend = push.twist > 0 ? 1 : 0;
