@@ -84,8 +84,6 @@ struct Step {
     bool last = false;
     /// Explicit steps: how many substeps it takes at once, from `substep` on.
     std::uint32_t count = 1;
-    /// Explicit steps, one or some at once: down the rows (cloth/streams.h), where no wind blows.
-    bool streams = false;
     /// Runs only when the check before it found the tolerance not met: decided on the device.
     bool conditional = false;
     /// Contact, a second `box_edges`: goes on from what `box_edges` left.
@@ -96,6 +94,8 @@ struct Step {
     bool reduced = false;
     /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
+    /// Explicit steps, one or some at once: down the rows (cloth/streams.h), where no wind blows.
+    bool streams = false;
 
     /// Throws std::bad_variant_access when the step has others.
     template <class Push>
