@@ -29,8 +29,8 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 
 ivec4 corrections_of(int place) { return floatBitsToInt(imageLoad(corrections_in, place)); }
 
-/// Whether a place is pushed at all, in whatever form its sums are: a weight that the sum below it has borrowed from is
-/// that sum's, not 0.
+/// Whether a place is pushed at all, judged before its sums are taken apart: of a weight above 0 and the sum below it,
+/// whose sign is carried into it (self_contact.comp), one is not 0.
 bool pushed(int place) {
 #ifdef CROSSED
     if (push.round == 0) return true;  // led, perhaps

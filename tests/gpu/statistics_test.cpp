@@ -227,8 +227,8 @@ void compare(const SceneDescription& scene, const ModelOptions& options = {}, fl
 TEST(StatisticsTest, SmallestGrid) { compare(soft_sheet(2, 2)); }
 TEST(StatisticsTest, OneColumnMoreThanAWorkgroup) { compare(soft_sheet(65, 33)); }
 TEST(StatisticsTest, ManyWorkgroupsWide) { compare(soft_sheet(300, 7)); }
-TEST(StatisticsTest, MoreWorkgroupsThanLanes) { compare(soft_sheet(40, 130)); }
-
+TEST(StatisticsTest, MoreRecordsThanLanes) { compare(soft_sheet(40, 130)); }
+TEST(StatisticsTest, MoreRecordsThanAChunk) { compare(soft_sheet(4097, 2)); }
 TEST(StatisticsTest, SpringsPushedTogetherStoreTheirShare) { compare(soft_sheet(40, 33), {}, 0.97f); }
 
 TEST(StatisticsTest, Holes) {
