@@ -41,6 +41,6 @@ void main() {
     vec3 albedo = mix(gl_FrontFacing ? push.front.xyz : push.back.xyz, push.second.xyz, second);
     float openness = 1.0 - (gl_FrontFacing ? hidden.x : hidden.y);
     Surface surface =
-        Surface(albedo, normalize(normal), normalize(frame[0].eye.xyz - world), 0.2, 0.0, 0.3, openness);
+        Surface(albedo, normalize(normal), normalize(constants.eye.xyz - world), 0.2, 0.0, 0.3, openness);
     color = vec4(shaded(surface, world), 1.0);
 }

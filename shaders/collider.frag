@@ -17,7 +17,7 @@ layout(location = 3) flat in vec4 albedo;
 layout(location = 0) out vec4 color;
 
 void main() {
-    vec3 to_eye = frame[0].eye.xyz - world;
+    vec3 to_eye = constants.eye.xyz - world;
     bool plane = collider_kind == kind_plane;
     vec3 normal = plane && dot(surface_normal, to_eye) < 0.0 ? -surface_normal : surface_normal;
     vec3 diffuse = albedo.xyz;

@@ -9,6 +9,7 @@ layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
 layout(location = 2) out vec2 on_plane;
 layout(location = 3) flat out vec4 albedo;      // w: distance of the grid's lines on a plane
+layout(location = lit_location) flat out LitConstants constants;
 
 void main() {
     ColliderInstance collider = colliders[gl_InstanceIndex];
@@ -19,4 +20,5 @@ void main() {
     albedo = vec4(collider.color.xyz, collider.shape.y);
     gl_Position = clip_position(world);
     gl_ClipDistance[0] = clip_distance(world, 0.0);
+    constants = lit_constants();
 }

@@ -2,6 +2,8 @@
 #ifndef DRAPE_RASTER_FRAME_H
 #define DRAPE_RASTER_FRAME_H
 
+#include "include/lit_constants.h"
+
 layout(set = 0, binding = 0, std430) readonly buffer Frame { FrameConstants frame[]; };
 
 /// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top;
@@ -26,11 +28,16 @@ float depth_of_thickness(vec3 at, float thickness, float clip_w) {
     return dot(frame[0].clip_from_world[2], nearer) / dot(frame[0].clip_from_world[3], nearer) * clip_w;
 }
 
-/// Texel coordinates and depth in the shadow map.
-vec3 shadow_position(vec3 world) {
+/// Texel coordinates and depth in the shadow map; `rows`: FrameConstants::shadow_from_world.
+vec3 shadow_position(vec4 rows[3], vec3 world) {
     vec4 point = vec4(world, 1.0);
-    return vec3(dot(frame[0].shadow_from_world[0], point), dot(frame[0].shadow_from_world[1], point),
-                dot(frame[0].shadow_from_world[2], point));
+    return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
+}
+
+/// For vertices.
+LitConstants lit_constants() {
+    return LitConstants(frame[0].eye, frame[0].ambient, frame[0].ground, frame[0].to_light, frame[0].light_radiance,
+                        frame[0].shadow_from_world);
 }
 
 #endif

@@ -3,20 +3,23 @@
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
 
+#include "include/lit_constants.h"
+
 layout(constant_id = 2) const int light_count = 2;
+layout(location = lit_location) flat in LitConstants constants;
 
 #ifdef SHADOWED
 #include "include/shadow_map.h"
 
 /// Share of the first light that reaches a point, which is moved off the surface by a texel.
 float visibility(vec3 world, vec3 normal) {
-    vec3 to_light = frame[0].to_light[0].xyz;
-    float texel_size = frame[0].ambient.w;
+    vec3 to_light = constants.to_light[0].xyz;
+    float texel_size = constants.ambient.w;
     float facing = dot(normal, to_light);
     vec3 off_surface = facing < 0.0 ? -normal : normal;
-    vec3 at = shadow_position(world + (off_surface + to_light) * texel_size);
-    vec2 across = texel_size * vec2(dot(off_surface, frame[0].shadow_from_world[0].xyz),
-                                    dot(off_surface, frame[0].shadow_from_world[1].xyz));
+    vec3 at = shadow_position(constants.shadow_from_world, world + (off_surface + to_light) * texel_size);
+    vec2 across = texel_size * vec2(dot(off_surface, constants.shadow_from_world[0].xyz),
+                                    dot(off_surface, constants.shadow_from_world[1].xyz));
     return light_arriving(at, across / (max(abs(facing), 0.25) * shadow_texels_per_depth));
 }
 #else
@@ -24,15 +27,15 @@ float visibility(vec3 world, vec3 normal) { return 1.0; }
 #endif
 
 vec3 lit_by(int light, Surface surface) {
-    return light_radiance(surface, frame[0].to_light[light].xyz, frame[0].light_radiance[light].xyz);
+    return light_radiance(surface, constants.to_light[light].xyz, constants.light_radiance[light].xyz);
 }
 
 vec3 shaded(Surface surface, vec3 world) {
-    vec3 radiance = ambient_radiance(surface, frame[0].ambient.xyz, frame[0].ground.xyz);
+    vec3 radiance = ambient_radiance(surface, constants.ambient.xyz, constants.ground.xyz);
     if (light_count > 0) {
-        vec3 arriving = frame[0].light_radiance[0].xyz * visibility(world, surface.normal);
-        radiance += light_radiance(surface, frame[0].to_light[0].xyz, arriving);
-        if (surface.gloss > 0.0) radiance += highlight_radiance(surface, frame[0].to_light[0].xyz, arriving);
+        vec3 arriving = constants.light_radiance[0].xyz * visibility(world, surface.normal);
+        radiance += light_radiance(surface, constants.to_light[0].xyz, arriving);
+        if (surface.gloss > 0.0) radiance += highlight_radiance(surface, constants.to_light[0].xyz, arriving);
     }
     if (light_count > 1) radiance += lit_by(1, surface);
     if (light_count > 2) radiance += lit_by(2, surface);
