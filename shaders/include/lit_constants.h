@@ -5,7 +5,8 @@
 
 #include "shared/raster_types.h"
 
-/// Members as those of FrameConstants. 56 components of the 128 that desktop devices hand on.
+/// Members as those of FrameConstants. With the surfaces' own inputs 18 places of four components, which
+/// passes/raster.cpp asks the device for.
 struct LitConstants {
     vec4 eye;
     vec4 ambient;
