@@ -3,6 +3,7 @@
 // MASKED: the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/box_edges.h"
@@ -36,64 +37,92 @@ bool exists(ivec2 cell, int which) {
 #endif
 }
 
-/// Which particles of a strip may meet an edge of a box: bit k is row k.
-uint near_rows(int column, int first, int count) {
+/// Most boxes whose records are read where nothing has branched yet (include/contacts.h).
+const int early_box_count = 4;
+ColliderRecord early_boxes[early_box_count];
+void read_boxes() {
+    [[unroll]] for (int i = 0; i < early_box_count; ++i) {
+        if (spheres_end + i < boxes_end) early_boxes[i] = colliders[push.first + spheres_end + i];
+    }
+}
+#define EACH_BOX(WORK)                                                                              \
+    [[unroll]] for (int i = 0; i < min(boxes_end - spheres_end, early_box_count); ++i) {            \
+        WORK(early_boxes[i])                                                                        \
+    }                                                                                               \
+    if (boxes_end - spheres_end > early_box_count) { /* else lavapipe does not leave the loop out */ \
+        for (int i = spheres_end + early_box_count; i < boxes_end; ++i) { WORK(colliders[push.first + i]) } \
+    }
+
+bool near_edge_of(ColliderRecord collider, vec3 now) {
+    return near_box_edge(local_point(collider, now), vec3(collider.shape.x, collider.shape.y, collider.shape.z),
+                         push.contact.x);
+}
+
+#define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
+/// Whether a particle may meet an edge of a box. What the first round led nowhere it did not move: the second begins
+/// with what was near one then.
+bool may_meet(vec4 start, vec4 moved) {
+    bool near = again && moved.w != 0.0f;
+    if (!again) {
+        vec3 now = moved_position(start.xyz, moved.xyz);
+        EACH_BOX(NEAR_EDGE)
+    }
+    return near && start.w != 0.0f;
+}
+
+/// Leaves the particles of a strip as they are, and finds those that may meet an edge of a box: bit k is row k.
+uint copy_strip(int column, int first, int count) {
     uint rows = 0u;
-    float reach = push.contact.x;
-    for (int i = spheres_end; i < boxes_end; ++i) {
-        ColliderRecord collider = colliders[push.first + i];
-        vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-        for (int k = 0; k < count; ++k) {
-            vec4 start = LOAD(position, ivec2(column, first + k));
-            vec3 moved = LOAD(displacement, ivec2(column, first + k)).xyz;
-            vec3 local = local_point(collider, moved_position(start.xyz, moved));
-            bool near = start.w != 0.0f && near_box_edge(local, half_extents, reach);
-            rows |= near ? 1u << k : 0u;
-        }
+    for (int k = 0; k < count; ++k) {
+        ivec2 texel = ivec2(column, first + k);
+        vec4 moved = LOAD(displacement, texel);
+        bool near = may_meet(LOAD(position, texel), moved);
+        STORE_VECTOR(lifted, texel, vec4(moved.xyz, again ? moved.w : 0.0f));
+        rows |= near ? 1u << k : 0u;
     }
     return rows;
 }
 
-/// xyz: displacement of a particle after all boxes, w: 1 where one led it.
-vec4 led_by_boxes(ivec2 texel) {
-    vec4 start = LOAD(position, texel);
-    vec4 before = LOAD(displacement, texel);
-    vec3 moved = before.xyz;
-    bool touched = again && before.w > 0.0f;
-    for (int i = spheres_end; i < boxes_end; ++i) {
-        ColliderRecord collider = colliders[push.first + i];
-        vec3 local = local_point(collider, moved_position(start.xyz, moved));
-        vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-        vec3 taken = vec3(0.0f, 0.0f, 0.0f);
-        int count = near_box_edge(local, half_extents, push.contact.x) ? triangles_around_particle : 0;
-        for (int k = 0; k < count; ++k) {
-            ivec4 around = triangle_around(k);
-            ivec2 cell = texel + around.xy;
-            if (!exists(cell, around.z)) continue;
-            int own = corner_of_triangle(around.z, -around.xy);
-            ivec2 next = cell + triangle_corner(around.z, own == 2 ? 0 : own + 1);
-            ivec2 last = cell + triangle_corner(around.z, own == 0 ? 2 : own - 1);
-            taken = with_triangle(taken, CutCorner(local, moved, start.w), corner_at(next, collider),
-                                  corner_at(last, collider), collider, push.contact.w);
-        }
-        vec3 led = taken_displacement(moved, taken, local, collider, push.contact.y);
-        touched = touched || ordered_dot(taken, taken) > 0.0f;
-        moved = led;
+/// Where a particle is led, and whether it is.
+struct Led {
+    vec3 moved;
+    bool touched;
+};
+
+Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
+    vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
+    vec3 taken = vec3(0.0f, 0.0f, 0.0f);
+    int count = near_edge_of(collider, moved_position(start.xyz, led.moved)) ? triangles_around_particle : 0;
+    for (int k = 0; k < count; ++k) {
+        ivec4 around = triangle_around(k);
+        ivec2 cell = texel + around.xy;
+        if (!exists(cell, around.z)) continue;
+        int own = corner_of_triangle(around.z, -around.xy);
+        ivec2 next = cell + triangle_corner(around.z, own == 2 ? 0 : own + 1);
+        ivec2 last = cell + triangle_corner(around.z, own == 0 ? 2 : own - 1);
+        taken = with_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
+                              corner_at(last, collider), collider, push.contact.w);
     }
-    return vec4(moved, touched ? 1.0f : 0.0f);
+    return Led(taken_displacement(led.moved, taken, local, collider, push.contact.y),
+               led.touched || ordered_dot(taken, taken) > 0.0f);
+}
+
+#define LED_BY(collider) led = led_by(collider, texel, start, led);
+/// xyz: displacement of a particle after all boxes, w: 1 where one led it, else -1.
+vec4 led_by_boxes(ivec2 texel) {
+    vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
+    Led led = Led(before.xyz, again && before.w > 0.0f);
+    EACH_BOX(LED_BY)
+    return vec4(led.moved, led.touched ? 1.0f : -1.0f);
 }
 
 void main() {
+    read_boxes();
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     int count = push.grid.y - first < strip_rows ? push.grid.y - first : strip_rows;
-    for (int k = 0; k < count; ++k) {
-        ivec2 texel = ivec2(column, first + k);
-        vec4 moved = LOAD(displacement, texel);
-        STORE_VECTOR(lifted, texel, vec4(moved.xyz, again ? moved.w : 0.0f));
-    }
     // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
-    for (uint rows = near_rows(column, first, count); rows != 0u; rows &= rows - 1u) {
+    for (uint rows = copy_strip(column, first, count); rows != 0u; rows &= rows - 1u) {
         ivec2 texel = ivec2(column, first + findLSB(rows));
         STORE_VECTOR(lifted, texel, led_by_boxes(texel));
     }

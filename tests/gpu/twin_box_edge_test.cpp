@@ -10,7 +10,7 @@ using test::frame_count;
 /// Coarse cells, of more rows than an invocation of the pass looks at, fall on a standing and a turning box, whose
 /// edges their particles straddle.
 SceneDescription over_boxes(SolverMethod method) {
-    SceneDescription scene = test::sheet(19, 18, 0.9, 0.85, test::substep_count);
+    SceneDescription scene = test::sheet(19, 34, 0.9, 0.85, test::substep_count);
     scene.time.frame_count = frame_count + 1;
     scene.solver.method = method;
     const MotionPath path{{{0, {0, 0, 0}, {0, 0, 0}}, {0.3, {0.05, 0.1, 0}, {20, 90, 10}}}};
@@ -43,6 +43,17 @@ TEST(TwinBoxEdgeTest, EveryMethod) {
         std::string where;
         EXPECT_FALSE(test::same_bits(met, end_of(scene), where)) << "no edge was met";
     }
+}
+
+TEST(TwinBoxEdgeTest, MoreBoxesThanAreReadEarly) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    for (const double x : {-0.3, -0.1, 0.1, 0.3})
+        scene.colliders.push_back({Box{{x, -0.15, 0.22 + 0.1 * x}, {0.06, 0.12, 0.05}}, 0.4, {0, 100 * x, 15}});
+    compare(scene);
+    const std::vector<glsl::vec4> met = end_of(scene);
+    scene.colliders.resize(scene.colliders.size() - 2);  // the last two are read late
+    std::string where;
+    EXPECT_FALSE(test::same_bits(met, end_of(scene), where)) << "those that are read late were not met";
 }
 
 TEST(TwinBoxEdgeTest, HolesTethersAndIterationsThatTheDeviceEnds) {
