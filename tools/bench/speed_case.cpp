@@ -87,6 +87,18 @@ void iterate_until_met(SceneDescription& scene, Options& options, std::uint32_t&
     scene.solver.tolerance = 0.05;
 }
 
+/// On the floor, beside a ball that it does not touch.
+void lie(SceneDescription& scene, bool ball_moves) {
+    scene.solver.method = SolverMethod::automatic;
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement.origin[1] = cloth.thickness;
+    std::erase_if(scene.colliders, [](const Collider& each) { return !std::holds_alternative<Plane>(each.shape); });
+    scene.colliders.push_back({.shape = Sphere{{0, 3, 0}, 0.2}});
+    if (ball_moves) scene.colliders.back().path = {{{0, {0, 0, 0}, {0, 0, 0}}, {1e6, {0, 0, 0}, {0, 90, 0}}}};
+}
+void lie_still(SceneDescription& scene, Options&, std::uint32_t&) { lie(scene, false); }
+void lie_awake(SceneDescription& scene, Options&, std::uint32_t&) { lie(scene, true); }
+
 }  // namespace
 
 std::vector<SpeedCase> speed_cases(bool is_short) {
@@ -153,6 +165,9 @@ const std::vector<SkipCase>& skip_cases() {
         {"skip/statistics", "flag.json", "statistics that nobody wants", as_it_is, judge},
         {"skip/iterations", "hanging_sheet.json",
          "iterations after the tolerance of 0.05 is met, 16 at most (adaptive)", iterate_until_met, iterate},
+        {"skip/frames at rest", "cloth_on_sphere.json",
+         "cloth that lies on the floor, asleep; without: a ball out of its reach turns (adaptive)", lie_still,
+         lie_awake, 100},
     };
     return cases;
 }

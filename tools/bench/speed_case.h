@@ -41,6 +41,7 @@ struct SkipCase {
     std::string saved;        ///< what is skipped
     void (*set)(SceneDescription& scene, SimulationOptions& options, std::uint32_t& every);  ///< with the skip
     void (*undo)(SceneDescription& scene, SimulationOptions& options, std::uint32_t& every);
+    std::uint32_t warm_up = 3;  ///< frames before any is measured: shaders are compiled at their first dispatch
 };
 
 const std::vector<SkipCase>& skip_cases();

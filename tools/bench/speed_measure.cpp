@@ -19,7 +19,6 @@ namespace {
 using Times = std::vector<double>;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t warm_up = 3;  // frames: shaders are compiled at their first dispatch
 constexpr const char* thread_variable = "LP_NUM_THREADS";
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
@@ -43,7 +42,7 @@ struct RoundMeans {
 class DeviceSide {
   public:
     DeviceSide(const Device& device, const SceneDescription& scene, const SimulationOptions& options,
-               const BenchRequest& request, std::uint32_t every = 1)
+               const BenchRequest& request, std::uint32_t every = 1, std::uint32_t warm_up = SkipCase{}.warm_up)
         : request_(request), every_(every), simulation_(scene, options, device) {
         run(warm_up);
         means_.clear();
@@ -225,7 +224,8 @@ SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, con
         SimulationOptions options = plain_options(false);
         std::uint32_t every = 1;
         change(asked, options, every);
-        sides.push_back(std::make_unique<DeviceSide>(devices.of(asked, true), asked, options, request, every));
+        sides.push_back(
+            std::make_unique<DeviceSide>(devices.of(asked, true), asked, options, request, every, skip.warm_up));
     }
     for (int round = 0; round < effort.rounds; ++round)
         for (const std::unique_ptr<DeviceSide>& side : sides) side->round(effort);
