@@ -1,10 +1,11 @@
 // The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. Backdrop and floor
 // show where samples are left uncovered, and are drawn here alone: as triangles each costs twice as much. Ordered dither
 // (Bayer's 8 x 8 matrix) of one level in place of rounding: without it soft gradients show bands.
-// SHADOWED: the floor is under the first light's shadow map.
+// SHADOWED: the floor is under the first light's shadow map. SAMPLED: of four samples a pixel, which it averages itself:
+// on the default device resolving them first takes twice as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SHADOWED
+#pragma variants SHADOWED SAMPLED
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #ifdef SHADOWED
@@ -17,7 +18,16 @@
 layout(constant_id = 0) const bool has_floor = true;
 layout(location = 0) flat in vec4 background;
 layout(location = 1) flat in FloorConstants plane;
+#ifdef SAMPLED
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2DMS light;
+vec4 light_at(ivec2 pixel) {
+    return 0.25 * ((imageLoad(light, pixel, 0) + imageLoad(light, pixel, 1)) +
+                   (imageLoad(light, pixel, 2) + imageLoad(light, pixel, 3)));
+}
+#else
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
+vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
+#endif
 layout(location = 0) out vec4 color;
 
 /// Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
@@ -35,7 +45,7 @@ vec3 srgb(vec3 linear) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 drawn = imageLoad(light, pixel);  // w: the share of its samples that something covers
+    vec4 drawn = light_at(pixel);  // w: the share of its samples that something covers
     vec3 behind = backdrop(background, gl_FragCoord.y);
     if (has_floor) behind = floor_radiance(plane, gl_FragCoord.xy, behind);
     vec3 radiance = drawn.xyz + (1.0 - drawn.w) * behind;

@@ -70,9 +70,7 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
         if (access == Access::depth_write && !depth) unfit("the format is no depth format");
         if (access != Access::depth_write && !is_transfer(access) && depth) unfit("the format is a depth format");
         if (access == Access::resolve_write && multisampled) unfit("a resolve target has one sample");
-        if (!is_attachment(access) && !is_transfer(access) && multisampled) {
-            unfit("a multisampled image is no storage image");
-        }
+        if (access == Access::compute_write && multisampled) unfit("a multisampled image is written as an attachment");
     } else {
         if (is_attachment(access)) unfit("a buffer, not an image");
         if (access == Access::host_read && resource.lifetime != Lifetime::host_output) {

@@ -20,10 +20,11 @@ using graph::Handle;
 /// Newest handles of what a frame's passes write one after the other.
 struct RasterPass::Targets {
     Handle frame;
-    Handle colliders;                          ///< invalid where no body is drawn
-    Handle heat_colors;                        ///< invalid where the view is no heat map
-    Handle color, light, multisampled, depth;  ///< multisampled: invalid at one sample
-    Handle shadow_map, shadow_depth;           ///< invalid without a shadow
+    Handle colliders;    ///< invalid where no body is drawn
+    Handle heat_colors;  ///< invalid where the view is no heat map
+    Handle color, depth;
+    Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
+    Handle shadow_map, shadow_depth;  ///< invalid without a shadow
 };
 
 namespace {
@@ -138,6 +139,7 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     : width_(width),
       height_(height),
       samples_(samples),
+      resolves_(samples > 1 && !device.samples_in_shaders()),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
       shadow_skip_reason_(shadow_skip_reason(scene, options)),
@@ -209,7 +211,8 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     }
     vulkan::GraphicsState encoding;
     encoding.vertex = {"encode.vert"};
-    encoding.fragment = {vulkan::variant_name("encode.frag", {{"shadowed", shadow && has_floor_}})};
+    encoding.fragment = {vulkan::variant_name(
+        "encode.frag", {{"shadowed", shadow && has_floor_}, {"sampled", samples_ > 1 && !resolves_}})};
     encoding.constants = {{"has_floor", has_floor_ ? 1u : 0u}};
     encoding.color_format = color_format;
     encoding.depth_format = VK_FORMAT_UNDEFINED;
@@ -246,9 +249,9 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     targets.color = graph.image({color_name, color_format, width_, height_});
-    targets.light = graph.image({light_name, light_format, width_, height_});
+    targets.drawn = targets.light = graph.image({light_name, light_format, width_, height_, samples});
+    if (resolves_) targets.light = graph.image({resolved_name, light_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
-    if (samples_ > 1) targets.multisampled = graph.image({multisampled_name, light_format, width_, height_, samples});
     if (casts_shadow()) {
         const std::uint32_t side = glsl::shadow_map_size;
         targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
@@ -322,11 +325,11 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
                 if (scale_ && cloth.spring_shares.valid()) setup.read(cloth.spring_shares, Access::vertex_read);
             }
-            Handle& drawn = samples_ > 1 ? targets.multisampled : targets.light;
             attachments->clear = {0, 0, 0, 0};
-            attachments->color = drawn = setup.write(drawn, Access::color_write);
+            attachments->color = targets.drawn = setup.write(targets.drawn, Access::color_write);
             attachments->depth = setup.write(targets.depth, Access::depth_write);
-            if (samples_ > 1) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
+            if (resolves_) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
+            if (!resolves_) targets.light = targets.drawn;
         },
         [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);

@@ -74,8 +74,8 @@ class RasterPass {
     static constexpr const char* colliders_name = "raster/colliders";
     static constexpr const char* heat_colors_name = "raster/heat colors";
     static constexpr const char* color_name = "color";
-    static constexpr const char* light_name = "light";  ///< radiance, resolved
-    static constexpr const char* multisampled_name = "light/multisampled";
+    static constexpr const char* light_name = "light";  ///< radiance
+    static constexpr const char* resolved_name = "light/resolved";
     static constexpr const char* depth_name = "depth";
     static constexpr const char* shadow_map_name = "shadow/map";
     static constexpr const char* shadow_depth_name = "shadow/depth";
@@ -105,6 +105,7 @@ class RasterPass {
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
+    bool resolves_;  ///< the samples, for the encoding pass cannot read them
     RoundColumns columns_in_picture(const SceneDescription& scene) const;
     /// The scene's colliders and then its fixtures, at `time` (s).
     std::vector<Collider> drawn_bodies(double time) const;

@@ -64,11 +64,11 @@ std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory
 
 Device::Device(const Instance& instance, DeviceInfo info, Empty) : instance_(instance), info_(std::move(info)) {}
 
-Device::Device(const Instance& instance, std::string_view selector, WideAtomics wide)
+Device::Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked)
     : Device(instance, select_device(instance.devices(), selector), Empty{}) {
     physical_ = instance.physical_device(info_.index);
     read_limits();
-    read_features(wide);
+    read_features(asked);
     create();
     vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
     auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
@@ -113,15 +113,16 @@ void Device::read_limits() {
     timestamp_valid_bits_ = families[queue_family_].timestampValidBits;
 }
 
-void Device::read_features(WideAtomics wide) {
+void Device::read_features(const OptionalFeatures& asked) {
     auto features12 =
         structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
     auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     all.pNext = &features12;
     vkGetPhysicalDeviceFeatures2(physical_, &all);
     wide_integers_ = all.features.shaderInt64 == VK_TRUE;
-    wide_atomics_ =
-        wide == WideAtomics::where_there_are && wide_integers_ && features12.shaderBufferInt64Atomics == VK_TRUE;
+    wide_atomics_ = asked.wide_atomics && wide_integers_ && features12.shaderBufferInt64Atomics == VK_TRUE;
+    samples_in_shaders_ = asked.samples_in_shaders && all.features.shaderStorageImageMultisample == VK_TRUE &&
+                          (limits().storageImageSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
 }
 
 void Device::create() {
@@ -137,6 +138,7 @@ void Device::create() {
     VkPhysicalDeviceFeatures features{};
     features.shaderClipDistance = VK_TRUE;
     features.shaderInt64 = wide_integers_ ? VK_TRUE : VK_FALSE;
+    features.shaderStorageImageMultisample = samples_in_shaders_ ? VK_TRUE : VK_FALSE;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;

@@ -32,15 +32,18 @@ class MemoryBudget {
 /// 75 % of what the system says is available.
 std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu);
 
-/// `none`: as on devices without, for tests of what is done there.
-enum class WideAtomics : std::uint8_t { where_there_are, none };
+/// What is used where a device has it. false: as on devices without, for tests of what is done there.
+struct OptionalFeatures {
+    bool wide_atomics = true;
+    bool samples_in_shaders = true;
+};
 
 class Device {
   public:
     /// `selector`: empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive
     /// part), UUID or "cpu". Throws VulkanError listing the devices and why each was rejected.
     /// The instance must outlive the device.
-    Device(const Instance& instance, std::string_view selector, WideAtomics wide = WideAtomics::where_there_are);
+    Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked = {});
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -57,6 +60,8 @@ class Device {
     bool wide_integers() const { return wide_integers_; }
     /// Whether they may add such integers in buffers atomically.
     bool wide_atomics() const { return wide_atomics_; }
+    /// Whether shaders may load each of four samples of storage images.
+    bool samples_in_shaders() const { return samples_in_shaders_; }
     /// Whether subgroups of compute shaders have so many invocations and can shuffle.
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
     std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
@@ -88,7 +93,7 @@ class Device {
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Device(const Instance& instance, DeviceInfo info, Empty);
     void read_limits();
-    void read_features(WideAtomics wide);
+    void read_features(const OptionalFeatures& asked);
     void create();
 
     const Instance& instance_;
@@ -104,6 +109,7 @@ class Device {
     std::uint32_t max_push_descriptors_ = 0;
     bool wide_integers_ = false;
     bool wide_atomics_ = false;
+    bool samples_in_shaders_ = false;
     std::uint32_t shuffling_lanes_ = 0;  ///< of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;
     std::uint64_t max_allocation_size_ = 0;

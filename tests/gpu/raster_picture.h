@@ -102,6 +102,7 @@ struct Shot {
     double time = 0;
     RasterOptions options{.shadow = false};
     std::vector<graph::Skipped>* skipped = nullptr;
+    const vulkan::Device* device = &test::gpu().device;
 };
 
 /// Black background, no light, white ambient light, camera on the z axis.
@@ -116,8 +117,6 @@ inline SceneDescription dark_room() {
 
 class Raster : public testing::Test {
   protected:
-    static const vulkan::Device& device() { return test::gpu().device; }
-
     Picture draw(SceneDescription scene, const std::vector<DrawnCloth>& cloths, const Shot& shot = {}) {
         return draw_twice(std::move(scene), cloths, shot)[0];
     }
@@ -127,7 +126,8 @@ class Raster : public testing::Test {
                                       const Shot& shot = {}) {
         scene.cloths.resize(cloths.size());
         for (std::size_t i = 0; i < cloths.size(); ++i) describe(cloths[i], scene.cloths[i]);
-        const RasterPass raster(device(), scene, width, height, shot.samples, shot.options);
+        const vulkan::Device& device = *shot.device;
+        const RasterPass raster(device, scene, width, height, shot.samples, shot.options);
         graph::Graph graph;
         std::vector<RasterCloth> raster_cloths;
         for (std::size_t i = 0; i < cloths.size(); ++i)
@@ -136,10 +136,10 @@ class Raster : public testing::Test {
         const graph::Plan plan = graph::make_plan(graph);
         if (shot.skipped) *shot.skipped = plan.skipped;
         const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph, &plan}};
-        const graph::ResourcePool pool(device(), plans);
-        for (std::size_t i = 0; i < cloths.size(); ++i) fill(pool, "cloth" + std::to_string(i), cloths[i]);
+        const graph::ResourcePool pool(device, plans);
+        for (std::size_t i = 0; i < cloths.size(); ++i) fill(device, pool, "cloth" + std::to_string(i), cloths[i]);
         const graph::RecordedPlan recorded(graph, plan, pool, graph::TimestampMode::none);
-        vulkan::FrameSlots slots(device());
+        vulkan::FrameSlots slots(device);
         std::array<Picture, 2> pictures;
         for (std::uint32_t slot = 0; slot < 2; ++slot) {
             raster.write_frame(pool, slot, shot.time);
@@ -185,10 +185,11 @@ class Raster : public testing::Test {
                 static_cast<std::uint32_t>(cloth.indices.size())};
     }
 
-    void fill(const graph::ResourcePool& pool, const std::string& name, const DrawnCloth& cloth) {
-        vulkan::upload(device(), pool.image(name + "/position"), std::as_bytes(std::span(cloth.positions)));
-        vulkan::upload(device(), pool.image(name + "/normal"), std::as_bytes(std::span(cloth.normals)));
-        vulkan::upload(device(), pool.buffer(name + "/triangles"), std::as_bytes(std::span(cloth.indices)));
+    static void fill(const vulkan::Device& device, const graph::ResourcePool& pool, const std::string& name,
+                     const DrawnCloth& cloth) {
+        vulkan::upload(device, pool.image(name + "/position"), std::as_bytes(std::span(cloth.positions)));
+        vulkan::upload(device, pool.image(name + "/normal"), std::as_bytes(std::span(cloth.normals)));
+        vulkan::upload(device, pool.buffer(name + "/triangles"), std::as_bytes(std::span(cloth.indices)));
     }
 };
 
