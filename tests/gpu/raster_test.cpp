@@ -413,7 +413,8 @@ TEST_F(Raster, FourSamplesComeCloseToSixtyFour) {
     // Sixty-four pictures of one sample, each moved by its share of a pixel, averaged as light.
     std::vector<double> sum(std::size_t{width} * height * 3);
     for (int sample = 0; sample < 64; ++sample) {
-        shot.options.shift = {(sample % 8 - 3.5) / 8, (sample / 8 - 3.5) / 8};
+        const int column = sample % 8, row = sample / 8;
+        shot.options.shift = {(column - 3.5) / 8, (row - 3.5) / 8};
         const Picture picture = draw(scene, {cloth}, shot);
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += radiance_of(linear(picture.bytes[4 * (i / 3) + i % 3] / 255.0));
