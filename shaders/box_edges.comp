@@ -73,13 +73,15 @@ bool may_meet(vec4 start, vec4 moved) {
 /// Leaves the particles of a strip as they are, and finds those that may meet an edge of a box: bit k is row k.
 uint copy_strip(int column, int first, int count) {
     uint rows = 0u;
-    for (int k = 0; k < count; ++k) {
+    int k = 0;
+    do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 moved = LOAD(displacement, texel);
         bool near = may_meet(LOAD(position, texel), moved);
         STORE_VECTOR(lifted, texel, vec4(moved.xyz, again ? moved.w : 0.0f));
         rows |= near ? 1u << k : 0u;
-    }
+        ++k;
+    } while (k < count);
     return rows;
 }
 
@@ -92,17 +94,19 @@ struct Led {
 Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
     vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
     vec3 taken = vec3(0.0f, 0.0f, 0.0f);
-    int count = near_edge_of(collider, moved_position(start.xyz, led.moved)) ? triangles_around_particle : 0;
-    for (int k = 0; k < count; ++k) {
+    bool near = near_edge_of(collider, moved_position(start.xyz, led.moved));
+    int k = 0;
+    do {
         ivec4 around = triangle_around(k);
         ivec2 cell = texel + around.xy;
-        if (!exists(cell, around.z)) continue;
         int own = corner_of_triangle(around.z, -around.xy);
         ivec2 next = cell + triangle_corner(around.z, own == 2 ? 0 : own + 1);
         ivec2 last = cell + triangle_corner(around.z, own == 0 ? 2 : own - 1);
-        taken = with_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
-                              corner_at(last, collider), collider, push.contact.w);
-    }
+        if (near && exists(cell, around.z))
+            taken = with_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
+                                  corner_at(last, collider), collider, push.contact.w);
+        ++k;
+    } while (near && k < triangles_around_particle);
     return Led(taken_displacement(led.moved, taken, local, collider, push.contact.y),
                led.touched || ordered_dot(taken, taken) > 0.0f);
 }
@@ -122,8 +126,11 @@ void main() {
     if (column >= push.grid.x || first >= push.grid.y) return;
     int count = push.grid.y - first < strip_rows ? push.grid.y - first : strip_rows;
     // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
-    for (uint rows = copy_strip(column, first, count); rows != 0u; rows &= rows - 1u) {
-        ivec2 texel = ivec2(column, first + findLSB(rows));
-        STORE_VECTOR(lifted, texel, led_by_boxes(texel));
-    }
+    uint rows = copy_strip(column, first, count);
+    do {
+        ivec2 texel = ivec2(column, first + max(findLSB(rows), 0));
+        vec4 moved = led_by_boxes(texel);
+        if (rows != 0u) STORE_VECTOR(lifted, texel, moved);
+        rows &= max(rows, 1u) - 1u;
+    } while (rows != 0u);
 }

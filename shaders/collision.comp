@@ -49,7 +49,8 @@ vec3 next_position(ivec2 texel) {
 
 Strip strip_at(int column, int first, int count) {
     Strip strip = Strip(column, first, count, vec3(1.0e30f), vec3(-1.0e30f), 0u);
-    for (int k = 0; k < count; ++k) {
+    int k = 0;
+    do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 start = LOAD(position, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
         vec3 now = moved_position(start.xyz, led.xyz);
@@ -57,7 +58,8 @@ Strip strip_at(int column, int first, int count) {
         strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
         strip.lower = least_of_each(strip.lower, now);
         strip.upper = largest_of_each(strip.upper, now);
-    }
+        ++k;
+    } while (k < count);
     return strip;
 }
 
@@ -90,13 +92,15 @@ void meet_all(ivec2 texel) {
     vec3 displacement = led.xyz;
     bool touched = led.w > 0.0f;
     // Out of one collider may be into another: repeat until nothing is touched any more.
-    for (int round = 0; round < round_count; ++round) {
+    int round = 0;
+    do {
         Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
                                            push.contact.w, true);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
         if (!(contact.depth > push.contact.z)) break;
-    }
+        ++round;
+    } while (round < round_count);
     if (!touched) return;
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 #ifdef HISTORY
@@ -114,6 +118,9 @@ void main() {
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
     if (capsules_end > early_collider_count) strip.rows |= late_rows(strip);
     // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
-    for (uint rows = strip.rows; rows != 0u; rows &= rows - 1u)
-        meet_all(ivec2(column, first + findLSB(rows)));
+    uint rows = strip.rows;
+    do {
+        if (rows != 0u) meet_all(ivec2(column, first + findLSB(rows)));
+        rows &= max(rows, 1u) - 1u;
+    } while (rows != 0u);
 }

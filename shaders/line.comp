@@ -95,7 +95,8 @@ void eliminate_particles(Line line) {
     vec3 edge = start_edge_of(particle, next);
     float share = share_of(line, particle.at);
     BentLine bent = unbent_line();
-    for (int p = 0; p < line.last; ++p) {
+    int p = 0;  // a line has two particles at least
+    do {
         bool has_element = p + 1 < line.last;
         LineParticle after = particle_after(line, next);
         vec3 edge_after = has_element ? start_edge_of(next, after) : vec3(0.0f, 0.0f, 0.0f);
@@ -109,7 +110,8 @@ void eliminate_particles(Line line) {
         share = share_after;
         particle = next;
         next = after;
-    }
+        ++p;
+    } while (p < line.last);
     store_bent(line, line.last, eliminate_last_bent(bent, particle.position.w));
 }
 #else
@@ -119,7 +121,7 @@ void eliminate_particles(Line line) {
     vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
     float stiffness_before = 0.0f;
-    FOR_SOME_AT_A_TIME(p, 0, line.last, 1) {
+    SOME_AT_A_TIME(p, 0, 1) {
         bool has_spring = p < line.last;
         LineParticle next = particle_after(line, particle);
         vec3 edge = has_spring ? start_edge_of(particle, next) : vec3(0.0f, 0.0f, 0.0f);
@@ -132,6 +134,7 @@ void eliminate_particles(Line line) {
         edge_before = edge;
         stiffness_before = stiffness;
     }
+    WHILE_SOME_ARE_LEFT(p, 1, <= line.last)
 }
 #endif
 
@@ -160,7 +163,7 @@ float eliminate_springs(Line line) {
     LineParticle first = particle_before(line, second);
     vec3 moved_first = filtered(first, delta);
     LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
-    FOR_SOME_AT_A_TIME(e, line.last - 1, 0, -1) {
+    SOME_AT_A_TIME(e, line.last - 1, -1) {
         LineParticle before = particle_before(line, first);
         vec3 delta_before = delta_of(line, e > 0 ? e - 1 : 0, delta, turn);
         vec3 moved_before = filtered(before, delta_before);
@@ -179,6 +182,7 @@ float eliminate_springs(Line line) {
         moved_first = moved_before;
         delta = delta_before;
     }
+    WHILE_SOME_ARE_LEFT(e, -1, >= 0)
     return largest;
 }
 
@@ -189,7 +193,7 @@ void substitute_springs(Line line) {
     LineParticle first = load_particle(line_start(line.index, line.step));
     vec4 delta = load_first(line, 0);  // w: the tension of the spring after it
     vec3 moved_first = filtered(first, delta.xyz);
-    FOR_SOME_AT_A_TIME(p, 0, line.last, 1) {
+    SOME_AT_A_TIME(p, 0, 1) {
         bool has_spring = p < line.last;
         LineParticle second = particle_after(line, first);
         vec4 delta_after = load_first(line, has_spring ? p + 1 : line.last);
@@ -210,6 +214,7 @@ void substitute_springs(Line line) {
         first = second;
         moved_first = moved_second;
     }
+    WHILE_SOME_ARE_LEFT(p, 1, <= line.last)
 }
 
 void main() {

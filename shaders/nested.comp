@@ -1,5 +1,5 @@
 // Sweeps over boxes around lone pins (include/nested_sweeps.h), an invocation per line of a box, a barrier after every
-// direction.
+// direction. Loops end at their bottom (include/every.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SHEARED BUFFERED
@@ -23,7 +23,8 @@ void eliminate_line(NestedLine line) {
     NestedParticle second = load_particle(line, line_end(line.index, line.step, line.last + 1, line.columns));
     NestedParticle first = next_particle(line, second, back);
     LineSpring spring = spring_between(line, first, second);
-    for (int e = line.last - 1; e >= 0; --e) {
+    int e = line.last - 1;  // a box has two columns and rows at least
+    do {
         NestedParticle before = next_particle(line, first, back);
         LineSpring spring_before = spring_between(line, before, first);
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
@@ -36,14 +37,16 @@ void eliminate_line(NestedLine line) {
         spring = spring_before;
         second = first;
         first = before;
-    }
+        --e;
+    } while (e >= 0);
 }
 
 void substitute_line(NestedLine line) {
     float change_before = 0.0f;
     vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
     NestedParticle first = load_particle(line, line_start(line.index, line.step));
-    for (int p = 0; p <= line.last; ++p) {
+    int p = 0;
+    do {
         bool has_spring = p < line.last;
         NestedParticle second = next_particle(line, first, line.step);
         LineSpring spring = spring_between(line, first, second);
@@ -61,14 +64,17 @@ void substitute_line(NestedLine line) {
         change_before = change;
         normal_before = normal;
         first = second;
-    }
+        ++p;
+    } while (p <= line.last);
 }
 
 void sweep_direction(NestedBox box, NestedLine line) {
     int count = line_count(box, line);
-    for (line.index = int(gl_LocalInvocationIndex); line.index < count; line.index += int(gl_WorkGroupSize.x)) {
+    line.index = int(gl_LocalInvocationIndex);
+    do {
         line.share = line_share(line);
-        eliminate_line(line);
-        substitute_line(line);
-    }
+        if (line.index < count) eliminate_line(line);
+        if (line.index < count) substitute_line(line);
+        line.index += int(gl_WorkGroupSize.x);
+    } while (line.index < count);
 }

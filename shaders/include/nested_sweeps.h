@@ -112,14 +112,18 @@ void main() {
     ivec2 pin = table[push.first_pin + int(gl_WorkGroupID.x)].xy;
     if (imageLoad(position, pin).w != 0.0f) return;
     bool second_order = imageLoad(control, ivec2(control_order, 0)).x == 2u;
-    for (int block = 0; block < push.block_count; ++block) {
+    int block = 0;
+    do {
         NestedBox box = nested_box(pin, table[block].xy, push.grid);
-        for (int sweep = 0; sweep < table[block].z; ++sweep) {
+        int sweep = 0;
+        do {
             // Not a loop: compiled for one direction at a time, a sweep looks at its own tension alone.
             sweep_order(box, 0, second_order);
             sweep_order(box, 1, second_order);
             sweep_order(box, 2, second_order);
             sweep_order(box, 3, second_order);
-        }
-    }
+            ++sweep;
+        } while (sweep < table[block].z);
+        ++block;
+    } while (block < push.block_count);
 }
