@@ -8,11 +8,11 @@
 #include "include/shading.h"
 #include "include/raster_lights.h"
 
-layout(push_constant) uniform Push { ClothPush push; };
 layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 surface_normal;
 layout(location = 2) in vec2 material;
 layout(location = 3) in vec2 hidden;
+layout(location = look_location) flat in ClothLook look;
 layout(location = 0) out vec4 color;
 
 /// Mean of the square wave (+1 on even unit intervals, -1 on odd ones) over `width` around x.
@@ -24,11 +24,11 @@ float filtered_square_wave(float x, float width) {
 
 /// 0 where the first colour is, 1 where the second is, between them where a pixel holds both.
 float pattern() {
-    vec2 squares = material / push.size.z;
+    vec2 squares = material / look.front.w;
     vec2 width = max(fwidth(squares), vec2(1e-4));
     float across = filtered_square_wave(squares.x, width.x), along = filtered_square_wave(squares.y, width.y);
-    float both = push.grid.z == uint(pattern_checker) ? across * along : across;
-    return push.grid.z == uint(pattern_plain) ? 0.0 : 0.5 - 0.5 * both;
+    float both = look.back.w == float(pattern_checker) ? across * along : across;
+    return look.back.w == float(pattern_plain) ? 0.0 : 0.5 - 0.5 * both;
 }
 
 void main() {
@@ -38,7 +38,7 @@ void main() {
     vec3 normal = gl_FrontFacing ? surface_normal : -surface_normal;
     // Neighbours that cancel out leave no normal: the triangle's own is better than none.
     if (dot(normal, normal) < 1e-6) normal = facet;
-    vec3 albedo = mix(gl_FrontFacing ? push.front.xyz : push.back.xyz, push.second.xyz, second);
+    vec3 albedo = mix(gl_FrontFacing ? look.front.xyz : look.back.xyz, look.second.xyz, second);
     float openness = 1.0 - (gl_FrontFacing ? hidden.x : hidden.y);
     Surface surface =
         Surface(albedo, normalize(normal), normalize(constants.eye.xyz - world), 0.2, 0.0, 0.3, openness);

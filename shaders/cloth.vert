@@ -17,6 +17,7 @@ layout(location = 1) out vec3 surface_normal;
 layout(location = 2) out vec2 material;  // metres along columns, rows of the undeformed cloth
 layout(location = 3) out vec2 hidden;    // share of the surroundings that folds take: of the front, of the back
 layout(location = lit_location) flat out LitConstants constants;
+layout(location = look_location) flat out ClothLook look;
 #include "include/cloth_vertex.h"
 
 /// Sine of the angle at which another particle stands above the surface; nothing (2) beyond the border and where a cut
@@ -61,4 +62,5 @@ void main() {
     gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);
     gl_ClipDistance[0] = clip_distance(world, push.size.w);
     constants = lit_constants();
+    look = ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second);
 }

@@ -1,11 +1,12 @@
-// What fragments of lit surfaces read of the frame's constants. It goes with the triangle as flat inputs, which are one
-// value each; the default device's compiler loads a buffer's constants lane by lane in fragments (docs/devices.md).
+// What fragments of lit surfaces read of the frame's and the cloth's constants. It goes with the triangle as flat
+// inputs, which are one value each; the default device's compiler loads a buffer's constants, and pushed ones, lane by
+// lane in fragments (docs/devices.md).
 #ifndef DRAPE_LIT_CONSTANTS_H
 #define DRAPE_LIT_CONSTANTS_H
 
 #include "shared/raster_types.h"
 
-/// Members as those of FrameConstants. With the surfaces' own inputs 18 places of four components, which
+/// Members as those of FrameConstants. With the surfaces' own inputs and ClothLook 21 places of four components, which
 /// passes/raster.cpp asks the device for.
 struct LitConstants {
     vec4 eye;
@@ -16,6 +17,13 @@ struct LitConstants {
     vec4 shadow_from_world[3];
 };
 
-const int lit_location = 4;  // the first behind the surfaces' own
+/// Colours of a cloth's two sides, and of the pattern on both. front.w: the side of its square, m; back.w: which
+/// pattern.
+struct ClothLook {
+    vec4 front, back, second;
+};
+
+const int lit_location = 4;    // the first behind the surfaces' own
+const int look_location = 18;  // behind LitConstants
 
 #endif
