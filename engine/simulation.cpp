@@ -40,7 +40,9 @@ std::uint64_t Device::memory_limit() const { return parts_->device.budget().limi
 double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
 
 void prefer_calling_thread(const SceneDescription& scene, bool draws) {
-    constexpr std::uint64_t most_particles = 72 * 72;
+    const bool meets_itself =
+        std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
+    const std::uint64_t most_particles = meets_itself ? 85 * 85 : 72 * 72;
     const auto is_small = [&](std::size_t cloth, std::size_t count) {
         const auto [columns, rows] = scene.cloths[cloth].grid;
         return std::uint64_t{columns} * rows * count <= most_particles;

@@ -49,10 +49,10 @@ class Device {
 struct SceneDescription;
 
 /// Lavapipe hands every dispatch to its worker threads, which takes about 30 us; where no cloth, and no cloths that are
-/// simulated together, have more than 72 x 72 particles and nothing is drawn, all of it is done sooner on the calling
-/// thread (24 x 24: 2.5 times). Where `scene` is such a one, asks for that in the process's devices from the next on,
-/// by the environment variable LP_NUM_THREADS, unless it is set; other drivers do not know it. To be called before
-/// other threads run.
+/// simulated together, have more than 72 x 72 particles (with self-collision, whose passes are many, 85 x 85) and
+/// nothing is drawn, all of it is done sooner on the calling thread (24 x 24: 2.5 times). Where `scene` is such a one,
+/// asks for that in the process's devices from the next on, by the environment variable LP_NUM_THREADS, unless it is
+/// set; other drivers do not know it. To be called before other threads run.
 void prefer_calling_thread(const SceneDescription& scene, bool draws);
 
 }  // namespace drape
