@@ -45,12 +45,12 @@ void read_boxes() {
         if (spheres_end + i < boxes_end) early_boxes[i] = colliders[push.first + spheres_end + i];
     }
 }
-#define EACH_BOX(WORK)                                                                              \
-    [[unroll]] for (int i = 0; i < min(boxes_end - spheres_end, early_box_count); ++i) {            \
-        WORK(early_boxes[i])                                                                        \
-    }                                                                                               \
-    if (boxes_end - spheres_end > early_box_count) { /* else lavapipe does not leave the loop out */ \
-        for (int i = spheres_end + early_box_count; i < boxes_end; ++i) { WORK(colliders[push.first + i]) } \
+#define EACH_BOX(WORK)                                                                                   \
+    [[unroll]] for (int i = 0; i < min(boxes_end - spheres_end, early_box_count); ++i) {                 \
+        WORK(early_boxes[i])                                                                             \
+    }                                                                                                    \
+    if (boxes_end - spheres_end > early_box_count) { /* else lavapipe does not leave the loop out */     \
+        for (int i = spheres_end + early_box_count; i < boxes_end; ++i) { WORK(colliders[push.first + i]) }\
     }
 
 bool near_edge_of(ColliderRecord collider, vec3 now) {
@@ -129,8 +129,7 @@ void main() {
     uint rows = copy_strip(column, first, count);
     do {
         ivec2 texel = ivec2(column, first + max(findLSB(rows), 0));
-        vec4 moved = led_by_boxes(texel);
-        if (rows != 0u) STORE_VECTOR(lifted, texel, moved);
+        if (rows != 0u) STORE_VECTOR(lifted, texel, led_by_boxes(texel));
         rows &= max(rows, 1u) - 1u;
     } while (rows != 0u);
 }

@@ -134,7 +134,7 @@ void eliminate_particles(Line line) {
         edge_before = edge;
         stiffness_before = stiffness;
     }
-    WHILE_SOME_ARE_LEFT(p, 1, <= line.last)
+    WHILE_SOME_ARE_LEFT(p, 1, <= line.last);
 }
 #endif
 
@@ -182,7 +182,7 @@ float eliminate_springs(Line line) {
         moved_first = moved_before;
         delta = delta_before;
     }
-    WHILE_SOME_ARE_LEFT(e, -1, >= 0)
+    WHILE_SOME_ARE_LEFT(e, -1, >= 0);
     return largest;
 }
 
@@ -214,7 +214,7 @@ void substitute_springs(Line line) {
         first = second;
         moved_first = moved_second;
     }
-    WHILE_SOME_ARE_LEFT(p, 1, <= line.last)
+    WHILE_SOME_ARE_LEFT(p, 1, <= line.last);
 }
 
 void main() {
