@@ -35,7 +35,7 @@ enum class Field : std::uint8_t {
     statistics_reference,      ///< what the statistics measure from
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     wind_force,                ///< N
-    lifted_once,               ///< displacement after the first round of boxes' edges, m; w: 1 where they touched
+    lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< likewise after the second
     normal,                    ///< unit normal of the front
     spring_share,              ///< share per direction, by first particle

@@ -23,7 +23,7 @@ struct ClothLook {
     vec4 front, back, second;
 };
 
-const int lit_location = 4;    // the first behind the surfaces' own
-const int look_location = 18;  // behind LitConstants
+const int lit_location = 4;                                    // the first behind the surfaces' own
+const int look_location = lit_location + 6 + 2 * light_limit;  // behind LitConstants
 
 #endif
