@@ -12,6 +12,7 @@ layout(push_constant) uniform Push { GridPush push; };
 #ifndef HOME
 #define IN_PLACE
 #endif
+#include "include/strips.h"
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool collides = false;
@@ -20,9 +21,7 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_befo
 VECTOR_OUT(10, EndExcessOut, end_excess_out);
 #endif
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+void finish(ivec2 texel) {
     vec4 moved = LOAD(displacement_in, texel);
     advance_position(texel, LOAD(position_in, texel), moved.xyz);
 #ifdef EXCESS
@@ -34,3 +33,5 @@ void main() {
     STORE_VECTOR(displacement_remainder_out, texel, LOAD(displacement_remainder_in, texel));
 #endif
 }
+
+void main() { FOR_STRIP(texel, push.grid, finish(texel)) }

@@ -5,34 +5,48 @@
 #pragma variants BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/tether_types.h"
+#include "include/places.h"
 #include "include/spring.h"
 #include "include/tether.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(push_constant) uniform Push { GridPush push; };
 #include "include/state_store.h"
+#include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
-layout(set = 0, binding = 3, std430) readonly buffer Tethers { ParticleTethers tethers[]; };
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer tethers;  // bits of ParticleTethers
+
+/// From one end of a tether to the other; no longer than `length` where there is no tether, or its anchor was released.
+vec3 tether_edge(vec3 start, vec3 displacement, int anchor) {
+    ivec2 at = texel_of(max(anchor, 0), push.grid.x);
+    vec4 held = imageLoad(position, at);
+    vec3 edge = spring_edge(held.xyz, start, imageLoad(displacement_in, at).xyz, displacement);
+    return anchor >= 0 && held.w == 0.0f ? edge : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// Whether a tether pulls at a particle. The second tether pulls after the first: where neither does now, neither will.
+bool is_pulled(ivec2 texel) {
+    vec4 start = imageLoad(position, texel);
+    vec3 displacement = imageLoad(displacement_in, texel).xyz;
+    vec4 mine = imageLoad(tethers, texel.y * push.grid.x + texel.x);
+    bool by_first = is_beyond(tether_edge(start.xyz, displacement, floatBitsToInt(mine.x)), mine.z);
+    bool by_second = is_beyond(tether_edge(start.xyz, displacement, floatBitsToInt(mine.y)), mine.w);
+    return start.w != 0.0f && (by_first || by_second);
+}
 
 vec3 tethered(vec3 start, vec3 displacement, int anchor, float length) {
-    if (anchor < 0) return displacement;
-    ivec2 at = ivec2(anchor % push.grid.x, anchor / push.grid.x);
-    vec4 held = imageLoad(position, at);
-    if (held.w != 0.0f) return displacement;
-    vec3 edge = spring_edge(held.xyz, start, imageLoad(displacement_in, at).xyz, displacement);
-    return moved_by(displacement, tether_correction(edge, length), 1.0f);
+    return moved_by(displacement, tether_correction(tether_edge(start, displacement, anchor), length), 1.0f);
 }
 
-void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 start = imageLoad(position, texel);
-    if (start.w == 0.0f) return;
-    ParticleTethers mine = tethers[texel.y * push.grid.x + texel.x];
+void pull(ivec2 texel) {
+    vec3 start = imageLoad(position, texel).xyz;
     vec4 before = imageLoad(displacement_in, texel);
-    vec3 moved = tethered(start.xyz, before.xyz, mine.anchor_a, mine.length_a);
-    moved = tethered(start.xyz, moved, mine.anchor_b, mine.length_b);
-    if (moved != before.xyz) STORE_VECTOR(displacement_out, texel, vec4(moved, before.w));
+    vec4 mine = imageLoad(tethers, texel.y * push.grid.x + texel.x);
+    vec3 moved = tethered(start, before.xyz, floatBitsToInt(mine.x), mine.z);
+    moved = tethered(start, moved, floatBitsToInt(mine.y), mine.w);
+    STORE_VECTOR(displacement_out, texel, vec4(moved, before.w));
 }
+
+void main() { FOR_STRIP_FOUND(texel, push.grid, is_pulled(texel), pull(texel)) }

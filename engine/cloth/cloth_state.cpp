@@ -185,7 +185,7 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return c.needs.drawing && !c.topology.vertices().empty(); },
          [](Context c) { return FieldExtent{draw_list_capacity(c.topology.vertices().size())}; },
          [](Context c) { return bytes_of(c.topology.vertices()); }},
-        {Field::tethers, "tethers", buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
+        {Field::tethers, "tethers", texel_buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
          [](Context c) { return bytes_of(c.topology.tethers()); }},
         {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
          pinned_list, [](Context c) { return bytes_of(c.cloth.pinned); }},

@@ -8,7 +8,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("force.comp", {{"wind", wind}, {"before", before}, {"buffered", state.buffered}}),
-        {{"advance", advances}, {"strip_rows", pipelines.strip_rows()}});
+        {{"advance", advances}, {"strip_length", pipelines.strip_length()}});
     graph.add_pass(
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
@@ -23,16 +23,16 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                 state[Field::displacement_before] =
                     setup.write(state[Field::displacement_before], graph::Access::compute_write, "displacement_before");
         },
-        [&pipeline, push = step.push<glsl::ForcePush>(), rows = pipelines.strips_of(state.model->grid.rows()),
+        [&pipeline, push = step.push<glsl::ForcePush>(), over = pipelines.over_strips(state.model->grid),
          count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), rows, count);
+            context.dispatch(pipeline, push, over[0], over[1], count);
         });
     if (step.turns) state.turn_displacement();
 }
 
 void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
     const bool excess = state[Field::end_excess].valid();
-    std::vector<vulkan::SpecializationConstant> constants;
+    std::vector<vulkan::SpecializationConstant> constants = {{"strip_length", pipelines.strip_length()}};
     if (excess) constants.push_back({"collides", state.model->collides ? 1u : 0u});
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("advance.comp", {{"home", state.away}, {"excess", excess}, {"buffered", state.buffered}}),
@@ -56,9 +56,9 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
                 state[Field::end_excess] =
                     setup.write(state[Field::end_excess], graph::Access::compute_write, "end_excess_out");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y), count);
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, over = pipelines.over_strips(state.model->grid),
+         count = state.count](graph::PassContext& context) {
+            context.dispatch(pipeline, push, over[0], over[1], count);
         });
     if (state.away) state.turn();
 }

@@ -22,7 +22,7 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}),
-                      {{"advance", advances}, {"strip_rows", pipelines.strip_rows()}});
+                      {{"advance", advances}, {"strip_length", pipelines.strip_length()}});
     graph.add_pass(
         state.step_name("predict", step),
         [&](graph::PassSetup& setup) {
@@ -35,9 +35,9 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             update(setup, state[Field::velocity_excess], "velocity_excess");
             setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
-        [&pipeline, push = step.push<glsl::PredictPush>(), rows = pipelines.strips_of(state.model->grid.rows()),
+        [&pipeline, push = step.push<glsl::PredictPush>(), over = pipelines.over_strips(state.model->grid),
          count = state.count](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), rows, count);
+            context.dispatch(pipeline, push, over[0], over[1], count);
         });
 }
 

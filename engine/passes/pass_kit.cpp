@@ -30,6 +30,15 @@ std::uint32_t PipelineCache::strip_columns() const { return device_.info().type 
 std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
     return static_cast<std::uint32_t>((rows - 1) / strip_rows() + 1);
 }
+std::uint32_t PipelineCache::strip_length() const { return device_.info().type == "cpu" ? 16 : 1; }
+std::array<std::uint32_t, 2> PipelineCache::over_strips(const Grid& grid) const {
+    // No more than the 65,535 that every device takes, down, make up the largest images.
+    constexpr std::uint32_t width = glsl::workgroup_width, most_across = 64;
+    const std::uint32_t each = width * strip_length(),
+                        groups = static_cast<std::uint32_t>((grid.particle_count() - 1) / each + 1);
+    const std::uint32_t across = std::min(groups, most_across);
+    return {across * width, (groups - 1) / across + 1};
+}
 
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
     if (!device.wide_integers()) return "the device's shaders have no integers of 64 bits";

@@ -32,6 +32,10 @@ class PipelineCache {
     std::uint32_t strip_columns() const;
     /// So many parts of columns make up all rows.
     std::uint32_t strips_of(std::size_t rows) const;
+    /// Likewise of particles counted row by row, of a pass that takes each for itself (shaders/include/strips.h).
+    std::uint32_t strip_length() const;
+    /// So many invocations, across and down, take all of a grid's particles in such parts.
+    std::array<std::uint32_t, 2> over_strips(const Grid& grid) const;
     /// As the device's.
     bool wide_atomics() const;
 

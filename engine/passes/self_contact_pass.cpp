@@ -55,10 +55,10 @@ const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const 
         module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
 }
 
-/// Of a pass between a cloth and the sheet: an invocation takes a part of a column.
+/// Invocations of a pass between a cloth and the sheet.
 glsl::ivec2 over_strips(const PipelineCache& pipelines, const ClothState& cloth) {
-    const glsl::ivec2 size = cloth.model->grid.size();
-    return {size.x, static_cast<int>(pipelines.strips_of(cloth.model->grid.rows()))};
+    const auto [across, down] = pipelines.over_strips(cloth.model->grid);
+    return {static_cast<int>(across), static_cast<int>(down)};
 }
 
 /// Whether some cloths started through each other.
@@ -121,7 +121,7 @@ void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothS
                      const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}, {"buffered", cloth.buffered}}),
-        {{"strip_rows", pipelines.strip_rows()}});
+        {{"strip_length", pipelines.strip_length()}});
     add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather", step), step, pipeline,
                                   over_strips(pipelines, cloth), [&](PassSetup& setup) {
                                       read(setup, cloth, Field::position, "position");
@@ -138,7 +138,7 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
     const bool history = cloth.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("self_return.comp", {{"history", history}, {"buffered", cloth.buffered}}),
-                      {{"strip_rows", pipelines.strip_rows()}});
+                      {{"strip_length", pipelines.strip_length()}});
     add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self return", step), step, pipeline,
                                   over_strips(pipelines, cloth), [&](PassSetup& setup) {
                                       read(setup, contact, Field::self_displacements, "displacements");

@@ -4,7 +4,8 @@ namespace drape {
 
 void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("tether.comp", {{"buffered", state.buffered}}));
+        pipelines.get(vulkan::variant_name("tether.comp", {{"buffered", state.buffered}}),
+                      {{"strip_length", pipelines.strip_length()}});
     graph.add_pass(
         state.step_name("tethers", step),
         [&](graph::PassSetup& setup) {
@@ -12,10 +13,8 @@ void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             update(setup, state[Field::displacement], "displacement");
             setup.read(state[Field::tethers], graph::Access::compute_read, "tethers");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
-        });
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, over = pipelines.over_strips(state.model->grid)](
+            graph::PassContext& context) { context.dispatch(pipeline, push, over[0], over[1]); });
 }
 
 }  // namespace drape

@@ -1,18 +1,10 @@
 // Which cloth a place on the sheet is of (shared/self_contact_types.h). The includer has `push`.
+#include "include/places.h"
 layout(constant_id = 0) const int cloth_count = 1;  // of the scene: with one there is nothing to look up
 layout(set = 0, binding = 2, std430) readonly buffer Owners { int owners[]; };  // -1: no cloth
 layout(set = 0, binding = 3, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 
 int place_of(ivec2 texel) { return texel.y * push.grid.x + texel.x; }
-/// Row `place / columns` and what remains: the default device divides integers lane by lane. The estimate is one off at
-/// most where the row is below 2^21.
-ivec2 texel_of(int place, int columns) {
-    precise float estimate = float(place) * (1.0f / float(columns));
-    int row = int(estimate);
-    int column = place - row * columns;
-    int fewer = column < 0 ? 1 : 0, more = column >= columns ? 1 : 0;
-    return ivec2(column + (fewer - more) * columns, row - fewer + more);
-}
 ivec2 texel_of(int place) { return texel_of(place, push.grid.x); }
 int owner_of(int place) { return cloth_count == 1 ? 0 : owners[place]; }
 /// Of a place where a cloth is.

@@ -1,37 +1,46 @@
-// A loop over a part of a column: `statement`, a call for particle `texel`, once for each of the `strip_rows` rows that
-// an invocation takes in turn. On the default device a workgroup costs as much to begin as a dozen particles or more
-// (docs/devices.md). The loop ends at its bottom (include/every.h).
-layout(constant_id = 20) const int strip_rows = 1;
-#define FOR_STRIP(texel, size, statement)                                                           \
-    {                                                                                               \
-        int column = int(gl_GlobalInvocationID.x), row = int(gl_GlobalInvocationID.y) * strip_rows; \
-        int end = min(row + strip_rows, (size).y);                                                  \
-        if (column >= (size).x || row >= (size).y) return;                                          \
-        for (;;) {                                                                                  \
-            ivec2 texel = ivec2(column, row);                                                       \
-            statement;                                                                              \
-            ++row;                                                                                  \
-            if (row >= end) break;                                                                  \
-        }                                                                                           \
+// A loop over a part of a grid's particles, counted row by row: `statement`, a call for particle `texel`, once for each
+// of the `strip_length` particles that an invocation takes in turn. On the default device a workgroup costs as much to
+// begin as a dozen particles or more (docs/devices.md). The invocations of one of its subgroups take particles beside
+// each other, so that memory is read in its order; on any other, where `strip_length` is 1, all do. The loop ends at
+// its bottom (include/every.h).
+#include "include/places.h"
+layout(constant_id = 20) const int strip_length = 1;
+const int strip_lanes = 8;  // of a subgroup of the default device
+int strip_first() {
+    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x), lane = int(gl_LocalInvocationIndex);
+    return (group * workgroup_width + lane / strip_lanes * strip_lanes) * strip_length + lane % strip_lanes;
+}
+#define FOR_STRIP(texel, size, statement)                         \
+    {                                                             \
+        int place = strip_first(), count = (size).x * (size).y;   \
+        int end = min(place + strip_length * strip_lanes, count); \
+        if (place >= count) return;                               \
+        for (;;) {                                                \
+            ivec2 texel = texel_of(place, (size).x);              \
+            statement;                                            \
+            place += strip_lanes;                                 \
+            if (place >= end) break;                              \
+        }                                                         \
     }
 // Likewise for those of the particles for which `test`, a call, says that there is something to do (include/every.h,
-// FOR_FOUND); at most 32 rows.
-#define FOR_STRIP_FOUND(texel, size, test, statement)                                                 \
-    {                                                                                                 \
-        int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows; \
-        int end = min(first + strip_rows, (size).y);                                                  \
-        if (column >= (size).x || first >= (size).y) return;                                          \
-        uint found = 0u;                                                                              \
-        for (int row = first;;) {                                                                     \
-            ivec2 texel = ivec2(column, row);                                                         \
-            found |= test ? 1u << (row - first) : 0u;                                                 \
-            ++row;                                                                                    \
-            if (row >= end) break;                                                                    \
-        }                                                                                             \
-        for (;;) {                                                                                    \
-            ivec2 texel = ivec2(column, first + max(findLSB(found), 0));                              \
-            if (found != 0u) statement;                                                               \
-            found &= max(found, 1u) - 1u;                                                             \
-            if (found == 0u) break;                                                                   \
-        }                                                                                             \
+// FOR_FOUND); at most 32 an invocation.
+#define FOR_STRIP_FOUND(texel, size, test, statement)                                       \
+    {                                                                                       \
+        int first = strip_first(), count = (size).x * (size).y;                             \
+        int end = min(first + strip_length * strip_lanes, count);                           \
+        if (first >= count) return;                                                         \
+        uint found = 0u;                                                                    \
+        for (int place = first, bit = 0;;) {                                                \
+            ivec2 texel = texel_of(place, (size).x);                                        \
+            found |= test ? 1u << bit : 0u;                                                 \
+            place += strip_lanes;                                                           \
+            ++bit;                                                                          \
+            if (place >= end) break;                                                        \
+        }                                                                                   \
+        for (;;) {                                                                          \
+            ivec2 texel = texel_of(first + max(findLSB(found), 0) * strip_lanes, (size).x); \
+            if (found != 0u) statement;                                                     \
+            found &= max(found, 1u) - 1u;                                                   \
+            if (found == 0u) break;                                                         \
+        }                                                                                   \
     }

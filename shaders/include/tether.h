@@ -5,12 +5,16 @@
 
 #include "include/vector.h"
 
+/// Whether the end of `edge`, which starts at its anchor, is farther from it than `length`.
+SHARED bool is_beyond(vec3 edge, float length) {
+    precise float reach_squared = length * length;
+    return ordered_dot(edge, edge) > reach_squared;
+}
+
 /// Motion (m) of a particle at the end of `edge`, which starts at its anchor; zero within `length`.
 SHARED vec3 tether_correction(vec3 edge, float length) {
-    precise float length_squared = ordered_dot(edge, edge);
-    precise float reach_squared = length * length;
-    if (!(length_squared > reach_squared)) return vec3(0.0f, 0.0f, 0.0f);
-    precise float current = sqrt(length_squared);
+    if (!is_beyond(edge, length)) return vec3(0.0f, 0.0f, 0.0f);
+    precise float current = sqrt(ordered_dot(edge, edge));
     precise vec3 correction = edge * ((length - current) / current);
     return correction;
 }

@@ -76,6 +76,15 @@ TEST(TwinTest, HolesAndTwoCloths) {
     compare(scene);
 }
 
+/// Over 64 of 1024 particles each (PipelineCache::over_strips): a second row of workgroups.
+TEST(TwinTest, MoreWorkgroupsThanStandBesideEachOther) {
+    SceneDescription scene = test::thrown_sheet({263, 255}, 1);
+    scene.solver.tethers = true;
+    compare(scene);
+    scene.solver.method = SolverMethod::line;
+    compare(scene);
+}
+
 TEST(TwinTest, Bending) {
     SceneDescription scene = everything();
     scene.cloths[0].stiffness.bend = 1e-4;

@@ -1,0 +1,15 @@
+// Places of a grid, counted row by row.
+#ifndef DRAPE_PLACES_H
+#define DRAPE_PLACES_H
+
+/// Row `place / columns` and what remains: the default device divides integers lane by lane. The estimate is one off at
+/// most where the row is below 2^21.
+ivec2 texel_of(int place, int columns) {
+    precise float estimate = float(place) * (1.0f / float(columns));
+    int row = int(estimate);
+    int column = place - row * columns;
+    int fewer = column < 0 ? 1 : 0, more = column >= columns ? 1 : 0;
+    return ivec2(column + (fewer - more) * columns, row - fewer + more);
+}
+
+#endif
