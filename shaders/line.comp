@@ -118,7 +118,7 @@ void eliminate_particles(Line line) {
 /// The first system, from the line's start on.
 void eliminate_particles(Line line) {
     LineParticle particle = load_particle(line_start(line.index, line.step));
-    vec4 eliminated = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    EliminatedParticle eliminated = unmoved_start();
     vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
     float stiffness_before = 0.0f;
     SOME_AT_A_TIME(p, 0, 1) {
@@ -129,7 +129,7 @@ void eliminate_particles(Line line) {
         stiffness = has_spring ? stiffness : 0.0f;
         eliminated =
             eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        if (p <= line.last) store_first(line, p, eliminated);
+        if (p <= line.last) store_first(line, p, eliminated.row);
         particle = next;
         edge_before = edge;
         stiffness_before = stiffness;
@@ -205,8 +205,8 @@ void substitute_springs(Line line) {
         vec3 correction = line_correction(normal_before, change_before, normal, change);
         vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
         if (p <= line.last) STORE_TRIPLE(displacement_out, first.at, moved, first.moved.w);
-        float tension =
-            changed_tension(delta.w, change, share_of(line, first.at), line.compliance);
+        float share = share_of(line, first.at);
+        float tension = changed_tension(delta.w, change, share, SPRING_COMPLIANCE(line, share));
         if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));
         change_before = change;
         normal_before = normal;

@@ -94,7 +94,7 @@ void main() {
     vec3 correction = line_correction(before.xyz, before.w, spring.normal, change);
     vec3 moved = moved_by_both(part.first.moved.xyz, delta, correction, part.first.position.w);
     if (part.exists) STORE_TRIPLE(displacement_out, part.first.at, moved, part.first.moved.w);
-    float changed = changed_tension(tension, change, part.share, line.compliance);
+    float changed = changed_tension(tension, change, part.share, SPRING_COMPLIANCE(line, part.share));
     if (part.has_spring) STORE_SCALAR(tension_out, part.first.at, stored_tension(changed, line.followed));
     report(line_is_wrong(larger_violation(0.0f, spring, part.share, line.compression, tension), line.rest_length));
 }

@@ -28,7 +28,7 @@ void eliminate_line(NestedLine line) {
         NestedParticle before = next_particle(line, first, back);
         LineSpring spring_before = spring_between(line, before, first);
         vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
-        float tension = tension_in_use(load_tension(line.direction, first.at), line.followed);
+        float tension = tension_in_use(load_tension(line.direction, first.at), line.per_followed);
         eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
                                       second.position.w, share_of(line, first), line.compression, line.compliance,
                                       tension);
@@ -58,7 +58,7 @@ void substitute_line(NestedLine line) {
         vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
         STORE_TRIPLE(displacement_out, first.at, moved, first.displacement.w);
         float share = share_of(line, first);
-        float tension = changed_tension(row.z, change, share, line.compliance);
+        float tension = changed_tension(row.z, change, share, SPRING_COMPLIANCE(line, share));
         // The spring across the box's seam is not the box's.
         if (has_spring && share > 0.0f) store_tension(line.direction, first.at, stored_tension(tension, line.followed));
         change_before = change;
@@ -72,7 +72,7 @@ void sweep_direction(NestedBox box, NestedLine line) {
     int count = line_count(box, line);
     line.index = int(gl_LocalInvocationIndex);
     do {
-        line.share = line_share(line);
+        find_share(line);
         if (line.index < count) eliminate_line(line);
         if (line.index < count) substitute_line(line);
         line.index += int(gl_WorkGroupSize.x);

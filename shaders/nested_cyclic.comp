@@ -24,11 +24,11 @@ void solve_lines(NestedLine line, int count) {
     bool exists = is_line && p <= line.last, has_spring = is_line && p < line.last;
     ivec2 in_box = line_end(line.index, line.step, (p < line.last ? p : line.last) + 1, line.columns);
     NestedParticle first = load_particle(line, in_box), second = next_particle(line, first, line.step);
-    line.share = line_share(line);
+    find_share(line);
     float share = has_spring ? share_of(line, first) : 0.0f;
     LineSpring spring = spring_between(line, first, second);
     if (!has_spring) spring = LineSpring(vec3(0.0f, 0.0f, 0.0f), 0.0f, 0.0f);
-    float tension = tension_in_use(load_tension(line.direction, first.at), line.followed);
+    float tension = tension_in_use(load_tension(line.direction, first.at), line.per_followed);
     hand_out(vec4(spring.normal, 0.0f));
     vec3 normal_before = from_neighbour(-1).xyz, normal_after = from_neighbour(1).xyz;
     CyclicRow row = spring_row(normal_before, spring, normal_after, first.position.w, second.position.w, share,
@@ -39,7 +39,7 @@ void solve_lines(NestedLine line, int count) {
     vec3 correction = line_correction(before.xyz, before.w, spring.normal, change);
     vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
     if (exists) STORE_TRIPLE(displacement_out, first.at, moved, first.displacement.w);
-    float changed = changed_tension(tension, change, share, line.compliance);
+    float changed = changed_tension(tension, change, share, SPRING_COMPLIANCE(line, share));
     // The spring across the box's seam is not the box's.
     if (has_spring && share > 0.0f) store_tension(line.direction, first.at, stored_tension(changed, line.followed));
 }

@@ -85,14 +85,14 @@ struct LineView {
                                        : border_share(particles[e], push.step, push.grid);
     }
     float last_tension(std::size_t e, float followed) const {
-        return tension_in_use(state.tension(static_cast<std::size_t>(push.channel))[index(e)], followed);
+        return tension_in_use(state.tension(static_cast<std::size_t>(push.channel))[index(e)], reciprocal(followed));
     }
 };
 
 /// The first system of a line: changes of its particles' displacements.
 std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<vec4> eliminated;
-    vec4 previous{0, 0, 0, 0};
+    EliminatedParticle previous = unmoved_start();
     vec3 edge_before{0, 0, 0};
     float stiffness_before = 0;
     for (std::size_t p = 0; p < line.particles.size(); ++p) {
@@ -100,7 +100,7 @@ std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>&
         const vec3 edge = has_spring ? line.edge(p) : vec3{0, 0, 0};
         previous = eliminate_particle(previous, edge_before, stiffness_before, edge, has_spring ? stiffness[p] : 0.0f,
                                       line.weight(p));
-        eliminated.push_back(previous);
+        eliminated.push_back(previous.row);
         edge_before = edge;
         stiffness_before = has_spring ? stiffness[p] : 0.0f;
     }
@@ -155,7 +155,7 @@ void filter(LineView& line, float compliance, float followed, bool by_reduction,
     for (std::size_t e = 0; e < line.spring_count(); ++e) {
         per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
                                                 line.push.rest_length));
-        stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), compliance));
+        stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), reciprocal(compliance)));
     }
     line.delta = by_reduction ? reduced_deltas(line, stiffness)
                  : bend > 0   ? bent_deltas(line, stiffness, bend)
@@ -233,9 +233,10 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             const std::size_t i = line.index(p);
             state.move_to(i, moved_by_both(line.displacement(p), line.delta[p], correction, line.weight(p)));
-            if (!is_last)
-                stored[i] =
-                    stored_tension(changed_tension(line.tension[p], change[p], line.share(p), compliance), followed);
+            if (is_last) continue;
+            const float share = line.share(p);
+            stored[i] = stored_tension(
+                changed_tension(line.tension[p], change[p], share, shared_compliance(compliance, share)), followed);
         }
     }
 }

@@ -46,7 +46,7 @@ struct NestedLine {
             eliminated[e] = previous =
                 eliminate_spring(previous, e > 0 ? springs[e - 1].normal : none, springs[e],
                                  e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
-                                 push.compression, compliance, tension_in_use(stored(e), followed));
+                                 push.compression, compliance, tension_in_use(stored(e), reciprocal(followed)));
         std::vector<float> changes;
         float before = 0;
         for (const vec2& row : eliminated) changes.push_back(before = substitute_spring(row, before));
@@ -59,7 +59,7 @@ struct NestedLine {
         for (std::size_t e = 0; e < count; ++e)
             rows.push_back(spring_row(e > 0 ? springs[e - 1].normal : none, springs[e],
                                       e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
-                                      push.compression, compliance, tension_in_use(stored(e), followed)));
+                                      push.compression, compliance, tension_in_use(stored(e), reciprocal(followed))));
         std::vector<float> changes;
         for (const vec3& change : reduced(rows)) changes.push_back(change.x);
         return changes;
@@ -77,8 +77,9 @@ struct NestedLine {
                                 is_last ? none : springs[p].normal, is_last ? 0.0f : change[p]);
             state.move_to(index(p), moved_by(xyz(state[Field::displacement][index(p)]), correction, weight(p)));
             if (is_last || !(share(p) > 0.0f)) continue;
-            const float tension = tension_in_use(stored(p), followed);
-            stored(p) = stored_tension(changed_tension(tension, change[p], share(p), compliance), followed);
+            const float tension = tension_in_use(stored(p), reciprocal(followed));
+            stored(p) = stored_tension(
+                changed_tension(tension, change[p], share(p), shared_compliance(compliance, share(p))), followed);
         }
     }
 };

@@ -42,20 +42,21 @@ struct LineSpring {
 SHARED LineSpring line_spring(vec3 edge, float rest_length) {
     precise float length_squared = ordered_dot(edge, edge);
     precise float current = sqrt(length_squared);
-    precise vec3 normal = edge / current;
+    precise vec3 normal = edge * reciprocal(current);
     precise float excess = current - rest_length;
     bool directed = length_squared > 0.0f;
     return LineSpring(directed ? normal : vec3(0.0f, 0.0f, 0.0f), directed ? current : 0.0f, directed ? excess : 0.0f);
 }
 
 /// Tension in the solve's own units, an extension by the compliance in use (m), from how it is stored: an extension by
-/// the compliance that the scene asks for, which no order and no length of a substep changes. `followed`: of that
-/// compliance over the one in use.
-SHARED float tension_in_use(float stored, float followed) {
-    precise float tension = stored / followed;
+/// the compliance that the scene asks for, which no order and no length of a substep changes. `per_followed`: the
+/// compliance in use over that one.
+SHARED float tension_in_use(float stored, float per_followed) {
+    precise float tension = stored * per_followed;
     return tension;
 }
 
+/// `followed`: the compliance that the scene asks for over the one in use.
 SHARED float stored_tension(float tension, float followed) {
     precise float stored = tension * followed;
     return stored;
@@ -70,23 +71,37 @@ SHARED float tension_per_length(float tension, vec3 start_edge, float rest_lengt
 }
 
 /// g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
-SHARED float geometric_stiffness(float tension_per_length, float share, float compliance) {
-    precise float stiffness = (share * tension_per_length) / compliance;
+/// `per_compliance`: 1/alpha.
+SHARED float geometric_stiffness(float tension_per_length, float share, float per_compliance) {
+    precise float stiffness = (share * tension_per_length) * per_compliance;
     return stiffness;
 }
 
+/// A particle eliminated from the first system: delta_i = row.xyz + row.w delta_(i+1). `left`: 1 - row.w, in which a
+/// stiff line would lose its digits.
+struct EliminatedParticle {
+    vec4 row;
+    float left;
+};
+
+/// Before a line's first particle.
+SHARED EliminatedParticle unmoved_start() { return EliminatedParticle(vec4(0.0f, 0.0f, 0.0f, 0.0f), 1.0f); }
+
 /// Forward elimination of particle i of the first system, between the springs `before` and `after` it,
 ///   (1 + w (g_(i-1) + g_i)) delta_i - w g_(i-1) delta_(i-1) - w g_i delta_(i+1) = w (g_i e_i - g_(i-1) e_(i-1)).
-/// `previous` and the result: xyz d and w u of delta_i = d + u delta_(i+1), 0 <= u < 1. g is zero beyond the ends.
-SHARED vec4 eliminate_particle(vec4 previous, vec3 edge_before, float stiffness_before, vec3 edge_after,
-                               float stiffness_after, float weight) {
+/// g is zero beyond the ends.
+SHARED EliminatedParticle eliminate_particle(EliminatedParticle previous, vec3 edge_before, float stiffness_before,
+                                             vec3 edge_after, float stiffness_after, float weight) {
     precise float before = weight * stiffness_before;
     precise float after = weight * stiffness_after;
-    precise float pivot = 1.0f + (after + before * (1.0f - previous.w));
-    precise vec3 pull = edge_after * after - (edge_before - vec3(previous.x, previous.y, previous.z)) * before;
-    precise vec3 reduced = pull / pivot;
-    precise float upper = after / pivot;
-    return vec4(reduced.x, reduced.y, reduced.z, upper);
+    precise float kept = 1.0f + before * previous.left;
+    precise float per_pivot = reciprocal(kept + after);
+    vec3 reduced_before = vec3(previous.row.x, previous.row.y, previous.row.z);
+    precise vec3 pull = edge_after * after - (edge_before - reduced_before) * before;
+    precise vec3 reduced = pull * per_pivot;
+    precise float upper = after * per_pivot;
+    precise float left = kept * per_pivot;
+    return EliminatedParticle(vec4(reduced.x, reduced.y, reduced.z, upper), left);
 }
 
 /// Back substitution: delta of a particle from that of the particle after it.
@@ -134,9 +149,9 @@ SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring sprin
     precise float after = -(acting * weight_second) * ordered_dot(spring.normal, normal_after);
     precise float diagonal = acting * (weight_first + weight_second) + compliance;
     precise float right = -(share * (balancing_tension(spring.excess, compression) - tension));
-    precise float pivot = diagonal - after * previous.x;
-    precise float lower = before / pivot;
-    precise float reduced = (right - after * previous.y) / pivot;
+    precise float per_pivot = reciprocal(diagonal - after * previous.x);
+    precise float lower = before * per_pivot;
+    precise float reduced = (right - after * previous.y) * per_pivot;
     return pulls(spring, share) ? vec2(lower, reduced) : vec2(0.0f, 0.0f);
 }
 
@@ -158,9 +173,24 @@ SHARED vec3 moved_by_both(vec3 displacement, vec3 delta, vec3 correction, float 
     return moved;
 }
 
-/// Tension (m) of a spring whose multiplier changed; 0 where there is none.
+/// alpha/s of a spring.
+SHARED float shared_compliance(float compliance, float share) {
+    precise float shared_out = compliance / share;
+    return shared_out;
+}
+
+#ifndef __cplusplus
+/// Of a spring of a line: divided only where each may have another share.
+#ifdef MASKED
+#define SPRING_COMPLIANCE(line, share) shared_compliance((line).compliance, share)
+#else
+#define SPRING_COMPLIANCE(line, share) (line).shared_compliance
+#endif
+#endif
+
+/// Tension (m) of a spring whose multiplier changed; 0 where there is none. `compliance`: alpha/s.
 SHARED float changed_tension(float tension, float change, float share, float compliance) {
-    precise float updated = tension - (compliance / share) * change;
+    precise float updated = tension - compliance * change;
     return share > 0.0f ? updated : 0.0f;
 }
 

@@ -8,7 +8,8 @@ struct Line {
     ivec2 step;
     int columns, seam, channel;
     float share;  // of all its springs, where no image has them
-    float rest_length, compliance, followed, bend, compression;
+    float rest_length, compliance, per_compliance, followed, per_followed, bend, compression;
+    float shared_compliance;  // of springs that have `share`
 };
 
 struct LineParticle {
@@ -19,11 +20,12 @@ struct LineParticle {
 
 Line read_line(int index) {
     bool second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
-    return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel,
-                border_share(line_start(index, push.step), push.step, push.grid), push.rest_length,
-                second_order ? push.compliance_bdf2 : push.compliance,
-                second_order ? push.followed_bdf2 : push.followed, second_order ? push.bend_bdf2 : push.bend,
-                push.compression);
+    float share = border_share(line_start(index, push.step), push.step, push.grid);
+    float compliance = second_order ? push.compliance_bdf2 : push.compliance;
+    float followed = second_order ? push.followed_bdf2 : push.followed;
+    return Line(index, push.particle_count - 1, push.step, push.grid.x, push.seam, push.channel, share,
+                push.rest_length, compliance, reciprocal(compliance), followed, reciprocal(followed),
+                second_order ? push.bend_bdf2 : push.bend, push.compression, shared_compliance(compliance, share));
 }
 
 float share_of(Line line, ivec2 first) {
@@ -51,7 +53,7 @@ LineParticle particle_before(Line line, LineParticle particle) {
 /// Where the first system puts a particle.
 vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
 
-float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.followed); }
+float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.per_followed); }
 
 float tension_per_length_of(Line line, LineParticle first, LineParticle second) {
     precise vec3 start_edge = second.position.xyz - first.position.xyz;
@@ -63,7 +65,7 @@ vec3 start_edge_of(LineParticle first, LineParticle second) {
 }
 
 float stiffness_of(Line line, LineParticle first, LineParticle second, float share) {
-    return geometric_stiffness(tension_per_length_of(line, first, second), share, line.compliance);
+    return geometric_stiffness(tension_per_length_of(line, first, second), share, line.per_compliance);
 }
 
 /// Of the spring between two particles after the first system.

@@ -28,7 +28,8 @@ struct NestedLine {
     int columns;                       // of the box
     int index, direction, seam, last;  // last: of its particles
     float share;                       // of all its springs, where no image has them
-    float rest_length, compliance, followed, compression;
+    float rest_length, compliance, followed, per_followed, compression;
+    float shared_compliance;  // of springs that have `share`
 };
 
 struct NestedParticle {
@@ -86,16 +87,19 @@ LineSpring spring_between(NestedLine line, NestedParticle first, NestedParticle 
 /// Any line of a direction, but for its index and share.
 NestedLine line_of(NestedBox box, int direction, bool second_order) {
     ivec2 step = nested_step(direction);
+    float followed = second_order ? push.followed_bdf2[direction] : push.followed[direction];
     return NestedLine(box.first, step, box.size.x, 0, direction, nested_seam(step, box.size.x),
                       (step.y == 0 ? box.size.x : box.size.y) - 1, 0.0f, push.rest_length[direction],
-                      second_order ? push.compliance_bdf2[direction] : push.compliance[direction],
-                      second_order ? push.followed_bdf2[direction] : push.followed[direction], push.compression);
+                      second_order ? push.compliance_bdf2[direction] : push.compliance[direction], followed,
+                      reciprocal(followed), push.compression, 0.0f);
 }
 
 int line_count(NestedBox box, NestedLine line) { return line.step.y == 0 ? box.size.y : box.size.x; }
 
-float line_share(NestedLine line) {
-    return border_share(line.box_first + line_start(line.index, line.step), line.step, push.grid);
+/// What the springs of line `line.index` share.
+void find_share(inout NestedLine line) {
+    line.share = border_share(line.box_first + line_start(line.index, line.step), line.step, push.grid);
+    line.shared_compliance = shared_compliance(line.compliance, line.share);
 }
 
 /// Solves all lines of a direction. Every invocation of the workgroup gets here.

@@ -7,6 +7,12 @@ SHARED float ordered_dot(vec3 a, vec3 b) {
     return sum;
 }
 
+/// What is divided by the same number more than once is multiplied by this: a division takes as long as ten products.
+SHARED float reciprocal(float x) {
+    precise float inverse = 1.0f / x;
+    return inverse;
+}
+
 SHARED vec3 ordered_cross(vec3 a, vec3 b) {
     precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
     return product;

@@ -52,7 +52,7 @@ struct ReducedSystem : testing::TestWithParam<std::size_t> {
 /// The first system of a line whose springs have up to `stiffest`, every seventh particle held or all free.
 struct TensionSystem {
     std::vector<CyclicRow> rows;
-    std::vector<vec4> eliminated;
+    std::vector<EliminatedParticle> eliminated;
     DoubleSystem exact;
 
     TensionSystem(ReducedSystem& test, std::size_t count, float stiffest, bool held) {
@@ -64,9 +64,8 @@ struct TensionSystem {
             const float weight = held && i % 7 == 3 ? 0.0f : test.between(0.9f, 1.1f);
             const vec3 edge{is_last ? 0 : test.between(0.9f, 1.1f), 0, 0};
             rows.push_back(particle_row(edge_before, before, edge, after, weight));
-            const vec4 none{0, 0, 0, 0};
-            eliminated.push_back(
-                eliminate_particle(i > 0 ? eliminated.back() : none, edge_before, before, edge, after, weight));
+            eliminated.push_back(eliminate_particle(i > 0 ? eliminated.back() : unmoved_start(), edge_before, before,
+                                                    edge, after, weight));
             exact.below.push_back(double(weight) * before);
             exact.above.push_back(double(weight) * after);
             exact.diagonal.push_back(1 + exact.below.back() + exact.above.back());
@@ -78,7 +77,8 @@ struct TensionSystem {
     std::vector<vec3> walked() const {
         std::vector<vec3> solution(eliminated.size());
         vec3 after{0, 0, 0};
-        for (std::size_t i = solution.size(); i-- > 0;) after = solution[i] = substitute_particle(eliminated[i], after);
+        for (std::size_t i = solution.size(); i-- > 0;)
+            after = solution[i] = substitute_particle(eliminated[i].row, after);
         return solution;
     }
 };

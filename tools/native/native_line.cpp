@@ -71,12 +71,13 @@ void load_lines(const Lines& lines, LineParticles* particles) {
 /// Tension in use of the springs; in a first iteration per length.
 template <bool first_iteration>
 void use_tension(const Lines& lines, LineParticles* particles) {
+    const float per_followed = reciprocal(lines.followed);
     for (int p = 0; p + 1 < lines.push.particle_count; ++p) {
         LineParticles& here = particles[p];
         const LineParticles& next = particles[p + 1];
 #pragma GCC ivdep
         for (int k = 0; k < line_lanes; ++k) {
-            const float tension = tension_in_use(here.tension[k], lines.followed);
+            const float tension = tension_in_use(here.tension[k], per_followed);
             here.tension[k] = first_iteration ? tension_per_length(tension, at(next.start, k) - at(here.start, k),
                                                                    lines.push.rest_length)
                                               : tension;
@@ -86,7 +87,10 @@ void use_tension(const Lines& lines, LineParticles* particles) {
 
 /// Forward elimination of the first system.
 void eliminate(const Lines& lines, LineParticles* particles) {
-    alignas(64) float previous[4][line_lanes] = {}, edge_before[3][line_lanes] = {}, stiffness_before[line_lanes] = {};
+    alignas(64) float previous[4][line_lanes] = {}, left[line_lanes], edge_before[3][line_lanes] = {},
+                      stiffness_before[line_lanes] = {};
+    for (float& value : left) value = unmoved_start().left;
+    const float per_compliance = reciprocal(lines.compliance);
     const int count = lines.push.particle_count;
     for (int p = 0; p < count; ++p) {
         LineParticles& here = particles[p];
@@ -97,15 +101,16 @@ void eliminate(const Lines& lines, LineParticles* particles) {
             const vec3 between =
                 spring_edge(at(here.start, k), at(next.start, k), at(here.displacement, k), at(next.displacement, k));
             const vec3 edge = chosen(has_spring, between, {0.0f, 0.0f, 0.0f});
-            const float resisting = geometric_stiffness(here.tension[k], here.share[k], lines.compliance);
+            const float resisting = geometric_stiffness(here.tension[k], here.share[k], per_compliance);
             const float stiffness = has_spring ? resisting : 0.0f;
-            const vec4 reduced =
-                eliminate_particle({previous[0][k], previous[1][k], previous[2][k], previous[3][k]}, at(edge_before, k),
-                                   stiffness_before[k], edge, stiffness, here.weight[k]);
+            const EliminatedParticle before{{previous[0][k], previous[1][k], previous[2][k], previous[3][k]}, left[k]};
+            const auto [reduced, left_over] =
+                eliminate_particle(before, at(edge_before, k), stiffness_before[k], edge, stiffness, here.weight[k]);
             here.eliminated[0][k] = previous[0][k] = reduced.x;
             here.eliminated[1][k] = previous[1][k] = reduced.y;
             here.eliminated[2][k] = previous[2][k] = reduced.z;
             here.eliminated[3][k] = previous[3][k] = reduced.w;
+            left[k] = left_over;
             put(edge_before, k, edge);
             stiffness_before[k] = stiffness;
         }
@@ -178,7 +183,8 @@ void correct(const Lines& lines, LineParticles* particles) {
             const vec3 correction = line_correction(at(normal_before, k), change_before[k], normal, change);
             put(here.displacement, k,
                 moved_by_both(at(here.displacement, k), at(here.delta, k), correction, here.weight[k]));
-            const float tension = changed_tension(here.tension[k], change, here.share[k], lines.compliance);
+            const float tension = changed_tension(here.tension[k], change, here.share[k],
+                                                  shared_compliance(lines.compliance, here.share[k]));
             here.tension[k] = stored_tension(tension, lines.followed);
             change_before[k] = change;
             put(normal_before, k, normal);
