@@ -7,7 +7,7 @@ SHARED float ordered_dot(vec3 a, vec3 b) {
     return sum;
 }
 
-/// What is divided by the same number more than once is multiplied by this: a division takes as long as ten products.
+/// What would be divided by the same number more than once is multiplied by this.
 SHARED float reciprocal(float x) {
     precise float inverse = 1.0f / x;
     return inverse;
