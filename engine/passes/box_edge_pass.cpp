@@ -6,15 +6,13 @@ namespace drape {
 
 namespace {
 
-/// Particles of a column that an invocation leads out of edges: fewer where there are so many boxes that it would go
-/// round its loops too often. Per particle one to find whether it is near each box, and one for each box and each
-/// triangle around it.
-std::uint32_t strip_of(const PipelineCache& pipelines, const SimulationModel& model) {
+/// Of loops, that a particle may take: one to find whether it is near each box, and one for each box and each triangle
+/// around it.
+std::size_t rounds_each(const SimulationModel& model) {
     const auto boxes =
         static_cast<std::size_t>(std::ranges::count(model.scene.colliders, glsl::kind_box, &Collider::kind));
     constexpr std::size_t triangles = 6;  // around a particle
-    const std::size_t each = 2 + boxes * (2 + triangles);
-    return static_cast<std::uint32_t>(std::clamp<std::size_t>(most_loop_rounds / each, 1, pipelines.strip_rows()));
+    return 2 + boxes * (2 + triangles);
 }
 
 }  // namespace
@@ -25,7 +23,7 @@ void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
     std::vector<vulkan::SpecializationConstant> ends = collider_constants(model.scene);
     std::erase_if(ends, [](const auto& each) { return each.name != "spheres_end" && each.name != "boxes_end"; });
     ends.push_back({"again", step.after_edges});
-    const std::uint32_t strip = strip_of(pipelines, model);
+    const std::uint32_t strip = pipelines.strip_rows(rounds_each(model));
     ends.push_back({"strip_rows", strip});
     const Field from = step.after_edges ? Field::lifted_once : Field::displacement;
     const Field to = step.after_edges ? Field::lifted : Field::lifted_once;

@@ -8,14 +8,13 @@ namespace drape {
 
 namespace {
 
-/// Particles of a column that an invocation meets colliders with: fewer where each may take many rounds of loops. Per
-/// round over all colliders: two of each that is not among the early ones, and two times Newton's 24 of each ellipsoid.
-std::uint32_t strip_of(const PipelineCache& pipelines, const SimulationModel& model) {
+/// Of loops, that a particle may take. Per round over all colliders: two of each that is not among the early ones, and
+/// two times Newton's 24 of each ellipsoid.
+std::size_t rounds_each(const SimulationModel& model) {
     const std::vector<Collider>& colliders = model.scene.colliders;
     const auto ellipsoids =
         static_cast<std::size_t>(std::ranges::count(colliders, glsl::kind_ellipsoid, &Collider::kind));
-    const std::size_t each = model.collision_rounds() * (1 + 2 * colliders.size() + 48 * ellipsoids) + colliders.size();
-    return static_cast<std::uint32_t>(std::clamp<std::size_t>(most_loop_rounds / each, 1, pipelines.strip_rows()));
+    return model.collision_rounds() * (1 + 2 * colliders.size() + 48 * ellipsoids) + colliders.size();
 }
 
 }  // namespace
@@ -24,7 +23,7 @@ void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& st
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});
-    const std::uint32_t strip = strip_of(pipelines, model);
+    const std::uint32_t strip = pipelines.strip_rows(rounds_each(model));
     constants.push_back({"strip_rows", strip});
     constants.push_back({"leaves_out", model.options.skip ? 1u : 0u});
     const bool history = state.model->plan.second_order;

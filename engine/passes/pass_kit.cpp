@@ -25,7 +25,10 @@ const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
 
 bool PipelineCache::wide_atomics() const { return device_.wide_atomics(); }
 std::uint32_t PipelineCache::entries_each() const { return device_.info().type == "cpu" ? 8 : 1; }
-std::uint32_t PipelineCache::strip_rows() const { return device_.info().type == "cpu" ? 32 : 1; }
+std::uint32_t PipelineCache::strip_rows(std::size_t rounds_each) const {
+    const std::size_t most = device_.info().type == "cpu" ? 32 : 1;
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(most_loop_rounds / rounds_each, 1, most));
+}
 std::uint32_t PipelineCache::strip_columns() const { return device_.info().type == "cpu" ? 2 : 1; }
 std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
     return static_cast<std::uint32_t>((rows - 1) / strip_rows() + 1);

@@ -26,8 +26,9 @@ class PipelineCache {
     /// several.
     std::uint32_t entries_each() const;
     /// Particles of a column that an invocation looks after in turn: several on a CPU, where a workgroup costs as much
-    /// to begin as some particles, and what one lane of a subgroup does as much as if all did it.
-    std::uint32_t strip_rows() const;
+    /// to begin as some particles, and what one lane of a subgroup does as much as if all did it. Fewer where each may
+    /// take so many rounds of loops that the driver would end them silently (most_loop_rounds).
+    std::uint32_t strip_rows(std::size_t rounds_each = 1) const;
     /// Of such a part, columns beside each other, where particles share what is costly.
     std::uint32_t strip_columns() const;
     /// So many parts of columns make up all rows.

@@ -35,17 +35,6 @@ constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
 
-/// Vulkan guarantees 64 components from vertices to fragments; surfaces take 21 places of four
-/// (include/lit_constants.h).
-void require_handed_on(const vulkan::Device& device) {
-    constexpr std::uint32_t needed = 84;
-    const std::uint32_t most =
-        std::min(device.limits().maxVertexOutputComponents, device.limits().maxFragmentInputComponents);
-    if (most < needed)
-        throw vulkan::VulkanError(
-            fmt::format("raster: the device hands {} components on to fragments, pictures need {}", most, needed));
-}
-
 std::string shadow_skip_reason(const SceneDescription& scene, const RasterOptions& options) {
     if (!options.shadow) return "switched off";
     if (scene.lights.empty()) return "the scene has no light";
@@ -146,7 +135,6 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       view_(options.view.kind),
       scale_(strain_scale(options.view, scene)) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
-    require_handed_on(device);
     const PictureGeometry picture{picture_camera(scene, width, height), scene_extent(scene), width, height,
                                   options.shift};
     plane_extent_ = plane_extent(picture.camera, picture.extent);

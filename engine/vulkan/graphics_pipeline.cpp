@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "vulkan/api.h"
@@ -20,6 +21,15 @@ void require_read_only(const std::string& pipeline, const ShaderStage& stage) {
                                           pipeline, stage.module(), descriptor.name, descriptor.binding));
         }
     }
+}
+
+/// Vulkan guarantees 64 components between two stages, surfaces take more.
+void require_varyings(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const std::uint32_t most = std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents);
+    if (const std::uint32_t needed = 4 * stage.reflected().varying_locations; needed > most)
+        throw VulkanError(fmt::format("pipeline {}: {} takes {} components from vertices to fragments, the device {}",
+                                      pipeline, stage.module(), needed, most));
 }
 
 /// The fixed functions, and the pointers between them: built in place, never copied.
@@ -100,7 +110,10 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, std::string name, const
         stages.push_back(&*fragment);
     }
     require_constants(name_, state.constants, stages);
-    for (const ShaderStage* stage : stages) require_read_only(name_, *stage);
+    for (const ShaderStage* stage : stages) {
+        require_read_only(name_, *stage);
+        require_varyings(device, name_, *stage);
+    }
     make_layout(stages);
 
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;

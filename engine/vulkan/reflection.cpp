@@ -127,6 +127,10 @@ class Reflector {
             if (!name.empty()) result.constants.emplace(name, constant.constant_id);  // a workgroup's size has none
         }
         if (result.stage == VK_SHADER_STAGE_COMPUTE_BIT) read_local_size(result);
+        if (result.stage == VK_SHADER_STAGE_VERTEX_BIT)
+            result.varying_locations = locations(list(resources, SPVC_RESOURCE_TYPE_STAGE_OUTPUT));
+        if (result.stage == VK_SHADER_STAGE_FRAGMENT_BIT)
+            result.varying_locations = locations(list(resources, SPVC_RESOURCE_TYPE_STAGE_INPUT));
         return result;
     }
 
@@ -227,6 +231,29 @@ class Reflector {
             if (constants[axis].id != 0)
                 result.constants[std::string(local_size_names[axis])] = constants[axis].constant_id;
         }
+    }
+
+    /// Up to the last that any of these takes.
+    std::uint32_t locations(std::span<const spvc_reflected_resource> resources) const {
+        std::uint32_t end = 0;
+        for (const spvc_reflected_resource& resource : resources)
+            end = std::max(end, spvc_compiler_get_decoration(compiler_, resource.id, SpvDecorationLocation) +
+                                    locations_of(resource.type_id));
+        return end;
+    }
+
+    /// That a variable takes (Vulkan 1.3, 15.1.4, "Location Assignment"): one for each vector of 32-bit numbers.
+    std::uint32_t locations_of(spvc_type_id id) const {
+        const spvc_type type = spvc_compiler_get_type_handle(compiler_, id);
+        std::uint32_t each = spvc_type_get_columns(type);
+        if (spvc_type_get_basetype(type) == SPVC_BASETYPE_STRUCT) {
+            each = 0;
+            for (unsigned i = 0; i < spvc_type_get_num_member_types(type); ++i)
+                each += locations_of(spvc_type_get_member_type(type, i));
+        }
+        for (unsigned i = 0; i < spvc_type_get_num_array_dimensions(type); ++i)
+            each *= spvc_type_get_array_dimension(type, i);
+        return each;
     }
 
     struct Destroy {

@@ -58,6 +58,8 @@ struct ReflectedModule {
     /// Specialization constants, name -> id; those of the workgroup's size by local_size_names.
     std::map<std::string, std::uint32_t, std::less<>> constants;
     std::array<std::uint32_t, 3> local_size{};  ///< by default
+    /// Locations, of four components each, from the first to the last that goes from vertices to fragments.
+    std::uint32_t varying_locations = 0;
 };
 
 /// Throws VulkanError naming `module` when SPIRV-Cross cannot read the words.

@@ -6,8 +6,8 @@
 
 #include "shared/raster_types.h"
 
-/// Members as those of FrameConstants. With the surfaces' own inputs and ClothLook 21 places of four components, which
-/// passes/raster.cpp asks the device for.
+/// Members as those of FrameConstants. With the surfaces' own inputs and ClothLook they take 21 of the device's
+/// locations; Vulkan guarantees 16.
 struct LitConstants {
     vec4 eye;
     vec4 ambient;

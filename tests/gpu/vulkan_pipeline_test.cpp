@@ -225,6 +225,14 @@ TEST(VulkanGraphicsPipeline, refuses_constants_of_neither_stage_and_swapped_stag
                 HasSubstr("triangle.frag is a fragment shader, not a vertex shader"));
 }
 
+TEST(VulkanGraphicsPipeline, refuses_more_between_its_stages_than_the_device_takes) {
+    vulkan::GraphicsState state = triangle_state();
+    state.vertex = {"varyings.vert", test_shader("varyings.vert")};
+    EXPECT_THAT(
+        error_of([&] { GraphicsPipeline(gpu().device, "triangle", state); }),
+        HasSubstr("pipeline triangle: varyings.vert takes 276 components from vertices to fragments, the device"));
+}
+
 TEST(VulkanGraphicsPipeline, refuses_stages_that_contradict_each_other) {
     vulkan::GraphicsState state = triangle_state();
     state.fragment = {"contradiction.frag", test_shader("contradiction.frag")};

@@ -142,6 +142,14 @@ TEST(VulkanReflection, reads_constants_by_name_and_the_workgroups_size) {
                 testing::UnorderedElementsAre(testing::Pair("factor", 5u), testing::Pair("local_size_x", 3u)));
 }
 
+TEST(VulkanReflection, counts_locations_from_vertices_to_fragments) {
+    EXPECT_EQ(vulkan::reflect(test_shader("varyings.vert"), "varyings.vert").varying_locations, 69u);
+    EXPECT_EQ(vulkan::reflect(test_shader("triangle.vert"), "triangle.vert").varying_locations, 0u);
+    const ReflectedModule cloth = vulkan::reflect(vulkan::spirv_module("cloth_shadowed.frag"), "cloth_shadowed.frag");
+    EXPECT_EQ(cloth.varying_locations, 13u + 2 * glsl::light_limit);
+    EXPECT_EQ(interface_module().varying_locations, 0u);
+}
+
 TEST(VulkanReflection, a_struct_is_known_by_its_type_alone) {
     EXPECT_EQ(layout_of<Element>().name, "Element");
     EXPECT_EQ(layout_of<Element>().size, 32u);
