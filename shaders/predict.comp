@@ -15,6 +15,7 @@ layout(push_constant) uniform Push { PredictPush push; };
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(constant_id = 1) const bool turns = false;    // the displacement is written to another image than it is read from
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
 TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
@@ -33,7 +34,10 @@ void predict(ivec2 texel) {
     vec3 excess = velocity_excess(displacement, before);
     STORE_TRIPLE(displacement_before_out, texel, displacement, 0.0f);
     STORE_TRIPLE(velocity_excess_out, texel, excess, 0.0f);
-    if (position.w == 0.0f) return;
+    if (position.w == 0.0f) {
+        if (turns) STORE_VECTOR(displacement_out, texel, moved);
+        return;
+    }
     vec4 force = force_on(texel);
     vec3 increment;
     float loss;

@@ -43,56 +43,10 @@ SCALAR_OUT(5, TensionColumnOut, tension_column_out);
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 
-const int columns = sweep_columns, ghost = sweep_columns, kept_rows = 5, window = kept_rows + 2;
+const int columns = sweep_columns, strip_width = sweep_width, strip_halo = sweep_halo, kept_rows = 5,
+          window = kept_rows + 2;
 
-struct Particle {
-    vec3 position;
-    float weight;
-    vec3 displacement;
-    float mark;  // beside the displacement (verlet.h)
-};
-
-int first_column() {
-    return int(gl_WorkGroupID.x) * (sweep_width - 2 * sweep_halo) + int(gl_SubgroupInvocationID) * columns;
-}
-
-/// What the invocation on the right holds; of a strip's last one, what is of no use.
-vec3 from_right(vec3 value) {
-    int lane = int(gl_SubgroupInvocationID);
-    return subgroupShuffle(value, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
-}
-
-/// What lies outside the grid is a copy of its border.
-Particle load(int x, int y) {
-    ivec2 texel = ivec2(x < push.grid.x ? x : push.grid.x - 1, y < push.grid.y ? y : push.grid.y - 1);
-    vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
-    return Particle(start.xyz, dragged_weight(start.w, moved.w), moved.xyz, moved.w);
-}
-
-void load_row(int y, out Particle row[columns + 1]) {
-    for (int c = 0; c < columns; ++c) row[c] = load(first_column() + c, y);
-    int lane = int(gl_SubgroupInvocationID);
-    row[ghost].position = from_right(row[0].position);
-    row[ghost].weight = subgroupShuffle(row[0].weight, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
-    row[ghost].displacement = row[0].displacement;
-    row[ghost].mark = 0.0f;
-}
-
-/// Whether column c of this invocation's is the strip's to store: the halo is other strips'.
-bool is_own(int c) {
-    int within = int(gl_SubgroupInvocationID) * columns + c;
-    int first = gl_WorkGroupID.x == 0 ? 0 : sweep_halo;
-    int end = gl_WorkGroupID.x + 1 == gl_NumWorkGroups.x ? sweep_width : sweep_width - sweep_halo;
-    return within >= first && within < end;
-}
-
-void store_row(int y, Particle row[columns + 1]) {
-    for (int c = 0; c < columns; ++c) {
-        ivec2 texel = ivec2(first_column() + c, y);
-        if (!is_own(c) || texel.x >= push.grid.x || y < 0 || y >= push.grid.y) continue;
-        STORE_VECTOR(displacement_out, texel, vec4(row[c].displacement, row[c].mark));
-    }
-}
+#include "include/strip_rows.h"
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
@@ -122,15 +76,6 @@ float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offs
     first.displacement = is_there ? moved_first : first.displacement;
     second.displacement = is_there ? moved_second : second.displacement;
     return result.tension;
-}
-
-void fetch_ghost(inout Particle row[columns + 1]) { row[ghost].displacement = from_right(row[0].displacement); }
-
-/// The strip's first column has no invocation on the left.
-void return_ghost(inout Particle row[columns + 1]) {
-    int lane = int(gl_SubgroupInvocationID);
-    vec3 moved = subgroupShuffle(row[ghost].displacement, uint(lane > 0 ? lane - 1 : 0));
-    row[0].displacement = lane > 0 ? moved : row[0].displacement;
 }
 
 #ifdef TENSION

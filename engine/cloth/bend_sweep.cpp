@@ -28,10 +28,12 @@ float sweep_compliance(double wanted, double share, double sweep) {
 }
 
 void add_twists(const ClothGeometry& cloth, float compliance, float compliance_bdf2, MethodPlan& plan) {
-    for (const TwistPass& pass : twist_passes(cloth.grid.size()))
-        if (!pass.empty())
-            plan.once.push_back({StepKind::twist, glsl::TwistPush{cloth.grid.size(), pass.element_count, pass.first,
-                                                                  compliance, compliance_bdf2}});
+    for (const TwistPass& pass : twist_passes(cloth.grid.size())) {
+        if (pass.empty()) continue;
+        plan.once.push_back({StepKind::twist, glsl::TwistPush{cloth.grid.size(), pass.element_count, pass.first,
+                                                              compliance, compliance_bdf2}});
+        plan.spare_displacement = true;
+    }
 }
 
 double substeps_for(double share, const MethodSettings& settings) {

@@ -35,7 +35,7 @@ void add_springs(const ClothGeometry& cloth, const MethodSettings& settings, Met
                               static_cast<float>(cloth.stiffness_constant.rest_length[index]), compliance,
                               pass.direction, 1, cloth.compression, 0}});
     }
-    plan.spare_displacement = !plan.iterated.empty();
+    plan.spare_displacement |= !plan.iterated.empty();
     if (!cloth.rigid) carry_tension_to_release(cloth, settings, plan);
     note_tension(cloth, plan);
 }

@@ -27,6 +27,7 @@ enum class StepKind {
     pin,
     bend,
     twist,
+    twist_sweep,
     spring,
     sweep,
     line,
@@ -61,8 +62,8 @@ enum class StepKind {
 /// set per iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::SpringPush, glsl::SweepPush, glsl::LinePush, glsl::NestedPush,
-                 glsl::SelfContactPush, glsl::SelfClothPush>;
+                 glsl::BendPush, glsl::TwistPush, glsl::TwistSweepPush, glsl::SpringPush, glsl::SweepPush,
+                 glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

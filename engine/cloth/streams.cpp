@@ -81,6 +81,25 @@ class SweepMaker {
     const std::vector<Step>& steps_;
 };
 
+/// Steps of which some are sweeps. A sweep writes the other image of the displacement, so that a prediction does too
+/// before an odd number of them.
+class SweptSteps {
+  public:
+    void add(const Step& step) {
+        if (step.kind == StepKind::force || step.kind == StepKind::predict) predictions_[step.cloth] = steps_.size();
+        steps_.push_back(step);
+    }
+    void add_sweep(const Step& step) {
+        steps_[predictions_.at(step.cloth)].turns ^= true;
+        steps_.push_back(step);
+    }
+    const std::vector<Step>& steps() const { return steps_; }
+
+  private:
+    std::vector<Step> steps_;
+    std::map<std::size_t, std::size_t> predictions_;  // by cloth: its last one
+};
+
 }  // namespace
 
 std::vector<Step> steps_in_flight(const std::vector<Step>& steps,
@@ -101,18 +120,35 @@ std::vector<Step> steps_in_flight(const std::vector<Step>& steps,
 
 std::vector<Step> steps_in_sweeps(const SimulationModel& model, const std::vector<Step>& steps) {
     const SweepMaker maker(model, steps);
-    std::vector<Step> merged;
-    std::map<std::size_t, std::size_t> forces;  // by cloth: its last prediction, among the merged ones
+    SweptSteps swept;
     for (std::size_t k = 0; k < steps.size();) {
-        if (steps[k].kind == StepKind::force) forces[steps[k].cloth] = merged.size();
         const std::size_t length = maker.length_at(k);
-        merged.push_back(length > 0 ? maker.made_of(k, length) : steps[k]);
-        // A sweep writes the other image of the displacement, so that a prediction does too before an odd number of
-        // them.
-        if (length > 0) merged[forces.at(steps[k].cloth)].turns ^= true;
+        if (length > 0)
+            swept.add_sweep(maker.made_of(k, length));
+        else
+            swept.add(steps[k]);
         k += std::max<std::size_t>(length, 1);
     }
-    return merged;
+    return swept.steps();
+}
+
+std::vector<Step> twists_in_sweeps(const std::vector<Step>& steps) {
+    SweptSteps swept;
+    for (const Step& step : steps) {
+        const auto is_same = [&step](const Step& other) {
+            return other.kind == StepKind::twist_sweep && other.cloth == step.cloth && other.substep == step.substep;
+        };
+        if (step.kind != StepKind::twist) {
+            swept.add(step);
+        } else if (!is_same(swept.steps().back())) {
+            const auto& push = step.push<glsl::TwistPush>();
+            Step sweep = step;
+            sweep.kind = StepKind::twist_sweep;
+            sweep.constants = glsl::TwistSweepPush{push.grid, push.compliance, push.compliance_bdf2};
+            swept.add_sweep(sweep);
+        }
+    }
+    return swept.steps();
 }
 
 bool has_direction(const glsl::SweepPush& push, int direction) {
@@ -122,7 +158,7 @@ bool has_direction(const glsl::SweepPush& push, int direction) {
 
 std::vector<Step> streamed_steps(const SimulationModel& model) {
     const auto streamed = [](std::size_t) { return FlightSize{glsl::stream_steps, glsl::stream_steps}; };
-    std::vector<Step> steps = steps_in_sweeps(model, steps_in_flight(frame_steps(model), streamed));
+    std::vector<Step> steps = twists_in_sweeps(steps_in_sweeps(model, steps_in_flight(frame_steps(model), streamed)));
     for (Step& step : steps)
         step.streams = step.kind == StepKind::explicit_step && step.push<glsl::ExplicitPush>().twist == 0;
     return steps;

@@ -1,5 +1,6 @@
-// A frame's steps where passes stream down the rows (shaders/explicit_stream.comp, shaders/sweep.comp) or take tile
-// by tile (shaders/explicit_tile.comp, shaders/sweep_tile.comp): the same work, to the same bits, in fewer steps. Pure.
+// A frame's steps where passes stream down the rows (shaders/explicit_stream.comp, shaders/sweep.comp,
+// shaders/twist_sweep.comp) or take tile by tile (shaders/explicit_tile.comp, shaders/sweep_tile.comp): the same work,
+// to the same bits, in fewer steps. Pure.
 #pragma once
 
 #include <functional>
@@ -25,10 +26,13 @@ std::vector<Step> steps_in_flight(const std::vector<Step>& steps,
 /// so that every substep leaves the displacement where it found it.
 std::vector<Step> steps_in_sweeps(const SimulationModel& model, const std::vector<Step>& steps);
 
+/// The twist of all colours of a cloth's cells becomes one step, likewise.
+std::vector<Step> twists_in_sweeps(const std::vector<Step>& steps);
+
 /// Whether a sweep relaxes springs of that direction (engine/cloth/directions.h).
 bool has_direction(const glsl::SweepPush& push, int direction);
 
-/// The steps of a frame (schedule.h), both done.
+/// The steps of a frame (schedule.h), all done.
 std::vector<Step> streamed_steps(const SimulationModel& model);
 
 /// How many particles a tile shares with the next one at either side, given the halo that it needs: none where one tile

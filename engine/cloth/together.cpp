@@ -33,6 +33,7 @@ bool in_images(StepKind kind) {
         case StepKind::explicit_step:
         case StepKind::bend:
         case StepKind::twist:
+        case StepKind::twist_sweep:
         case StepKind::spring:
         case StepKind::sweep:
         case StepKind::line:

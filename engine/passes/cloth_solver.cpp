@@ -253,6 +253,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_bend(graph, pipelines_, state, step);
         case StepKind::twist:
             return add_twist(graph, pipelines_, state, step);
+        case StepKind::twist_sweep:
+            return add_twist_sweep(graph, pipelines_, state, step);
         case StepKind::spring:
             return add_spring(graph, pipelines_, state, step);
         case StepKind::sweep:

@@ -26,26 +26,31 @@ std::string schedule_obstacle(const vulkan::Device& device, const SimulationMode
     return {};
 }
 
-/// What a kind of device takes for scenes with steps that can stream and without (`line`), the first that it can: what
-/// `drape bench speed --tune` finds the fastest. Else images. On GPUs nothing was measured: LINEAR images may load more
-/// slowly there, and a line of n particles walked by one invocation waits 3 n times for memory, by cyclic reduction
-/// some log n times.
+/// Whether passes of a model run by a schedule otherwise than by those before it in the list.
+bool suits(Schedule schedule, const SimulationModel& model) {
+    if (!concerns(schedule, model.scene.solver.method)) return false;
+    if (schedule != Schedule::streams && schedule != Schedule::tiles) return true;
+    return std::ranges::any_of(
+        model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state || cloth.plan.spare_displacement; });
+}
+
+/// What a kind of device takes, the first that it can and that suits the model: what `drape bench speed --tune` finds
+/// the fastest. Else images. On GPUs nothing was measured: LINEAR images may load more slowly there, and a line of n
+/// particles walked by one invocation waits 3 n times for memory, by cyclic reduction some log n times.
 struct PreferredSchedule {
     DeviceKind device;
-    bool can_stream;
     Schedule schedule;
 };
 constexpr PreferredSchedule preferred_schedules[] = {
-    {DeviceKind::cpu, true, Schedule::streams},  {DeviceKind::cpu, true, Schedule::buffers},
-    {DeviceKind::cpu, false, Schedule::buffers}, {DeviceKind::gpu, true, Schedule::tiles},
-    {DeviceKind::gpu, false, Schedule::cyclic},
+    {DeviceKind::cpu, Schedule::streams},
+    {DeviceKind::cpu, Schedule::buffers},
+    {DeviceKind::gpu, Schedule::tiles},
+    {DeviceKind::gpu, Schedule::cyclic},
 };
 
 Schedule chosen(const vulkan::Device& device, const SimulationModel& model) {
-    const bool can_stream = std::ranges::any_of(
-        model.cloths, [](const ClothModel& cloth) { return cloth.plan.spare_state || cloth.plan.spare_displacement; });
     for (const PreferredSchedule& row : preferred_schedules)
-        if (row.device == device_kind(device.info()) && row.can_stream == can_stream &&
+        if (row.device == device_kind(device.info()) && suits(row.schedule, model) &&
             schedule_obstacle(device, model, row.schedule).empty())
             return row.schedule;
     return Schedule::images;
@@ -69,8 +74,8 @@ bool concerns(Schedule schedule, SolverMethod method) {
     switch (schedule) {
         case Schedule::images:
         case Schedule::buffers:
+        case Schedule::streams:  // of `line` cells that twist
             return true;
-        case Schedule::streams:
         case Schedule::tiles:
             return method != SolverMethod::line;
         case Schedule::cyclic:

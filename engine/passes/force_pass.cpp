@@ -13,9 +13,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
         state.step_name("force", step),
         [&](graph::PassSetup& setup) {
             update(setup, state[Field::position], "position");
-            graph::Handle& written = state[step.turns ? Field::displacement_spare : Field::displacement];
-            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
-            written = setup.write(written, graph::Access::compute_write, "displacement_out");
+            write_prediction(setup, state, step);
             update(setup, state[Field::position_remainder], "position_remainder");
             update(setup, state[Field::displacement_remainder], "displacement_remainder");
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");

@@ -20,14 +20,14 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
 void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}),
-                      {{"advance", advances}, {"strip_length", pipelines.strip_length()}});
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("predict.comp", {{"wind", wind}, {"buffered", state.buffered}}),
+        {{"advance", advances}, {"turns", step.turns ? 1u : 0u}, {"strip_length", pipelines.strip_length()}});
     graph.add_pass(
         state.step_name("predict", step),
         [&](graph::PassSetup& setup) {
             update(setup, state[Field::position], "position");
-            update(setup, state[Field::displacement], "displacement");
+            write_prediction(setup, state, step);
             update(setup, state[Field::position_remainder], "position_remainder");
             update(setup, state[Field::displacement_remainder], "displacement_remainder");
             if (wind) setup.read(state[Field::wind_force], graph::Access::compute_read, "wind_force");
@@ -39,6 +39,7 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
          count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, over[0], over[1], count);
         });
+    if (step.turns) state.turn_displacement();
 }
 
 namespace {

@@ -135,6 +135,12 @@ void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& n
     handle = setup.write(handle, graph::Access::compute_write, name + "_out");
 }
 
+void write_prediction(graph::PassSetup& setup, ClothState& state, const Step& step) {
+    graph::Handle& written = state[step.turns ? Field::displacement_spare : Field::displacement];
+    setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
+    written = setup.write(written, graph::Access::compute_write, "displacement_out");
+}
+
 void write_spare(graph::PassSetup& setup, ClothState& state) {
     for (const auto& [field, spare, variable] : spare_fields) {
         setup.read(state[field], graph::Access::compute_read, fmt::format("{}_in", variable));

@@ -120,6 +120,9 @@ std::vector<vulkan::SpecializationConstant> collider_constants(const SceneDescri
 void update(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
 /// Declares that the state is read and its spare images are written, all of them.
 void write_spare(graph::PassSetup& setup, ClothState& state);
+/// Declares what a prediction does with the displacement: it updates it, or, where the step turns, reads it and writes
+/// the spare one.
+void write_prediction(graph::PassSetup& setup, ClothState& state, const Step& step);
 void update_in_place(graph::PassSetup& setup, graph::Handle& handle, const std::string& name);
 
 }  // namespace drape

@@ -37,6 +37,15 @@ SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, 
             tile_invocations(grid.columns(), halo), tile_invocations(grid.rows(), halo)};
 }
 
+/// What every sweep reads and writes.
+void declare(graph::PassSetup& setup, ClothState& state) {
+    setup.read(state[Field::position], graph::Access::compute_read, "position");
+    setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
+    graph::Handle& written = state[Field::displacement_spare];
+    written = setup.write(written, graph::Access::compute_write, "displacement_out");
+    if (state.masked()) setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
+}
+
 }  // namespace
 
 void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
@@ -46,18 +55,31 @@ void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     graph.add_pass(
         state.step_name("sweep of all springs", step),
         [&](graph::PassSetup& setup) {
-            setup.read(state[Field::position], graph::Access::compute_read, "position");
-            setup.read(state[Field::displacement], graph::Access::compute_read, "displacement_in");
-            graph::Handle& written = state[Field::displacement_spare];
-            written = setup.write(written, graph::Access::compute_write, "displacement_out");
-            if (state.masked())
-                setup.read(state[Field::spring_share], graph::Access::compute_read, "spring_share_image");
+            declare(setup, state);
             for (const auto& [field, variable] : {std::pair{Field::tension_row, "tension_row_out"},
                                                   std::pair{Field::tension_column, "tension_column_out"}})
                 if (tension) state[field] = setup.write(state[field], graph::Access::compute_write, variable);
         },
         [dispatch, push, count = state.count](graph::PassContext& context) {
             context.dispatch(*dispatch.pipeline, push, dispatch.width, dispatch.height, count);
+        });
+    state.turn_displacement();
+}
+
+void add_twist_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+    const auto& push = step.push<glsl::TwistSweepPush>();
+    const bool second_order = state.model->plan.second_order;
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("twist_sweep.comp", {{"masked", state.masked()}, {"second_order", second_order}}));
+    graph.add_pass(
+        state.step_name("sweep of all twist", step),
+        [&](graph::PassSetup& setup) {
+            declare(setup, state);
+            if (second_order) setup.read(state[Field::line_control], graph::Access::compute_read, "control");
+        },
+        [&pipeline, push, count = state.count](graph::PassContext& context) {
+            const std::uint32_t width = stream_invocations(push.grid.x, glsl::twist_width, glsl::twist_halo);
+            context.dispatch(pipeline, push, width, 1, count);
         });
     state.turn_displacement();
 }

@@ -1,11 +1,12 @@
-// All springs of a relaxation iteration, streamed down the rows.
+// All springs of a relaxation iteration, and the twist of all cells, streamed down the rows.
 #pragma once
 
 #include "passes/pass_kit.h"
 
 namespace drape {
 
-/// Reads position and displacement, writes the spare image of the displacement, which then is it.
+/// Both read position and displacement [, spring shares], write the spare image of the displacement, which then is it.
 void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_twist_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

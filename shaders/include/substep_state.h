@@ -1,6 +1,7 @@
 // What the passes share that carry a cloth's state from substep to substep: its images, and the compensated sums that
 // move position and displacement on. WIND: the wind's force is one of the images. IN_PLACE: what
-// is written are the images that are read. Needs `verlet.h` and `push.grid`.
+// is written are the images that are read, but for the displacement of some predictions. Needs `verlet.h` and
+// `push.grid`.
 #include "include/state_store.h"
 #ifdef IN_PLACE
 #define STATE_OUT TRIPLE_OUT

@@ -78,6 +78,13 @@ struct TwistPush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (t h^2)
 };
 
+/// All colours at once (twist_sweep.comp).
+struct TwistSweepPush {
+    ivec2 grid;
+    float compliance;  // as TwistPush
+    float compliance_bdf2;
+};
+
 struct WindPush {
     ivec2 grid;
     int substep;             // index into the wind buffer

@@ -163,6 +163,27 @@ TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true))) << "the device decides on others";
 }
 
+TEST(ScheduleTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
+    scene.cloths[0].stiffness = {false, 50, 5, 1e-4};
+    for (const auto& [method, turns] : {std::pair{SolverMethod::line, true}, std::pair{SolverMethod::relax, false}}) {
+        scene.solver.method = method;
+        const SimulationModel model(scene);
+        ASSERT_EQ(count(frame_steps(model), StepKind::twist), 2 * 4);
+        const std::vector<Step> steps = streamed_steps(model);
+        EXPECT_EQ(count(steps, StepKind::twist), 0);
+        EXPECT_EQ(count(steps, StepKind::twist_sweep), 2);
+        const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].plan)[0];
+        for (const Step& step : steps) {
+            const bool predicts = step.kind == StepKind::force || step.kind == StepKind::predict;
+            EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second sweep";
+            if (step.kind != StepKind::twist_sweep) continue;
+            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance, plain.compliance);
+            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance_bdf2, plain.compliance_bdf2);
+        }
+    }
+}
+
 TEST(ScheduleTest, ASweepKnowsTheDirectionsThatThereAre) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 1, 1);
     scene.cloths[0].stiffness = {false, 50, 0, 0};

@@ -1,4 +1,5 @@
-// Relaxation whose springs are swept, an iteration at once, against the twin, which takes the eight passes one by one.
+// Relaxation whose springs are swept, an iteration at once, and cells whose twist is, against the twin, which takes the
+// passes one by one.
 #include "cloth/streams.h"
 #include "twin_comparison.h"
 
@@ -84,6 +85,51 @@ TEST(TwinSweepTest, IterationsThatTheDeviceMayLeaveOutAreNotSwept) {
     scene.solver.iterations = 3;
     scene.solver.tolerance = 0.05;
     compare(scene, 5);
+}
+
+/// With cells that twist.
+void compare_twist(SceneDescription scene) {
+    scene.cloths[0].stiffness.bend = 1e-3;
+    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
+    EXPECT_EQ(std::ranges::count(steps, StepKind::twist_sweep, &Step::kind), scene.solver.substeps);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::twist, &Step::kind), 0);
+    test::compare(scene, {}, test::gpu().device, {.drawing = true});
+}
+
+class TwinTwistSweepTest : public testing::TestWithParam<Grid2> {};
+
+/// First orders and second ones, as nothing is touched.
+TEST_P(TwinTwistSweepTest, OfLines) {
+    SceneDescription scene = test::thrown_sheet(GetParam(), 6);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].pins.pop_back();
+    compare_twist(scene);
+}
+
+TEST_P(TwinTwistSweepTest, OfLinesWithHolesInWind) {
+    SceneDescription scene = test::thrown_sheet(GetParam(), 3);
+    const auto [columns, rows] = GetParam();
+    if (columns < 4) GTEST_SKIP() << "no room for a hole";
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    scene.wind.velocity = {2, 0.5, -1};
+    compare_twist(scene);
+}
+
+TEST_P(TwinTwistSweepTest, OfRelaxation) { compare_twist(swept(GetParam())); }
+
+// As above; strips of other halos.
+INSTANTIATE_TEST_SUITE_P(Grids, TwinTwistSweepTest,
+                         testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
+                                         Grid2{49, 7}, Grid2{88, 9}, Grid2{89, 12}, Grid2{129, 40}),
+                         [](const auto& grid) {
+                             return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
+                         });
+
+TEST(TwinTwistSweepTest, OfLinesAmongPinsThatMoveAndLetGoAndColliders) {
+    SceneDescription scene = test::everything();
+    scene.solver.method = SolverMethod::line;
+    compare_twist(scene);
 }
 
 TEST(CanaryTest, AMissingBarrierBeforeASweepIsReported) {

@@ -9,8 +9,8 @@ enum class Schedule {
     automatic,  ///< chosen by the device
     images,     ///< passes load and store the state's images
     buffers,    ///< they store through buffers of the same memory, which a CPU does sooner
-    streams,    ///< likewise; down the rows stream the springs of a relaxation iteration, and explicit micro-steps,
-                ///< several at once where nothing is between them
+    streams,    ///< likewise; down the rows stream the springs of a relaxation iteration, the twist of all cells, and
+                ///< explicit micro-steps, several at once where nothing is between them
     tiles,      ///< images; likewise in tiles of shared memory
     cyclic,     ///< images; an invocation per particle solves lines by cyclic reduction: other rounding
 };
