@@ -113,7 +113,7 @@ class ContactSteps {
         add_for_cloths(StepKind::self_return);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             steps_.push_back({StepKind::collide, cloth, substep_, model_.scene.solver.iterations + 1});
-        add_for_cloths(StepKind::self_gather);
+        add_for_cloths(StepKind::self_gather_again);
     }
 
     const SimulationModel& model_;

@@ -37,6 +37,7 @@ enum class StepKind {
     collide,
     check,
     self_gather,
+    self_gather_again,
     self_common,
     self_boxes,
     self_search,

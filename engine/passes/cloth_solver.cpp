@@ -273,6 +273,8 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& s
             return add_check(graph, pipelines_, state, *run_, step);
         case StepKind::self_gather:
             return add_self_gather(graph, pipelines_, state, cloths_.front(), step);
+        case StepKind::self_gather_again:
+            return add_self_gather_again(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::self_return:
             return add_self_return(graph, pipelines_, state, cloths_.front(), step);
         case StepKind::advance:

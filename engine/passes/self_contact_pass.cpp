@@ -133,6 +133,18 @@ void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothS
                                   });
 }
 
+void add_self_gather_again(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+                           const Step& step) {
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("self_gather_again.comp", {{"buffered", cloth.buffered}}),
+                      {{"strip_length", pipelines.strip_length()}});
+    add_pass<glsl::SelfClothPush>(graph, cloth.step_name("self gather again", step), step, pipeline,
+                                  over_strips(pipelines, cloth), [&](PassSetup& setup) {
+                                      read(setup, cloth, Field::displacement, "displacement");
+                                      update(setup, contact[Field::self_displacements], "displacements");
+                                  });
+}
+
 void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& cloth, ClothState& contact,
                      const Step& step) {
     const bool history = cloth.model->plan.second_order;

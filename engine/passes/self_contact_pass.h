@@ -9,6 +9,9 @@ namespace drape {
 /// Lays a cloth's particles on the sheet: reads its position, displacement, [existing triangles].
 void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
                      const Step& step);
+/// Likewise those that colliders have moved since then: reads its displacement; updates that on the sheet.
+void add_self_gather_again(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+                           const Step& step);
 /// Moves those that contact moved since then: reads what lies on the sheet; updates the cloth's displacement,
 /// [displacement before, line control].
 void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& cloth, ClothState& contact,

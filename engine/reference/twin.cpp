@@ -139,6 +139,7 @@ void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inpu
         case StepKind::advance:
             return advance(model, state);
         case StepKind::self_gather:
+        case StepKind::self_gather_again:
             return self_gather(state, step);
         case StepKind::self_return:
             return self_return(model, state, step);
