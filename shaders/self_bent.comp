@@ -1,12 +1,15 @@
 // Lists the pairs of cells of a cloth, neighbours and those two columns or rows apart, whose triangles and edges this
-// substep may bring together: those about which it is not flat, or that it does not keep apart.
+// substep may bring together: those about which it is not flat, or that it does not keep apart. An invocation goes down
+// a part of a column, so that of the 4 x 4 particles about a cell it loads one row for the next; a workgroup's z says of
+// which cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
-#include "include/every.h"
 #include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
+layout(constant_id = 17) const int strip_rows = 1;  // most of a column that an invocation takes in turn
+layout(constant_id = 19) const int strip_columns = 1;  // and of how many of them
 layout(push_constant) uniform Push { SelfContactPush push; };
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
@@ -17,20 +20,22 @@ layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
-vec3 at(ivec2 texel) { return imageLoad(positions, texel).xyz; }
-vec3 moved(ivec2 texel) {
-    return self_relative_motion(imageLoad(displacements, texel).xyz, carried);
+SelfCloth cloth;
+
+/// Of the cloth's grid; over its edge its last column or row again.
+ivec2 texel_at(ivec2 own) { return cloth.first + min(own, cloth.grid - 1); }
+vec3 at(ivec2 own) { return imageLoad(positions, texel_at(own)).xyz; }
+vec3 moved(ivec2 own) { return self_relative_motion(imageLoad(displacements, texel_at(own)).xyz, carried); }
+
+SelfColumn column_at(ivec2 first) {
+    return SelfColumn(at(first), at(first + ivec2(0, 1)), at(first + ivec2(0, 2)), at(first + ivec2(0, 3)));
+}
+SelfColumn column_moved(ivec2 first) {
+    return SelfColumn(moved(first), moved(first + ivec2(0, 1)), moved(first + ivec2(0, 2)), moved(first + ivec2(0, 3)));
 }
 
-/// Particles of a column, over the cloth's edge the last one again.
-SelfColumn column_at(ivec2 first, ivec2 last) {
-    return SelfColumn(at(first), at(ivec2(first.x, min(first.y + 1, last.y))),
-                      at(ivec2(first.x, min(first.y + 2, last.y))), at(ivec2(first.x, min(first.y + 3, last.y))));
-}
-SelfColumn column_moved(ivec2 first, ivec2 last) {
-    return SelfColumn(moved(first), moved(ivec2(first.x, min(first.y + 1, last.y))),
-                      moved(ivec2(first.x, min(first.y + 2, last.y))), moved(ivec2(first.x, min(first.y + 3, last.y))));
-}
+/// From the next row on.
+SelfColumn further(SelfColumn x, vec3 last) { return SelfColumn(x.b, x.c, x.d, last); }
 
 /// Of the 3 x 3 particles from a patch's first on.
 SelfPatch patch_of(SelfColumns x) {
@@ -38,20 +43,13 @@ SelfPatch patch_of(SelfColumns x) {
 }
 
 /// Bits of the pairs of cells that a cell stands for and that the cloth keeps apart.
-uint kept_apart(SelfCloth cloth, ivec2 cell, bool inside) {
-    ivec2 last = cloth.first + cloth.grid - 1;
-    ivec2 b = ivec2(min(cell.x + 1, last.x), cell.y), c = ivec2(min(cell.x + 2, last.x), cell.y),
-          d = ivec2(min(cell.x + 3, last.x), cell.y);
-    SelfColumns x =
-        SelfColumns(column_at(cell, last), column_at(b, last), column_at(c, last), column_at(d, last));
-    SelfColumns motions =
-        SelfColumns(column_moved(cell, last), column_moved(b, last), column_moved(c, last), column_moved(d, last));
+uint kept_apart(SelfColumns x, SelfColumns motions, bool inside) {
     bool flat_there = inside && self_patch_lies_flat(push, cloth, patch_of(x), patch_of(motions));
     return self_close_apart(push, cloth, x, motions) | (flat_there ? (1u << self_neighbour_pairs) - 1u : 0u);
 }
 
 /// Bits of the pairs of cells at most two columns and rows apart that a cell of a cloth stands for and that exist.
-uint close_pairs_of(SelfCloth cloth, ivec2 own) {
+uint close_pairs_of(ivec2 own) {
     uint bits = 0u;
     for (int k = 0; k < self_close_pairs; ++k) {
         ivec4 pair = self_close_pair(k);
@@ -62,21 +60,19 @@ uint close_pairs_of(SelfCloth cloth, ivec2 own) {
 }
 
 /// Those of them that are not ruled out by how the cloth lies there.
-uint near_pairs(ivec2 texel) {
-    int owner = owner_of(place_of(texel));
-    bool meets = owner >= 0 && meetings[max(owner, 0) * (push.cloth_count + 1)] != self_meets_not;
-    SelfCloth cloth = cloth_at(texel);
-    ivec2 own = texel - cloth.first;
+uint near_pairs(ivec2 own, SelfColumns x, SelfColumns motions) {
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
-    return meets ? close_pairs_of(cloth, own) & ~kept_apart(cloth, texel, inside) : 0u;
+    return close_pairs_of(own) & ~kept_apart(x, motions, inside);
 }
 
-void judge(ivec2 texel) {
-    uint near = near_pairs(texel), count = uint(bitCount(near));
-    uint place = 0u;
+/// Lists them; `near`: of cells beside each other, self_close_pairs bits each.
+void list(ivec2 first, uint near) {
+    uint count = uint(bitCount(near)), place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
     for (;;) {
-        ivec4 pair = self_close_pair(max(findLSB(near), 0));
+        int bit = max(findLSB(near), 0), column = bit / self_close_pairs;
+        ivec4 pair = self_close_pair(bit - column * self_close_pairs);
+        ivec2 texel = cloth.first + first + ivec2(column, 0);
         ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
         if (near != 0u && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
         ++place;
@@ -86,7 +82,36 @@ void judge(ivec2 texel) {
 }
 
 void main() {
+    int which = int(gl_WorkGroupID.z);
     carried = record[0].carried.xyz;
-    FOR_EVERY(place, push.grid.x * push.grid.y, judge(texel_of(place)))
+    cloth = push.cloth;
+    if (cloth_count > 1) cloth = cloths[which];
+    bool meets = meetings[which * (push.cloth_count + 1)] != self_meets_not;
+    // Parts of equal length, counted row by row, so that few lanes of a subgroup have nothing to do.
+    int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
+    ivec2 part = texel_of(int(gl_GlobalInvocationID.x), (cloth.grid.x - 1) / strip_columns + 1);
+    int first = part.x * strip_columns, y = part.y * rows, end = min(y + rows, cloth.grid.y);
+    if (!meets || y >= end) return;
+    SelfColumn x[5], motions[5];
+    for (int c = 0; c < strip_columns + 3; ++c) {
+        x[c] = column_at(ivec2(first + c, y));
+        motions[c] = column_moved(ivec2(first + c, y));
+    }
+    for (;;) {
+        // Written out: the driver does not unroll what is so long.
+        uint near = near_pairs(ivec2(first, y), SelfColumns(x[0], x[1], x[2], x[3]),
+                               SelfColumns(motions[0], motions[1], motions[2], motions[3]));
+        if (strip_columns > 1)
+            near |= near_pairs(ivec2(first + 1, y), SelfColumns(x[1], x[2], x[3], x[4]),
+                               SelfColumns(motions[1], motions[2], motions[3], motions[4]))
+                    << self_close_pairs;
+        list(ivec2(first, y), near);
+        ++y;
+        if (y >= end) break;
+        for (int c = 0; c < strip_columns + 3; ++c) {
+            x[c] = further(x[c], at(ivec2(first + c, y + 3)));
+            motions[c] = further(motions[c], moved(ivec2(first + c, y + 3)));
+        }
+    }
     dispatch(self_size_primitives, reached);
 }

@@ -104,6 +104,7 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         margin = k == 0 ? looks : std::min(margin, looks);
         extent = std::max(extent, largest_coordinate(cloth));
         push.thickness = std::max(push.thickness, constants.thickness);
+        largest = {std::max(largest.x, constants.grid.x), std::max(largest.y, constants.grid.y)};
         particles += models[k].grid.particle_count();
         // What they are pressed against must not seem to move.
         if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;

@@ -37,6 +37,7 @@ struct SelfContact {
     glsl::SelfContactPush push{};            ///< level, last, first, round and the lists' room are set per step
     SelfRoom room;                           ///< to begin with
     std::vector<glsl::SelfCloth> cloths;     ///< where each lies on the sheet
+    glsl::ivec2 largest{};                   ///< columns and rows that none of them has more of
     std::vector<glsl::uint> meetings;        ///< by cloth and cloth: self_meets and those beside it
     std::vector<glsl::SelfCrossed> to_part;  ///< those that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< those that start through each other, or through themselves

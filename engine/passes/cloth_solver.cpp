@@ -308,7 +308,7 @@ void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const
         case StepKind::self_near:
             return add_self_near(graph, pipelines_, state, step);
         case StepKind::self_bent:
-            return add_self_bent(graph, pipelines_, state, step);
+            return add_self_bent(graph, pipelines_, state, run_->self_contact->largest, step);
         case StepKind::self_crossings:
             return add_self_crossings(graph, pipelines_, state, step);
         case StepKind::self_apart:

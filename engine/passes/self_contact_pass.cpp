@@ -243,13 +243,24 @@ void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    });
 }
 
-void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
-    add_pass(graph, step, "self bent", listing_pipeline(pipelines, "self_bent.comp", step), over_sheet(pipelines, step),
-             [&](PassSetup& setup) {
-                 read_sheet(setup, contact);
-                 read(setup, contact, Field::self_meetings, "meetings");
-                 fill(setup, contact, Field::self_cells, "cells");
-             });
+void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, glsl::ivec2 largest,
+                   const Step& step) {
+    const auto cloths = static_cast<std::uint32_t>(step.push<glsl::SelfContactPush>().cloth_count);
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        "self_bent.comp",
+        {{"cloth_count", cloths}, {"entries_each", pipelines.entries_each()}, {"strip_rows", pipelines.strip_rows()}, {"strip_columns", pipelines.strip_columns()}});
+    graph.add_pass(
+        pass_name("self bent", step),
+        [&](PassSetup& setup) {
+            read(setup, contact, Field::self_positions, "positions");
+            read(setup, contact, Field::self_displacements, "displacements");
+            read(setup, contact, Field::self_cloths, "cloths");
+            read(setup, contact, Field::self_meetings, "meetings");
+            fill(setup, contact, Field::self_cells, "cells");
+        },
+        [&pipeline, push = step.push<glsl::SelfContactPush>(), cloths,
+         parts = static_cast<std::uint32_t>(largest.x) * pipelines.strips_of(static_cast<std::size_t>(largest.y))](
+            graph::PassContext& context) { context.dispatch(pipeline, push, parts, 1, cloths); });
 }
 
 void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {

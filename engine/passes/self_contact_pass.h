@@ -38,7 +38,9 @@ void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
 /// Reads boxes, candidates; writes the list of cells, counts them in the record.
 void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
 /// Reads position, displacement; adds neighbouring cells to that list, counts them in the record.
-void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
+/// `largest`: columns and rows that no cloth has more of.
+void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, glsl::ivec2 largest,
+                   const Step& step);
 // Of cloths that started through each other (shaders/include/self_apart.h):
 /// Reads position, displacement, cells; counts in the crossings.
 void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step);
