@@ -246,9 +246,11 @@ void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
 void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, glsl::ivec2 largest,
                    const Step& step) {
     const auto cloths = static_cast<std::uint32_t>(step.push<glsl::SelfContactPush>().cloth_count);
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        "self_bent.comp",
-        {{"cloth_count", cloths}, {"entries_each", pipelines.entries_each()}, {"strip_rows", pipelines.strip_rows()}, {"strip_columns", pipelines.strip_columns()}});
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get("self_bent.comp", {{"cloth_count", cloths},
+                                         {"entries_each", pipelines.entries_each()},
+                                         {"strip_rows", pipelines.strip_rows()},
+                                         {"strip_columns", pipelines.strip_columns()}});
     graph.add_pass(
         pass_name("self bent", step),
         [&](PassSetup& setup) {

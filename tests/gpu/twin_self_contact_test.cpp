@@ -38,6 +38,20 @@ TEST(TwinSelfContactTest, WithHolesOnAGridOfNoPowerOfTwo) {
     expect_contact(scene);
 }
 
+/// Longer than what an invocation goes down, and folding along their borders.
+TEST(TwinSelfContactTest, StripsThatFoldUpLengthwise) {
+    SceneDescription scene = crumpling(21, SolverMethod::line, 10);
+    Cloth& cloth = scene.cloths[0];
+    cloth.grid = {3, 70};
+    cloth.size = {0.03, 1};
+    cloth.self_collision = SelfCollision{0.007, {}};
+    expect_contact(scene);
+    std::swap(cloth.placement.u, cloth.placement.v);
+    cloth.grid = {70, 3};
+    cloth.size = {1, 0.03};
+    expect_contact(scene);
+}
+
 SceneDescription two_layers(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = test::layers(method, substeps);
     scene.cloths.pop_back();
