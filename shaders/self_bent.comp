@@ -1,7 +1,7 @@
 // Lists the pairs of cells of a cloth, neighbours and those two columns or rows apart, whose triangles and edges this
 // substep may bring together: those about which it is not flat, or that it does not keep apart. An invocation goes down
-// a part of a column, so that of the 4 x 4 particles about a cell it loads one row for the next; a workgroup's z says of
-// which cloth.
+// a part of a column or two, so that of the 4 x 4 particles about a cell it loads one row for the next; a workgroup's z
+// says of which cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -89,7 +89,9 @@ void main() {
     bool meets = meetings[which * (push.cloth_count + 1)] != self_meets_not;
     // Parts of equal length, counted row by row, so that few lanes of a subgroup have nothing to do.
     int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
-    ivec2 part = texel_of(int(gl_GlobalInvocationID.x), (cloth.grid.x - 1) / strip_columns + 1);
+    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x),
+        across = (cloth.grid.x - 1) / strip_columns + 1;
+    ivec2 part = texel_of(group * workgroup_width + int(gl_LocalInvocationIndex), across);
     int first = part.x * strip_columns, y = part.y * rows, end = min(y + rows, cloth.grid.y);
     if (!meets || y >= end) return;
     SelfColumn x[5], motions[5];

@@ -36,11 +36,10 @@ struct MethodPlan {
                          ///< else the prediction expects
 
     // Fields that the steps need beside position and displacement with their remainders.
-    bool spare_state = false;  ///< particles gather what springs do: a step reads one state, writes another
-    bool spare_displacement =
-        false;  ///< sweeps of an iteration's springs or of all cells' twist may read one and write the other
-    bool second_order = false;  ///< displacement before, velocity excess, line control
-    bool line_scratch = false;  ///< lines are solved
+    bool spare_state = false;         ///< particles gather what springs do: a step reads one state, writes another
+    bool spare_displacement = false;  ///< sweeps, of springs or of twist, may read one and write the other
+    bool second_order = false;        ///< displacement before, velocity excess, line control
+    bool line_scratch = false;        ///< lines are solved
     /// Blocks: radius in columns, in rows, sweeps; then pins: column, row, pins of their round.
     std::vector<glsl::ivec4> nested_table{};
     /// By direction: from iteration to iteration, from substep to substep, or to the release of a pin.

@@ -11,6 +11,19 @@
 
 namespace drape {
 
+namespace {
+
+/// So many invocations, counted workgroup by workgroup, row by row, as a dispatch's width and height. No more than the
+/// 65,535 workgroups that every device takes, down, make up the largest images.
+std::array<std::uint32_t, 2> folded(std::uint64_t invocations) {
+    constexpr std::uint32_t width = glsl::workgroup_width, most_across = 64;
+    const auto groups = static_cast<std::uint32_t>((invocations - 1) / width + 1);
+    const std::uint32_t across = std::min(groups, most_across);
+    return {across * width, (groups - 1) / across + 1};
+}
+
+}  // namespace
+
 const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
                                                   const std::vector<vulkan::SpecializationConstant>& constants) {
     std::string key = module;
@@ -35,12 +48,11 @@ std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
 }
 std::uint32_t PipelineCache::strip_length() const { return device_.info().type == "cpu" ? 16 : 1; }
 std::array<std::uint32_t, 2> PipelineCache::over_strips(const Grid& grid) const {
-    // No more than the 65,535 that every device takes, down, make up the largest images.
-    constexpr std::uint32_t width = glsl::workgroup_width, most_across = 64;
-    const std::uint32_t each = width * strip_length(),
-                        groups = static_cast<std::uint32_t>((grid.particle_count() - 1) / each + 1);
-    const std::uint32_t across = std::min(groups, most_across);
-    return {across * width, (groups - 1) / across + 1};
+    return folded((grid.particle_count() - 1) / strip_length() + 1);
+}
+std::array<std::uint32_t, 2> PipelineCache::over_parts(glsl::ivec2 grid) const {
+    const auto columns = static_cast<std::uint64_t>((static_cast<std::uint32_t>(grid.x) - 1) / strip_columns() + 1);
+    return folded(columns * strips_of(static_cast<std::size_t>(grid.y)));
 }
 
 std::string buffered_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {

@@ -37,6 +37,8 @@ class PipelineCache {
     std::uint32_t strip_length() const;
     /// So many invocations, across and down, take all of a grid's particles in such parts.
     std::array<std::uint32_t, 2> over_strips(const Grid& grid) const;
+    /// Likewise in parts of at most strip_rows() rows and strip_columns() columns (shaders/self_bent.comp).
+    std::array<std::uint32_t, 2> over_parts(glsl::ivec2 grid) const;
     /// As the device's.
     bool wide_atomics() const;
 

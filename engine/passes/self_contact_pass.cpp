@@ -260,9 +260,8 @@ void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
             read(setup, contact, Field::self_meetings, "meetings");
             fill(setup, contact, Field::self_cells, "cells");
         },
-        [&pipeline, push = step.push<glsl::SelfContactPush>(), cloths,
-         parts = static_cast<std::uint32_t>(largest.x) * pipelines.strips_of(static_cast<std::size_t>(largest.y))](
-            graph::PassContext& context) { context.dispatch(pipeline, push, parts, 1, cloths); });
+        [&pipeline, push = step.push<glsl::SelfContactPush>(), cloths, over = pipelines.over_parts(largest)](
+            graph::PassContext& context) { context.dispatch(pipeline, push, over[0], over[1], cloths); });
 }
 
 void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
