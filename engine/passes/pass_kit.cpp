@@ -51,7 +51,7 @@ std::array<std::uint32_t, 2> PipelineCache::over_strips(const Grid& grid) const 
     return folded((grid.particle_count() - 1) / strip_length() + 1);
 }
 std::array<std::uint32_t, 2> PipelineCache::over_parts(glsl::ivec2 grid) const {
-    const auto columns = static_cast<std::uint64_t>((static_cast<std::uint32_t>(grid.x) - 1) / strip_columns() + 1);
+    const std::uint64_t columns = (static_cast<std::uint32_t>(grid.x) - 1) / strip_columns() + 1;
     return folded(columns * strips_of(static_cast<std::size_t>(grid.y)));
 }
 
