@@ -153,10 +153,15 @@ void eliminate_springs(const Lines& lines, LineParticles* particles, float (&lar
         LineParticles& here = particles[e];
         const LineParticles& before = e > 0 ? particles[e - 1] : before_first;
         const LineParticles& next = particles[e + 1];
+        // A loop by itself: its conditions keep the compiler from vectorising, and would what follows.
 #pragma GCC ivdep
         for (int k = 0; k < line_lanes; ++k) {
             const LineSpring spring{at(here.spring.normal, k), 0.0f, here.spring.excess[k]};
             largest[k] = larger_violation(largest[k], spring, here.share[k], lines.push.compression, here.tension[k]);
+        }
+#pragma GCC ivdep
+        for (int k = 0; k < line_lanes; ++k) {
+            const LineSpring spring{at(here.spring.normal, k), 0.0f, here.spring.excess[k]};
             const vec2 reduced = eliminate_spring({previous[0][k], previous[1][k]}, at(before.spring.normal, k), spring,
                                                   at(after, k), here.weight[k], next.weight[k], here.share[k],
                                                   lines.push.compression, lines.compliance, here.tension[k]);
