@@ -8,7 +8,7 @@
 #include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 17) const int strip_rows = 1;  // most of a column that an invocation takes in turn
+layout(constant_id = 17) const int strip_rows = 1;     // most of a column that an invocation takes in turn
 layout(constant_id = 19) const int strip_columns = 1;  // and of how many of them
 layout(push_constant) uniform Push { SelfContactPush push; };
 #include "include/self_sheet.h"

@@ -9,6 +9,10 @@ namespace {
 /// Columns, rows.
 using Grid2 = std::pair<std::uint32_t, std::uint32_t>;
 
+std::string name_of(const testing::TestParamInfo<Grid2>& grid) {
+    return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
+}
+
 SceneDescription swept(Grid2 grid) { return test::thrown_sheet(grid, 5); }
 
 /// `sweeps`: how many of them a frame must have, so that the comparison means something. With the tensions that the
@@ -57,9 +61,7 @@ TEST_P(TwinSweepTest, WithHolesAndSoftInCompression) {
 INSTANTIATE_TEST_SUITE_P(Grids, TwinSweepTest,
                          testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
                                          Grid2{49, 7}, Grid2{84, 9}, Grid2{85, 12}, Grid2{129, 40}),
-                         [](const auto& grid) {
-                             return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
-                         });
+                         name_of);
 
 TEST(TwinSweepTest, AmongWindBendingPinsThatMoveAndColliders) {
     SceneDescription scene = test::everything();
@@ -122,9 +124,7 @@ TEST_P(TwinTwistSweepTest, OfRelaxation) { compare_twist(swept(GetParam())); }
 INSTANTIATE_TEST_SUITE_P(Grids, TwinTwistSweepTest,
                          testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
                                          Grid2{49, 7}, Grid2{88, 9}, Grid2{89, 12}, Grid2{129, 40}),
-                         [](const auto& grid) {
-                             return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
-                         });
+                         name_of);
 
 TEST(TwinTwistSweepTest, OfLinesAmongPinsThatMoveAndLetGoAndColliders) {
     SceneDescription scene = test::everything();
