@@ -21,7 +21,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
                 state[Field::displacement_before] =
                     setup.write(state[Field::displacement_before], graph::Access::compute_write, "displacement_before");
         },
-        [&pipeline, push = step.push<glsl::ForcePush>(), over = pipelines.over_strips(state.model->grid),
+        [&pipeline, push = step.push<glsl::ForcePush>(), over = pipelines.over_strips(state.model->grid.size()),
          count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, over[0], over[1], count);
         });
@@ -54,8 +54,8 @@ void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
                 state[Field::end_excess] =
                     setup.write(state[Field::end_excess], graph::Access::compute_write, "end_excess_out");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, over = pipelines.over_strips(state.model->grid),
-         count = state.count](graph::PassContext& context) {
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()},
+         over = pipelines.over_strips(state.model->grid.size()), count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, over[0], over[1], count);
         });
     if (state.away) state.turn();

@@ -35,7 +35,7 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
             update(setup, state[Field::velocity_excess], "velocity_excess");
             setup.read(state[Field::line_control], graph::Access::compute_read, "control");
         },
-        [&pipeline, push = step.push<glsl::PredictPush>(), over = pipelines.over_strips(state.model->grid),
+        [&pipeline, push = step.push<glsl::PredictPush>(), over = pipelines.over_strips(state.model->grid.size()),
          count = state.count](graph::PassContext& context) {
             context.dispatch(pipeline, push, over[0], over[1], count);
         });

@@ -47,8 +47,8 @@ std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
     return static_cast<std::uint32_t>((rows - 1) / strip_rows() + 1);
 }
 std::uint32_t PipelineCache::strip_length() const { return device_.info().type == "cpu" ? 16 : 1; }
-std::array<std::uint32_t, 2> PipelineCache::over_strips(const Grid& grid) const {
-    return folded((grid.particle_count() - 1) / strip_length() + 1);
+std::array<std::uint32_t, 2> PipelineCache::over_strips(glsl::ivec2 grid) const {
+    return folded((static_cast<std::uint64_t>(grid.x) * static_cast<std::uint64_t>(grid.y) - 1) / strip_length() + 1);
 }
 std::array<std::uint32_t, 2> PipelineCache::over_parts(glsl::ivec2 grid) const {
     const std::uint64_t columns = (static_cast<std::uint32_t>(grid.x) - 1) / strip_columns() + 1;

@@ -36,7 +36,7 @@ class PipelineCache {
     /// Likewise of particles counted row by row, of a pass that takes each for itself (shaders/include/strips.h).
     std::uint32_t strip_length() const;
     /// So many invocations, across and down, take all of a grid's particles in such parts.
-    std::array<std::uint32_t, 2> over_strips(const Grid& grid) const;
+    std::array<std::uint32_t, 2> over_strips(glsl::ivec2 grid) const;
     /// Likewise in parts of at most strip_rows() rows and strip_columns() columns (shaders/self_bent.comp).
     std::array<std::uint32_t, 2> over_parts(glsl::ivec2 grid) const;
     /// As the device's.

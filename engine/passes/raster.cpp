@@ -24,12 +24,13 @@ struct RasterPass::Targets {
     Handle heat_colors;  ///< invalid where the view is no heat map
     Handle color, depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
-    Handle shadow_map, shadow_depth;  ///< invalid without a shadow
+    Handle shadow_map, shadow_depth, shadow_rows;  ///< invalid without a shadow
 };
 
 namespace {
 
-constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;
+/// RGBA8 as one integer: a storage image that every device has.
+constexpr VkFormat color_format = VK_FORMAT_R32_UINT;
 /// Radiance goes beyond 1, and light is averaged before it is encoded.
 constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
@@ -133,7 +134,8 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       fixtures_(fixtures(scene)),
       shadow_skip_reason_(shadow_skip_reason(scene, options)),
       view_(options.view.kind),
-      scale_(strain_scale(options.view, scene)) {
+      scale_(strain_scale(options.view, scene)),
+      compute_(device) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const PictureGeometry picture{picture_camera(scene, width, height), scene_extent(scene), width, height,
                                   options.shift};
@@ -143,6 +145,7 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     has_floor_ = floor.has_value();
     if (floor) colliders_.erase(colliders_.begin() + static_cast<std::ptrdiff_t>(*floor));
     make_pipelines(device, scene, options);
+    make_compute_pipelines();
 }
 
 void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options,
@@ -197,14 +200,17 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
         shadow_draws_.push_back(
             {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
     }
-    vulkan::GraphicsState encoding;
-    encoding.vertex = {"encode.vert"};
-    encoding.fragment = {vulkan::variant_name(
-        "encode.frag", {{"shadowed", shadow && has_floor_}, {"sampled", samples_ > 1 && !resolves_}})};
-    encoding.constants = {{"has_floor", has_floor_ ? 1u : 0u}};
-    encoding.color_format = color_format;
-    encoding.depth_format = VK_FORMAT_UNDEFINED;
-    encoding_ = std::make_unique<vulkan::GraphicsPipeline>(device, "encode", encoding);
+}
+
+void RasterPass::make_compute_pipelines() {
+    encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
+                                                                   {"sampled", samples_ > 1 && !resolves_}}),
+                              {{"has_floor", has_floor_ ? 1u : 0u}, {"strip_length", compute_.strip_length()}});
+    if (!casts_shadow()) return;
+    constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
+    const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
+    shadow_rows_ = &compute_.get("shadow_rows.comp", {{"texels_each", texels_each}});
+    shadow_rows_invocations_ = side * side / texels_each;
 }
 
 std::vector<Collider> RasterPass::drawn_bodies(double time) const {
@@ -244,6 +250,10 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
         const std::uint32_t side = glsl::shadow_map_size;
         targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
         targets.shadow_depth = graph.image({shadow_depth_name, depth_format, side, side});
+        targets.shadow_rows = graph.buffer({.name = shadow_rows_name,
+                                            .byte_count = std::uint64_t{side} * side * sizeof(glsl::vec4),
+                                            .element = &glsl::layout_of<glsl::vec4>(),
+                                            .texels = true});
     }
     return targets;
 }
@@ -294,6 +304,13 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             }
             vkCmdEndRendering(context.commands());
         });
+    graph.add_pass(
+        {"shadow rows", "shadow", "shadow rows"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.shadow_map, Access::compute_read, "shadow_map");
+            targets.shadow_rows = setup.write(targets.shadow_rows, Access::compute_write, "shadow_rows");
+        },
+        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, shadow_rows_invocations_, 1); });
 }
 
 void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
@@ -304,7 +321,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.frame, Access::vertex_read);
             setup.read(targets.frame, Access::fragment_read);
             if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
-            if (casts_shadow()) setup.read(targets.shadow_map, Access::fragment_read);
+            if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
@@ -329,7 +346,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
 void RasterPass::draw_picture(graph::PassContext& context, const Targets& targets,
                               const std::vector<RasterCloth>& cloths) const {
     std::vector<graph::Binding> shared{{"frame", targets.frame}};
-    if (casts_shadow()) shared.push_back({"shadow_map", targets.shadow_map});
+    if (casts_shadow()) shared.push_back({"shadow_rows", targets.shadow_rows});
     const auto bindings = [&](std::initializer_list<graph::Binding> own) {
         std::vector<graph::Binding> all = shared;
         all.insert(all.end(), own);
@@ -355,23 +372,18 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
 }
 
 void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
-    auto attachments = std::make_shared<RasterAttachments>();
-    const bool shadow_on_floor = casts_shadow() && has_floor_;
     graph.add_pass(
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
-            setup.read(targets.frame, Access::vertex_read);
-            setup.read(targets.light, Access::fragment_read);
-            if (shadow_on_floor) setup.read(targets.shadow_map, Access::fragment_read);
-            attachments->color = targets.color = setup.write(targets.color, Access::color_write);
+            setup.read(targets.frame, Access::compute_read, "frame");
+            setup.read(targets.light, Access::compute_read, "light");
+            if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
+            targets.color = setup.write(targets.color, Access::compute_write, "color");
         },
-        [this, attachments, targets, shadow_on_floor](graph::PassContext& context) {
-            begin_rendering(context, *attachments);
-            std::vector<graph::Binding> bound{{"frame", targets.frame}, {"light", targets.light}};
-            if (shadow_on_floor) bound.push_back({"shadow_map", targets.shadow_map});
-            context.bind(*encoding_, bound);
-            draw_whole_picture(context);
-            vkCmdEndRendering(context.commands());
+        [this](graph::PassContext& context) {
+            const glsl::GridPush push{{static_cast<int>(width_), static_cast<int>(height_)}};
+            const auto [across, down] = compute_.over_strips(push.grid);
+            context.dispatch(*encoding_, push, across, down);
         });
 }
 

@@ -15,6 +15,7 @@
 #include "graph/executor.h"
 #include "passes/collider_mesh.h"
 #include "passes/fixtures.h"
+#include "passes/pass_kit.h"
 #include "passes/strain_scale.h"
 #include "shared/raster_types.h"
 #include "vulkan/pipeline.h"
@@ -79,6 +80,7 @@ class RasterPass {
     static constexpr const char* depth_name = "depth";
     static constexpr const char* shadow_map_name = "shadow/map";
     static constexpr const char* shadow_depth_name = "shadow/depth";
+    static constexpr const char* shadow_rows_name = "shadow/rows";
 
   private:
     struct Draw {
@@ -96,6 +98,7 @@ class RasterPass {
     void make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options, vulkan::GraphicsState state,
                               vulkan::GraphicsState shadow_state);
     void make_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options);
+    void make_compute_pipelines();
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
@@ -120,7 +123,10 @@ class RasterPass {
     std::optional<StrainScale> scale_;  ///< of a heat map
     ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
-    std::unique_ptr<vulkan::GraphicsPipeline> encoding_;
+    PipelineCache compute_;
+    const vulkan::ComputePipeline* shadow_rows_ = nullptr;  ///< none without a shadow
+    std::uint32_t shadow_rows_invocations_ = 0;
+    const vulkan::ComputePipeline* encoding_ = nullptr;
 };
 
 }  // namespace drape

@@ -58,8 +58,6 @@ void draw_colliders(const graph::PassContext& context, const ColliderDraw& range
     vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, 0, range.first_instance);
 }
 
-void draw_whole_picture(const graph::PassContext& context) { vkCmdDraw(context.commands(), 3, 1, 0, 0); }
-
 void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer) {
     const vulkan::Image& source = context.image(image);
     VkBufferImageCopy region{};

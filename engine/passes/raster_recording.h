@@ -28,9 +28,6 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
 
-/// One triangle.
-void draw_whole_picture(const graph::PassContext& context);
-
 /// Tightly packed.
 void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);
 

@@ -57,7 +57,7 @@ const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const 
 
 /// Invocations of a pass between a cloth and the sheet.
 glsl::ivec2 over_strips(const PipelineCache& pipelines, const ClothState& cloth) {
-    const auto [across, down] = pipelines.over_strips(cloth.model->grid);
+    const auto [across, down] = pipelines.over_strips(cloth.model->grid.size());
     return {static_cast<int>(across), static_cast<int>(down)};
 }
 

@@ -13,8 +13,10 @@ void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
             update(setup, state[Field::displacement], "displacement");
             setup.read(state[Field::tethers], graph::Access::compute_read, "tethers");
         },
-        [&pipeline, push = glsl::GridPush{state.model->grid.size()}, over = pipelines.over_strips(state.model->grid)](
-            graph::PassContext& context) { context.dispatch(pipeline, push, over[0], over[1]); });
+        [&pipeline, push = glsl::GridPush{state.model->grid.size()},
+         over = pipelines.over_strips(state.model->grid.size())](graph::PassContext& context) {
+            context.dispatch(pipeline, push, over[0], over[1]);
+        });
 }
 
 }  // namespace drape

@@ -8,9 +8,13 @@
 vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
     vec3 ray = plane.ray[0].xyz + pixel.x * plane.ray[1].xyz + pixel.y * plane.ray[2].xyz;
     bool seen = ray.y < 0.0;
-    vec2 place = plane.eye.xz - plane.eye.y / (seen ? ray.y : -1.0) * ray.xz;
-    vec2 cell = place / plane.eye.w;
-    float lines = grid_lines(cell, max(fwidth(cell), vec2(1e-6)));
+    float down = seen ? ray.y : -1.0;
+    vec2 slope = ray.xz / down;
+    vec2 place = plane.eye.xz - plane.eye.y * slope;
+    // From pixel to pixel, across and down: the derivatives of `slope` are (ray[k].xz - slope ray[k].y) / ray.y.
+    vec2 change = abs(plane.ray[1].xz - slope * plane.ray[1].y) + abs(plane.ray[2].xz - slope * plane.ray[2].y);
+    float cells = 1.0 / plane.eye.w;
+    float lines = grid_lines(place * cells, max(abs(plane.eye.y * cells / down) * change, vec2(1e-6)));
     float away = distance(vec3(place.x, 0.0, place.y), plane.fade.xyz) / plane.fade.w;
     float lit = 1.0;
 #ifdef SHADOWED

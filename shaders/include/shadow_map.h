@@ -4,13 +4,13 @@
 
 #include "shared/raster_types.h"
 
-layout(set = 0, binding = 3, r32f) uniform readonly image2D shadow_map;
+// By rows of four (shadow_rows.comp).
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer shadow_rows;
 
 /// Weighted share of four texels in a row that are no nearer to the light than the surface, which `slope` tilts along
 /// the row: a box filter of three texels, bilinear between them.
 float lit_in_row(ivec2 first, float depth, float slope, vec4 weights) {
-    vec4 nearest = vec4(imageLoad(shadow_map, first).x, imageLoad(shadow_map, first + ivec2(1, 0)).x,
-                        imageLoad(shadow_map, first + ivec2(2, 0)).x, imageLoad(shadow_map, first + ivec2(3, 0)).x);
+    vec4 nearest = imageLoad(shadow_rows, first.y * shadow_map_size + first.x);
     return dot(weights, vec4(greaterThanEqual(nearest, depth + slope * vec4(0.0, 1.0, 2.0, 3.0))));
 }
 

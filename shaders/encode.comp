@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED SAMPLED
 #include "shared/raster_types.h"
+#include "shared/simulation_types.h"
 #include "include/raster_frame.h"
 #ifdef SHADOWED
 #include "include/shadow_map.h"
@@ -15,9 +16,10 @@
 #include "include/floor.h"
 #include "include/tone.h"
 
+layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool has_floor = true;
-layout(location = 0) flat in vec4 background;
-layout(location = 1) flat in FloorConstants plane;
+layout(push_constant) uniform Push { GridPush push; };  // pixels
+#include "include/strips.h"
 #ifdef SAMPLED
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2DMS light;
 vec4 light_at(ivec2 pixel) {
@@ -28,7 +30,7 @@ vec4 light_at(ivec2 pixel) {
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
 vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
 #endif
-layout(location = 0) out vec4 color;
+layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D color;  // red in the lowest byte
 
 /// Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
 float threshold(uvec2 pixel) {
@@ -43,13 +45,20 @@ vec3 srgb(vec3 linear) {
     return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
     vec4 drawn = light_at(pixel);  // w: the share of its samples that something covers
-    vec3 behind = backdrop(background, gl_FragCoord.y);
-    if (has_floor) behind = floor_radiance(plane, gl_FragCoord.xy, behind);
+    vec2 middle = vec2(pixel) + 0.5;
+    vec3 behind = backdrop(background, middle.y);
+    if (has_floor) behind = floor_radiance(plane, middle, behind);
     vec3 radiance = drawn.xyz + (1.0 - drawn.w) * behind;
     radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
-    color = vec4(min(floor(levels + threshold(uvec2(pixel))), 255.0) / 255.0, 1.0);
+    ivec3 bytes = ivec3(min(levels + threshold(uvec2(pixel)), 255.0));
+    imageStore(color, pixel, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24));
+}
+
+void main() {
+    vec4 background = frame[0].background;
+    FloorConstants plane = frame[0].floor;
+    FOR_STRIP(pixel, push.grid, encode(pixel, background, plane))
 }
