@@ -13,12 +13,13 @@
 //
 // and then the first two are done. A ghost beside an invocation's columns is the first one of the invocation on the right;
 // what a spring moves of it goes back by shuffle. MASKED: the spring shares come from an image. TENSION: the stretch
-// springs' tension is stored, for the stretch error; it starts from zero.
+// springs' tension is stored, for the stretch error; it starts from zero. CARRIED: that of all springs is, for the next
+// iteration or the release of a pin, and starts from what the iteration before left in other images.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED TENSION
+#pragma variants MASKED TENSION CARRIED
 #define BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
@@ -36,10 +37,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
 
-#ifdef TENSION
-SCALAR_OUT(4, TensionRowOut, tension_row_out);
-SCALAR_OUT(5, TensionColumnOut, tension_column_out);
-#endif
+#include "include/sweep_tension.h"
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 
@@ -63,13 +61,13 @@ bool exists(ivec2 owner, ivec2 offset) {
 }
 
 /// The spring that `owner` is the first particle of. Where the grid has none, nothing moves, not even a zero's sign.
-/// Returns its tension.
-float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel) {
+/// Takes and returns its tension.
+float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel, float tension) {
     vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
     precise float weight_sum = first.weight + second.weight;
     SpringResult result =
         project_spring(edge, weight_sum, push.rest_length[channel], share_of(owner, offset, channel), push.compression,
-                       push.compliance[channel], 0.0f);
+                       push.compliance[channel], tension);
     vec3 moved_first = moved_by(first.displacement, result.correction, -first.weight);
     vec3 moved_second = moved_by(second.displacement, result.correction, second.weight);
     bool is_there = exists(owner, offset);
@@ -78,43 +76,54 @@ float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offs
     return result.tension;
 }
 
-#ifdef TENSION
-#define STORE_TENSION(name, c, owner, offset, value) \
-    if (is_own(c) && exists(owner, offset)) STORE_SCALAR(name, owner, value)
-#else
-#define STORE_TENSION(name, c, owner, offset, value)
-#endif
+#define STORE_OWN(store, c, owner, offset, value) \
+    if (is_own(c) && exists(owner, offset)) store(owner, value)
 
 void relax_along(inout Particle row[columns + 1], int y) {
     const ivec2 offset = ivec2(1, 0);
     float tension[columns];
-    for (int c = 0; c < columns; c += 2)
-        tension[c] = relax(row[c], row[c + 1], ivec2(first_column() + c, y), offset, 0);
+    for (int c = 0; c < columns; c += 2) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+    }
     fetch_ghost(row);
-    for (int c = 1; c < columns; c += 2)
-        tension[c] = relax(row[c], row[c + 1], ivec2(first_column() + c, y), offset, 0);
+    for (int c = 1; c < columns; c += 2) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+    }
     return_ghost(row);
     for (int c = 0; c < columns; ++c)
-        STORE_TENSION(tension_row_out, c, ivec2(first_column() + c, y), offset, tension[c]);
+        STORE_OWN(STORE_TENSION_ROW, c, ivec2(first_column() + c, y), offset, tension[c]);
 }
 
 void relax_columns(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
     const ivec2 offset = ivec2(0, 1);
     for (int c = 0; c < columns; ++c) {
-        float tension = relax(upper[c], lower[c], ivec2(first_column() + c, y), offset, 1);
-        STORE_TENSION(tension_column_out, c, ivec2(first_column() + c, y), offset, tension);
+        ivec2 owner = ivec2(first_column() + c, y);
+        float tension = relax(upper[c], lower[c], owner, offset, 1, TENSION_COLUMN(owner));
+        STORE_OWN(STORE_TENSION_COLUMN, c, owner, offset, tension);
     }
 }
 
 void relax_down_right(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(1, 1);
     fetch_ghost(lower);
-    for (int c = 0; c < columns; ++c) relax(upper[c], lower[c + 1], ivec2(first_column() + c, y), ivec2(1, 1), 2);
+    for (int c = 0; c < columns; ++c) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        float tension = relax(upper[c], lower[c + 1], owner, offset, 2, TENSION_DOWN_RIGHT(owner));
+        STORE_OWN(STORE_TENSION_DOWN_RIGHT, c, owner, offset, tension);
+    }
     return_ghost(lower);
 }
 
 void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(-1, 1);
     fetch_ghost(upper);
-    for (int c = 0; c < columns; ++c) relax(upper[c + 1], lower[c], ivec2(first_column() + c + 1, y), ivec2(-1, 1), 3);
+    for (int c = 0; c < columns; ++c) {
+        ivec2 owner = ivec2(first_column() + c + 1, y);
+        float tension = relax(upper[c + 1], lower[c], owner, offset, 3, TENSION_DOWN_LEFT(owner));
+        STORE_OWN(STORE_TENSION_DOWN_LEFT, c + 1, owner, offset, tension);
+    }
     return_ghost(upper);
 }
 

@@ -2,10 +2,10 @@
 // a workgroup holds a tile of particles in shared memory and takes the passes in turn. What its outermost particles lack
 // their neighbours for spreads inwards by one particle a pass, so tiles overlap by 2 * `halo`; one that holds the whole
 // cloth needs none. MASKED: the spring shares come from an image. TENSION: the stretch springs' tension is stored, for
-// the stretch error; it starts from zero.
+// the stretch error; it starts from zero. CARRIED: that of all springs is, as by sweep.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION
+#pragma variants MASKED TENSION CARRIED
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
 #include "include/spring.h"
@@ -20,10 +20,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
 #endif
-#ifdef TENSION
-SCALAR_OUT(4, TensionRowOut, tension_row_out);
-SCALAR_OUT(5, TensionColumnOut, tension_column_out);
-#endif
+#include "include/sweep_tension.h"
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 layout(constant_id = 1) const int halo = 0;
@@ -41,11 +38,18 @@ float share_of(ivec2 owner, ivec2 offset, int channel) {
 #endif
 }
 
+float tension_of(ivec2 owner, int channel) {
+    if (channel == 0) return TENSION_ROW(owner);
+    if (channel == 1) return TENSION_COLUMN(owner);
+    return channel == 2 ? TENSION_DOWN_RIGHT(owner) : TENSION_DOWN_LEFT(owner);
+}
+
 void store_tension(int channel, float tension) {
-#ifdef TENSION
-    if (is_own() && channel == 0) STORE_SCALAR(tension_row_out, own_texel(), tension);
-    if (is_own() && channel == 1) STORE_SCALAR(tension_column_out, own_texel(), tension);
-#endif
+    if (!is_own()) return;
+    if (channel == 0) STORE_TENSION_ROW(own_texel(), tension);
+    if (channel == 1) STORE_TENSION_COLUMN(own_texel(), tension);
+    if (channel == 2) STORE_TENSION_DOWN_RIGHT(own_texel(), tension);
+    if (channel == 3) STORE_TENSION_DOWN_LEFT(own_texel(), tension);
 }
 
 /// One pass: the springs of one direction and parity, each by the invocation of its first particle.
@@ -62,7 +66,7 @@ void relax(ivec2 offset, int channel, int parity) {
     precise float weight_sum = held_a.w + held_b.w;
     SpringResult result =
         project_spring(edge, weight_sum, push.rest_length[channel], share_of(first, offset, channel), push.compression,
-                       push.compliance[channel], 0.0f);
+                       push.compliance[channel], tension_of(first, channel));
     moved[a] = moved_by(moved[a], result.correction, -held_a.w);
     moved[b] = moved_by(moved[b], result.correction, held_b.w);
     store_tension(channel, result.tension);

@@ -44,6 +44,7 @@ bool tense(Context c) {
     const bool stretch_error = direction < stretch_direction_count && (judged(c) || c.model.adaptive());
     return c.cloth.plan.carries_tension[direction] || stretch_error;
 }
+bool spares_tension(Context c) { return c.cloth.plan.spare_tension; }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
@@ -123,13 +124,30 @@ std::vector<FieldRow> self_contact_rows() {
     };
 }
 
-/// All rows by field: those given and those of self-contact.
+std::vector<FieldRow> tension_rows() {
+    using enum FieldLife;
+    static const auto& scalar = layout_of<float>();
+    return {
+        {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
+        {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
+        {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},
+        {Field::tension_shear_down_left, "tension shear down-left", stored, scalar, state, tense<3>, particles},
+        {Field::tension_row_spare, "tension row spare", stored, scalar, frame, spares_tension, particles},
+        {Field::tension_column_spare, "tension column spare", stored, scalar, frame, spares_tension, particles},
+        {Field::tension_shear_down_right_spare, "tension shear down-right spare", stored, scalar, frame, spares_tension,
+         particles},
+        {Field::tension_shear_down_left_spare, "tension shear down-left spare", stored, scalar, frame, spares_tension,
+         particles},
+    };
+}
+
+/// All rows by field: those given and those of tension and of self-contact.
 std::vector<FieldRow> in_order(const std::vector<FieldRow>& given) {
-    const std::vector<FieldRow> own = self_contact_rows();
     std::vector<FieldRow> all;
     for (const FieldRow& row : given) {
-        if (all.size() == static_cast<std::size_t>(own.front().field))
-            for (const FieldRow& each : own) all.push_back(each);
+        for (const std::vector<FieldRow>& own : {tension_rows(), self_contact_rows()})
+            if (all.size() == static_cast<std::size_t>(own.front().field))
+                for (const FieldRow& each : own) all.push_back(each);
         all.push_back(row);
     }
     return all;
@@ -170,10 +188,6 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return bytes_of(c.topology.spring_shares()); }},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
-        {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
-        {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
-        {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},
-        {Field::tension_shear_down_left, "tension shear down-left", stored, scalar, state, tense<3>, particles},
         {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive, residual_list},
         {Field::iterations, "iterations", buffer, sizes, device, adaptive, iteration_list},
         // The solver knows them once it has added the passes.
@@ -202,6 +216,10 @@ std::span<const FieldRow> cloth_fields() { return rows(); }
 Field tension_of(std::size_t direction) {
     static_assert(spring_directions.size() == 4);
     return static_cast<Field>(static_cast<std::size_t>(Field::tension_row) + direction);
+}
+
+Field tension_spare_of(std::size_t direction) {
+    return static_cast<Field>(static_cast<std::size_t>(Field::tension_row_spare) + direction);
 }
 
 SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes) {

@@ -45,6 +45,10 @@ enum class Field : std::uint8_t {
     tension_column,            ///< tension applied in the substep; carried to the next one (line) or the next iteration
     tension_shear_down_right,  ///< (relax), and of stretch springs where the stretch error is wanted
     tension_shear_down_left,
+    tension_row_spare,  ///< where a sweep of springs writes it for the next, which reads it (tension_spare_of)
+    tension_column_spare,
+    tension_shear_down_right_spare,
+    tension_shear_down_left_spare,
     residuals,           ///< stretch error by workgroup
     iterations,          ///< sizes of the next iteration's dispatches, and iterations run (residual_types.h)
     iteration_sizes,     ///< the sizes to choose from
@@ -128,6 +132,7 @@ std::span<const FieldRow> cloth_fields();
 inline const FieldRow& row_of(Field field) { return cloth_fields()[static_cast<std::size_t>(field)]; }
 /// The tension of the springs of one direction (engine/cloth/directions.h).
 Field tension_of(std::size_t direction);
+Field tension_spare_of(std::size_t direction);
 
 /// As far as a buffer of so many bytes has room for each of contact's lists.
 SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes);

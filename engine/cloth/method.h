@@ -38,6 +38,7 @@ struct MethodPlan {
     // Fields that the steps need beside position and displacement with their remainders.
     bool spare_state = false;         ///< particles gather what springs do: a step reads one state, writes another
     bool spare_displacement = false;  ///< sweeps, of springs or of twist, may read one and write the other
+    bool spare_tension = false;       ///< sweeps of springs may read the tension and write the other
     bool second_order = false;        ///< displacement before, velocity excess, line control
     bool line_scratch = false;        ///< lines are solved
     /// Blocks: radius in columns, in rows, sweeps; then pins: column, row, pins of their round.

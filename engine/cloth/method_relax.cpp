@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "cloth/bend_sweep.h"
@@ -37,6 +39,7 @@ void add_springs(const ClothGeometry& cloth, const MethodSettings& settings, Met
     }
     plan.spare_displacement |= !plan.iterated.empty();
     if (!cloth.rigid) carry_tension_to_release(cloth, settings, plan);
+    plan.spare_tension = settings.iterations > 1 && std::ranges::all_of(plan.carries_tension, std::identity());
     note_tension(cloth, plan);
 }
 

@@ -93,13 +93,13 @@ std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t
 
 std::vector<std::byte> bytes_of(const MethodPlan& plan) {
     // A binding names every member: one that is added does not compile until it is added here.
-    const auto& [prediction, once, iterated, start, spare_state, spare_displacement, second_order, line_scratch,
-                 nested_table, carries_tension, release_stiffness, gathered_tension, used_stiffness, used_bend,
-                 following_substeps, skipped, compromises] = plan;
+    const auto& [prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order,
+                 line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension, used_stiffness,
+                 used_bend, following_substeps, skipped, compromises] = plan;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
-    add(prediction, once, iterated, start, spare_state, spare_displacement, second_order, line_scratch, carries_tension,
-        release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
+    add(prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order, line_scratch,
+        carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
         following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
     static_cast<void>(skipped), static_cast<void>(compromises);  // words

@@ -90,7 +90,8 @@ struct Step {
     bool conditional = false;
     /// Contact, a second `box_edges`: goes on from what `box_edges` left.
     bool after_edges = false;
-    /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back.
+    /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back. Sweeps of springs
+    /// that carry tension: writes it to the spare images, from where the next one brings it back.
     bool turns = false;
     /// Lines, nested sweeps: by cyclic reduction (cloth/cyclic_lines.h).
     bool reduced = false;

@@ -1,6 +1,7 @@
 #include "cloth/streams.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "cloth/schedule.h"
@@ -36,15 +37,14 @@ class SweepMaker {
     SweepMaker(const SimulationModel& model, const std::vector<Step>& steps) : model_(model), steps_(steps) {}
 
     /// How many steps from `first` on one sweep does, which are all springs of an iteration; 0: it does not. Not those
-    /// that the device may leave out, nor those whose tension is carried on.
+    /// that the device may leave out, nor those of a cloth where springs of some directions only carry tension.
     std::size_t length_at(std::size_t first) const {
         const Step& step = steps_[first];
         if (step.kind != StepKind::spring || step.conditional) return 0;
+        const PerDirection<bool>& carries = model_.cloths[step.cloth].plan.carries_tension;
+        if (std::ranges::any_of(carries, std::identity()) && !std::ranges::all_of(carries, std::identity())) return 0;
         std::size_t end = first;
-        while (end < steps_.size() && same_iteration(steps_[end], step)) {
-            if (carries_tension(steps_[end])) return 0;
-            ++end;
-        }
+        while (end < steps_.size() && same_iteration(steps_[end], step)) ++end;
         return end - first;
     }
 
@@ -72,32 +72,38 @@ class SweepMaker {
         return one.kind == other.kind && one.cloth == other.cloth && one.substep == other.substep &&
                one.iteration == other.iteration;
     }
-    bool carries_tension(const Step& step) const {
-        const auto& push = step.push<glsl::SpringPush>();
-        return model_.cloths[step.cloth].plan.carries_tension[static_cast<std::size_t>(push.channel)];
-    }
-
     const SimulationModel& model_;
     const std::vector<Step>& steps_;
 };
 
 /// Steps of which some are sweeps. A sweep writes the other image of the displacement, so that a prediction does too
-/// before an odd number of them.
+/// before an odd number of them; and one of springs the other images of the tension, so that the substep's last one
+/// writes those where it is looked for.
 class SweptSteps {
   public:
     void add(const Step& step) {
-        if (step.kind == StepKind::force || step.kind == StepKind::predict) predictions_[step.cloth] = steps_.size();
+        if (step.kind == StepKind::force || step.kind == StepKind::predict) substeps_[step.cloth] = {steps_.size(), {}};
         steps_.push_back(step);
     }
     void add_sweep(const Step& step) {
-        steps_[predictions_.at(step.cloth)].turns ^= true;
+        Substep& substep = substeps_.at(step.cloth);
+        steps_[substep.prediction].turns ^= true;
+        if (step.kind == StepKind::sweep) {
+            for (const std::size_t place : substep.sweeps) steps_[place].turns ^= true;
+            substep.sweeps.push_back(steps_.size());
+        }
         steps_.push_back(step);
     }
     const std::vector<Step>& steps() const { return steps_; }
 
   private:
+    /// Places of steps.
+    struct Substep {
+        std::size_t prediction = 0;
+        std::vector<std::size_t> sweeps;  // of springs
+    };
     std::vector<Step> steps_;
-    std::map<std::size_t, std::size_t> predictions_;  // by cloth: its last one
+    std::map<std::size_t, Substep> substeps_;  // by cloth: the last one
 };
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "passes/sweep_pass.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "cloth/directions.h"
 #include "cloth/streams.h"
 #include "shared/stream_types.h"
@@ -16,25 +20,58 @@ std::uint32_t direction_bits(const glsl::SweepPush& push) {
     return directions;
 }
 
+/// Of which springs a sweep handles the tension (shaders/include/sweep_tension.h).
+enum class SweptTension { none, stretch, carried };
+
+/// What the shaders call it, by direction, with _in and _out.
+constexpr const char* tension_variables[] = {"tension_row", "tension_column", "tension_down_right",
+                                             "tension_down_left"};
+
+SweptTension swept_tension(const ClothState& state, const Step& step) {
+    if (state.model->plan.carries_tension[0]) return SweptTension::carried;
+    const bool wanted = step.last && state[Field::tension_row].valid() && step.push<glsl::SweepPush>().compliance.x > 0;
+    return wanted ? SweptTension::stretch : SweptTension::none;
+}
+
+/// The first sweep of a substep is bound to where the state is, and reads none.
+void declare_tension(graph::PassSetup& setup, ClothState& state, const Step& step, SweptTension tension) {
+    const std::size_t count = tension == SweptTension::carried   ? std::size(tension_variables)
+                              : tension == SweptTension::stretch ? stretch_direction_count
+                                                                 : 0;
+    for (std::size_t d = 0; d < count; ++d) {
+        Field read = tension_of(d), written = tension_spare_of(d);
+        if (!step.turns) std::swap(read, written);
+        if (step.iteration == 0) read = tension_of(d);
+        const std::string variable = tension_variables[d];
+        if (tension == SweptTension::carried) setup.read(state[read], graph::Access::compute_read, variable + "_in");
+        state[written] = setup.write(state[written], graph::Access::compute_write, variable + "_out");
+    }
+}
+
 struct SweepDispatch {
     const vulkan::ComputePipeline* pipeline;
     std::uint32_t width, height;  ///< invocations
 };
 
 /// Strips where the state is stored through buffers, else tiles.
-SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, const glsl::SweepPush& push,
-                             bool tension) {
+SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, const Step& step,
+                             SweptTension tension) {
+    const auto& push = step.push<glsl::SweepPush>();
     const auto variant = [&](const char* shader) {
-        return vulkan::variant_name(shader, {{"masked", state.masked()}, {"tension", tension}});
+        return vulkan::variant_name(shader, {{"masked", state.masked()},
+                                             {"tension", tension == SweptTension::stretch},
+                                             {"carried", tension == SweptTension::carried}});
     };
-    const vulkan::SpecializationConstant directions{"directions", direction_bits(push)};
+    std::vector<vulkan::SpecializationConstant> constants{{"directions", direction_bits(push)}};
+    if (tension == SweptTension::carried) constants.push_back({"first_iteration", step.iteration == 0 ? 1u : 0u});
     if (state.buffered)
-        return {&pipelines.get(variant("sweep.comp"), {directions}),
+        return {&pipelines.get(variant("sweep.comp"), constants),
                 stream_invocations(push.grid.x, glsl::sweep_width, glsl::sweep_halo), 1};
     const Grid& grid = state.model->grid;
     const std::uint32_t halo = tile_halo_of(grid, glsl::sweep_tile_halo);
-    return {&pipelines.get(variant("sweep_tile.comp"), {directions, {"halo", halo}}),
-            tile_invocations(grid.columns(), halo), tile_invocations(grid.rows(), halo)};
+    constants.push_back({"halo", halo});
+    return {&pipelines.get(variant("sweep_tile.comp"), constants), tile_invocations(grid.columns(), halo),
+            tile_invocations(grid.rows(), halo)};
 }
 
 /// What every sweep reads and writes.
@@ -50,15 +87,13 @@ void declare(graph::PassSetup& setup, ClothState& state) {
 
 void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::SweepPush>();
-    const bool tension = step.last && state[Field::tension_row].valid() && push.compliance.x > 0;
-    const SweepDispatch dispatch = sweep_dispatch(pipelines, state, push, tension);
+    const SweptTension tension = swept_tension(state, step);
+    const SweepDispatch dispatch = sweep_dispatch(pipelines, state, step, tension);
     graph.add_pass(
         state.step_name("sweep of all springs", step),
         [&](graph::PassSetup& setup) {
             declare(setup, state);
-            for (const auto& [field, variable] : {std::pair{Field::tension_row, "tension_row_out"},
-                                                  std::pair{Field::tension_column, "tension_column_out"}})
-                if (tension) state[field] = setup.write(state[field], graph::Access::compute_write, variable);
+            declare_tension(setup, state, step, tension);
         },
         [dispatch, push, count = state.count](graph::PassContext& context) {
             context.dispatch(*dispatch.pipeline, push, dispatch.width, dispatch.height, count);

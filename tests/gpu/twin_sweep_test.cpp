@@ -36,6 +36,25 @@ TEST_P(TwinSweepTest, RigidInTwoIterations) {
     compare(scene, 10);
 }
 
+/// Two and three: that tension comes home to where it is looked for from either of its images.
+TEST_P(TwinSweepTest, TensionCarriedOverTwoAndThreeIterations) {
+    for (const std::uint32_t iterations : {2u, 3u}) {
+        SceneDescription scene = swept(GetParam());
+        scene.solver.iterations = iterations;
+        compare(scene, iterations * std::ptrdiff_t{5});
+    }
+}
+
+TEST_P(TwinSweepTest, TensionCarriedWithHolesAndSoftInCompression) {
+    SceneDescription scene = swept(GetParam());
+    const auto [columns, rows] = GetParam();
+    if (columns < 4) GTEST_SKIP() << "no room for a hole";
+    scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    scene.cloths[0].stiffness.compression = 0.1;
+    scene.solver.iterations = 4;
+    compare(scene, 20);
+}
+
 TEST_P(TwinSweepTest, WithoutShear) {
     SceneDescription scene = swept(GetParam());
     scene.cloths[0].stiffness = {false, 800, 0, 0};
@@ -63,11 +82,24 @@ INSTANTIATE_TEST_SUITE_P(Grids, TwinSweepTest,
                                          Grid2{49, 7}, Grid2{84, 9}, Grid2{85, 12}, Grid2{129, 40}),
                          name_of);
 
-TEST(TwinSweepTest, AmongWindBendingPinsThatMoveAndColliders) {
-    SceneDescription scene = test::everything();
-    std::erase_if(scene.cloths[0].pins, [](const Pin& pin) { return pin.release.has_value(); });  // asks for tension
+TEST(TwinSweepTest, AmongWindBendingPinsThatMoveAndLetGoAndColliders) {
+    SceneDescription scene = test::everything();  // letting go asks for tension
     scene.cloths[0].stiffness.bend = 1e-3;
     compare(scene, test::substep_count);
+    scene.solver.iterations = 2;
+    compare(scene, 2 * test::substep_count);
+    std::erase_if(scene.cloths[0].pins, [](const Pin& pin) { return pin.release.has_value(); });
+    scene.solver.iterations = 1;
+    compare(scene, test::substep_count);
+}
+
+TEST(TwinSweepTest, TensionOfSomeDirectionsAloneIsNotSwept) {
+    SceneDescription scene = swept({20, 9});
+    scene.solver.iterations = 2;
+    scene.cloths[0].stiffness = {false, 800, 0, 0};
+    compare(scene, 0);
+    scene.cloths[0].stiffness = {false, 0, 60, 0};
+    compare(scene, 0);
 }
 
 TEST(TwinSweepTest, OfClothsTogetherAndOneThatLetsGo) {
@@ -78,7 +110,9 @@ TEST(TwinSweepTest, OfClothsTogetherAndOneThatLetsGo) {
         cloth.placement.origin[0] += 2 * static_cast<double>(scene.cloths.size());
     }
     scene.cloths[1].pins[1].release = 0.05;
-    compare(scene, 2 * 5);
+    compare(scene, 3 * 5);
+    scene.solver.iterations = 2;
+    compare(scene, 3 * 2 * 5);
 }
 
 TEST(TwinSweepTest, IterationsThatTheDeviceMayLeaveOutAreNotSwept) {
@@ -86,6 +120,8 @@ TEST(TwinSweepTest, IterationsThatTheDeviceMayLeaveOutAreNotSwept) {
     scene.cloths[0].stiffness.rigid = true;
     scene.solver.iterations = 3;
     scene.solver.tolerance = 0.05;
+    compare(scene, 5);
+    scene.cloths[0].stiffness.rigid = false;  // what follows finds the first iteration's tension
     compare(scene, 5);
 }
 

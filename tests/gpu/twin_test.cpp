@@ -158,9 +158,12 @@ TEST(CanaryTest, AMissingBarrierBetweenSpringPassesIsReported) {
     const SceneDescription scene = everything();
     const SimulationModel model(scene);
     test::ExpectValidationMessages expected;
-    DeviceRun run(test::gpu().device, model, [](const graph::PlannedPass&, const graph::Barrier& barrier) {
-        return barrier.reason.find("spring column odd") == std::string::npos;
-    });
+    DeviceRun run(
+        test::gpu().device, model,
+        [](const graph::PlannedPass&, const graph::Barrier& barrier) {
+            return barrier.reason.find("spring column odd") == std::string::npos;
+        },
+        Schedule::buffers);
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }
