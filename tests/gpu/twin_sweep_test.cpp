@@ -36,23 +36,21 @@ TEST_P(TwinSweepTest, RigidInTwoIterations) {
     compare(scene, 10);
 }
 
-/// Two and three: that tension comes home to where it is looked for from either of its images.
-TEST_P(TwinSweepTest, TensionCarriedOverTwoAndThreeIterations) {
-    for (const std::uint32_t iterations : {2u, 3u}) {
-        SceneDescription scene = swept(GetParam());
-        scene.solver.iterations = iterations;
-        compare(scene, iterations * std::ptrdiff_t{5});
-    }
+TEST_P(TwinSweepTest, TensionCarriedOverTwoIterations) {
+    SceneDescription scene = swept(GetParam());
+    scene.solver.iterations = 2;
+    compare(scene, 10);
 }
 
-TEST_P(TwinSweepTest, TensionCarriedWithHolesAndSoftInCompression) {
+/// After an odd number tension comes home from the other images.
+TEST_P(TwinSweepTest, TensionCarriedOverThreeWithHolesAndSoftInCompression) {
     SceneDescription scene = swept(GetParam());
     const auto [columns, rows] = GetParam();
     if (columns < 4) GTEST_SKIP() << "no room for a hole";
     scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
     scene.cloths[0].stiffness.compression = 0.1;
-    scene.solver.iterations = 4;
-    compare(scene, 20);
+    scene.solver.iterations = 3;
+    compare(scene, 15);
 }
 
 TEST_P(TwinSweepTest, WithoutShear) {

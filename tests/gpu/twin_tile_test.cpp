@@ -57,12 +57,10 @@ TEST_P(TwinTileTest, RigidSweepsInTwoIterations) {
     compare_sweeps(scene, 10);
 }
 
-TEST_P(TwinTileTest, SweepsCarryTensionOverTwoAndThreeIterations) {
-    for (const std::uint32_t iterations : {2u, 3u}) {
-        SceneDescription scene = test::thrown_sheet(GetParam(), 5);
-        scene.solver.iterations = iterations;
-        compare_sweeps(scene, iterations * std::ptrdiff_t{5});
-    }
+TEST_P(TwinTileTest, SweepsCarryTensionOverThreeIterations) {
+    SceneDescription scene = test::thrown_sheet(GetParam(), 5);
+    scene.solver.iterations = 3;
+    compare_sweeps(scene, 15);
 }
 
 TEST_P(TwinTileTest, SweepsWithHolesSoftInCompression) {
