@@ -2,7 +2,7 @@
 // explicit.comp: each subgroup streams down the rows of a strip of columns and keeps in registers, per step in flight, the row whose
 // lower neighbours are still to come. Every spring is evaluated once; its other end sees the negated numbers. Column
 // neighbours across invocations come by shuffle, so a step makes one more column at either end of a strip useless:
-// strips overlap by 2 * `steps`. Loops are left to the driver: spirv-opt, told to unroll, loses what is precise.
+// strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Loops are left to the driver: spirv-opt, told to unroll, loses what is precise.
 // MASKED: the spring shares come from an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -17,6 +17,7 @@
 #include "include/verlet.h"
 layout(push_constant) uniform Push { ExplicitPush push; };
 #define TOGETHER
+#include "include/row_bands.h"
 #include "include/state_store.h"
 
 layout(local_size_x = stream_lanes) in;
@@ -71,13 +72,14 @@ void load_row(int y, out Particle row[columns]) {
     }
 }
 
-void store_row(int y, Particle row[columns]) {
+void store_row(RowBand band, int y, Particle row[columns]) {
+    if (!is_of(band, y)) return;
     int within = int(gl_SubgroupInvocationID) * columns;
     int first = gl_WorkGroupID.x == 0 ? 0 : steps;
     int end = gl_WorkGroupID.x + 1 == gl_NumWorkGroups.x ? stream_width : stream_width - steps;
     for (int c = 0; c < columns; ++c) {
         ivec2 texel = ivec2(first_column() + c, y);
-        if (within + c < first || within + c >= end || texel.x >= push.grid.x || y < 0) continue;
+        if (within + c < first || within + c >= end || texel.x >= push.grid.x) continue;
         STORE_VECTOR(position_out, texel, vec4(row[c].position, row[c].weight));
         STORE_VECTOR(displacement_out, texel, vec4(row[c].displacement, 0.0f));
         STORE_VECTOR(position_remainder_out, texel, vec4(row[c].position_remainder, 0.0f));
@@ -198,13 +200,14 @@ void main() {
     for (int s = 0; s < steps; ++s)
         for (int c = 0; c < columns; ++c)
             above[s][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f));
-    for (int y = 0; y < push.grid.y + steps; ++y) {
+    RowBand band = row_band();
+    for (int y = lead_in(band, steps); y < band.end + steps; ++y) {
         Particle row[columns];
         load_row(y, row);
         if (steps == 1)  // a loop of one round would stay one, and index its arrays lane by lane
             take_step(above[0], row, y, true);
         else
             for (int s = 0; s < steps; ++s) take_step(above[s], row, y - s, s == 0);
-        store_row(y - steps, row);
+        store_row(band, y - steps, row);
     }
 }

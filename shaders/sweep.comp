@@ -42,9 +42,11 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_imag
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 
 const int columns = sweep_columns, strip_width = sweep_width, strip_halo = sweep_halo, kept_rows = 5,
-          window = kept_rows + 2;
+          window = kept_rows + 2, lead = 6;  // rows above a band that what moves in it depends on
 
 #include "include/strip_rows.h"
+
+RowBand band;
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
@@ -77,7 +79,7 @@ float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offs
 }
 
 #define STORE_OWN(store, c, owner, offset, value) \
-    if (is_own(c) && exists(owner, offset)) store(owner, value)
+    if (is_own(c) && is_of(band, (owner).y) && exists(owner, offset)) store(owner, value)
 
 void relax_along(inout Particle row[columns + 1], int y) {
     const ivec2 offset = ivec2(1, 0);
@@ -131,7 +133,8 @@ void main() {
     Particle rows[window][columns + 1];  // of the figure above, from the left
     for (int r = 0; r < window; ++r)
         for (int c = 0; c <= columns; ++c) rows[r][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
-    for (int y = 0; y < push.grid.y + kept_rows; y += 2) {
+    band = row_band();
+    for (int y = lead_in(band, lead); y < band.end + kept_rows; y += 2) {
         load_row(y, rows[5]);
         load_row(y + 1, rows[6]);
         if ((directions & 1) != 0) {
@@ -150,8 +153,8 @@ void main() {
             relax_down_left(rows[1], rows[2], y - 4);
             relax_down_left(rows[0], rows[1], y - 5);
         }
-        store_row(y - 5, rows[0]);
-        store_row(y - 4, rows[1]);
+        store_row(band, y - 5, rows[0]);
+        store_row(band, y - 4, rows[1]);
         for (int r = 0; r < kept_rows; ++r) rows[r] = rows[r + 2];
     }
 }

@@ -29,7 +29,8 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_imag
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D control;
 #endif
 
-const int columns = twist_columns, strip_width = twist_width, strip_halo = twist_halo;
+const int columns = twist_columns, strip_width = twist_width, strip_halo = twist_halo,
+          lead = 2;  // rows above a band that what moves in it depends on
 
 #include "include/strip_rows.h"
 
@@ -84,13 +85,14 @@ void main() {
 #endif
     Particle above[columns + 1], upper[columns + 1], lower[columns + 1];
     for (int c = 0; c <= columns; ++c) above[c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
-    for (int y = 0; y <= push.grid.y; y += 2) {
+    RowBand band = row_band();
+    for (int y = lead_in(band, lead); y <= band.end; y += 2) {
         load_row(y, upper);
         load_row(y + 1, lower);
         relax_between(upper, lower, y);
         relax_between(above, upper, y - 1);
-        store_row(y - 1, above);
-        store_row(y, upper);
+        store_row(band, y - 1, above);
+        store_row(band, y, upper);
         above = lower;
     }
 }

@@ -23,7 +23,8 @@ FlightDispatch flight_dispatch(PipelineCache& pipelines, const ClothState& state
     if (state.buffered)
         return {&pipelines.get(variant("explicit_stream.comp"),
                                {has_shear, {"steps", step.count}, {"advance", step.substep > 0 ? 1u : 0u}}),
-                stream_invocations(push.grid.x, glsl::stream_width, static_cast<int>(step.count)), 1};
+                stream_invocations(push.grid.x, glsl::stream_width, static_cast<int>(step.count)),
+                stream_bands(push.grid.y)};
     const Grid& grid = state.model->grid;
     const std::uint32_t halo = tile_halo_of(grid, glsl::tile_halo);
     return {&pipelines.get(variant("explicit_tile.comp"), {has_shear, {"steps", step.count}, {"halo", halo}}),

@@ -109,6 +109,8 @@ std::uint32_t stream_invocations(int columns, int width, int halo) {
     return static_cast<std::uint32_t>(strips * glsl::stream_lanes);
 }
 
+std::uint32_t stream_bands(int rows) { return static_cast<std::uint32_t>(std::max(1, rows / glsl::stream_band)); }
+
 std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
     return cloth.name + "/" + std::string(row.name);
 }

@@ -63,6 +63,9 @@ std::string large_group_obstacle(const vulkan::Device& device);
 /// which `halo` at either end are of no use.
 std::uint32_t stream_invocations(int columns, int width, int halo);
 
+/// Bands of rows that each strip is streamed in (shaders/include/row_bands.h).
+std::uint32_t stream_bands(int rows);
+
 /// Newest handles of one cloth's resources within the graph being built.
 struct ClothState {
     const ClothModel* model = nullptr;

@@ -66,7 +66,7 @@ SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, 
     if (tension == SweptTension::carried) constants.push_back({"first_iteration", step.iteration == 0 ? 1u : 0u});
     if (state.buffered)
         return {&pipelines.get(variant("sweep.comp"), constants),
-                stream_invocations(push.grid.x, glsl::sweep_width, glsl::sweep_halo), 1};
+                stream_invocations(push.grid.x, glsl::sweep_width, glsl::sweep_halo), stream_bands(push.grid.y)};
     const Grid& grid = state.model->grid;
     const std::uint32_t halo = tile_halo_of(grid, glsl::sweep_tile_halo);
     constants.push_back({"halo", halo});
@@ -114,7 +114,7 @@ void add_twist_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         },
         [&pipeline, push, count = state.count](graph::PassContext& context) {
             const std::uint32_t width = stream_invocations(push.grid.x, glsl::twist_width, glsl::twist_halo);
-            context.dispatch(pipeline, push, width, 1, count);
+            context.dispatch(pipeline, push, width, stream_bands(push.grid.y), count);
         });
     state.turn_displacement();
 }

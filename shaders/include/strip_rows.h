@@ -2,6 +2,7 @@
 // invocation `columns` of them, an even number, and a ghost beside those, the first one of the invocation on the right.
 // Neighbouring strips overlap by `strip_halo` columns at either end, which are other strips' to store. Needs the images
 // `position` and `displacement_in`, `displacement_out` and `push.grid`.
+#include "include/row_bands.h"
 const int ghost = columns;
 
 struct Particle {
@@ -45,10 +46,10 @@ bool is_own(int c) {
     return within >= first && within < end;
 }
 
-void store_row(int y, Particle row[columns + 1]) {
+void store_row(RowBand band, int y, Particle row[columns + 1]) {
     for (int c = 0; c < columns; ++c) {
         ivec2 texel = ivec2(first_column() + c, y);
-        if (!is_own(c) || texel.x >= push.grid.x || y < 0 || y >= push.grid.y) continue;
+        if (!is_own(c) || texel.x >= push.grid.x || !is_of(band, y)) continue;
         STORE_VECTOR(displacement_out, texel, vec4(row[c].displacement, row[c].mark));
     }
 }

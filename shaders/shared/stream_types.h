@@ -8,6 +8,7 @@ namespace drape::glsl {
 #endif
 
 const int stream_lanes = 8;    // invocations of a subgroup, which is a strip of columns
+const int stream_band = 128;   // rows of a strip at least that one takes, where there are so many (row_bands.h)
 const int stream_columns = 5;  // columns of an invocation
 const int stream_width = 40;   // of a strip
 const int stream_steps = 4;    // in flight

@@ -125,7 +125,8 @@ TEST_P(TwinStreamTest, WithAPinThatLetsGo) {
 
 INSTANTIATE_TEST_SUITE_P(Grids, TwinStreamTest,
                          testing::Values(std::pair(2u, 2u), std::pair(3u, 3u), std::pair(17u, 33u), std::pair(40u, 3u),
-                                         std::pair(41u, 5u), std::pair(65u, 64u), std::pair(129u, 40u)),
+                                         std::pair(41u, 5u), std::pair(65u, 64u), std::pair(129u, 40u),
+                                         std::pair(5u, 257u), std::pair(45u, 391u)),
                          [](const auto& grid) {
                              return std::to_string(grid.param.first) + "x" + std::to_string(grid.param.second);
                          });

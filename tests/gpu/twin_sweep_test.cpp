@@ -74,10 +74,12 @@ TEST_P(TwinSweepTest, WithHolesAndSoftInCompression) {
     compare(scene, 5);
 }
 
-// One strip, one that just fits, one column more, the two columns after which a strip's halo begins, several strips.
+// One strip, one that just fits, one column more, the two columns after which a strip's halo begins, several strips;
+// two bands of rows, and three.
 INSTANTIATE_TEST_SUITE_P(Grids, TwinSweepTest,
                          testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
-                                         Grid2{49, 7}, Grid2{84, 9}, Grid2{85, 12}, Grid2{129, 40}),
+                                         Grid2{49, 7}, Grid2{84, 9}, Grid2{85, 12}, Grid2{129, 40}, Grid2{5, 257},
+                                         Grid2{52, 391}),
                          name_of);
 
 TEST(TwinSweepTest, AmongWindBendingPinsThatMoveAndLetGoAndColliders) {
@@ -157,7 +159,8 @@ TEST_P(TwinTwistSweepTest, OfRelaxation) { compare_twist(swept(GetParam())); }
 // As above; strips of other halos.
 INSTANTIATE_TEST_SUITE_P(Grids, TwinTwistSweepTest,
                          testing::Values(Grid2{2, 2}, Grid2{3, 3}, Grid2{7, 2}, Grid2{47, 5}, Grid2{48, 8},
-                                         Grid2{49, 7}, Grid2{88, 9}, Grid2{89, 12}, Grid2{129, 40}),
+                                         Grid2{49, 7}, Grid2{88, 9}, Grid2{89, 12}, Grid2{129, 40}, Grid2{5, 257},
+                                         Grid2{52, 391}),
                          name_of);
 
 TEST(TwinTwistSweepTest, OfLinesAmongPinsThatMoveAndLetGoAndColliders) {

@@ -1,0 +1,17 @@
+// A workgroup that streams down the rows of a strip of columns takes a band of them: an even number, from `begin` to
+// before `end`. It begins `lead` rows above, an even number, whose springs reach into the band; those are other bands'
+// to store. Bands are one tall where the cloth is short (shared/stream_types.h). Needs `push.grid`.
+struct RowBand {
+    int begin, end;
+};
+
+RowBand row_band() {
+    int count = int(gl_NumWorkGroups.y), height = ((push.grid.y + count - 1) / count + 1) & ~1;
+    int begin = int(gl_WorkGroupID.y) * height;
+    return RowBand(begin, min(begin + height, push.grid.y));
+}
+
+/// The row to begin at.
+int lead_in(RowBand band, int lead) { return max(band.begin - lead, 0); }
+
+bool is_of(RowBand band, int y) { return y >= band.begin && y < band.end; }
