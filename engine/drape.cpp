@@ -64,8 +64,14 @@ SimulationOptions simulation_options(const SceneRequest& request, bool draw, boo
     return options;
 }
 
-Device device_of(const SceneRequest& request) {
-    return Device(request.device, request.validate ? Validation::print : Validation::off);
+namespace {
+
+Validation validation_of(const SceneRequest& request) { return request.validate ? Validation::print : Validation::off; }
+
+}  // namespace
+
+Device device_of(const SceneRequest& request, const SceneDescription& scene, bool draws) {
+    return Device::for_scene(scene, draws, request.device, validation_of(request));
 }
 
 const char* program_version() { return DRAPE_VERSION; }
@@ -82,7 +88,8 @@ SceneDescription asked_scene(const SceneRequest& request) { return load(request)
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
-    return Simulation(scene, simulation_options(request, draw, !draw, !draw), device_of(request)).describe_plan(format);
+    const Device device(request.device, validation_of(request));  // one graph, on one device
+    return Simulation(scene, simulation_options(request, draw, !draw, !draw), device).describe_plan(format);
 }
 
 }  // namespace drape

@@ -10,30 +10,6 @@
 
 namespace drape {
 
-namespace {
-
-/// m, of the stretch springs along columns, rows; 0 where there are none.
-std::array<double, 2> rest_lengths(const ClothModel& cloth) {
-    const StiffnessConstants& constants = cloth.stiffness_constant;
-    return {constants.spring[0] > 0 ? constants.rest_length[0] : 0,
-            constants.spring[1] > 0 ? constants.rest_length[1] : 0};
-}
-
-std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::vector<ClothState>& states) {
-    std::vector<RasterCloth> cloths;
-    for (const ClothState& state : states) {
-        const Cloth& cloth = model.scene.cloths[state.index];
-        const Grid& grid = state.model->grid;
-        cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.thickness,
-                          cloth.appearance, state[Field::position], state[Field::normal], state[Field::triangles],
-                          state.index_count, state[Field::cut_vertices], state[Field::spring_share],
-                          rest_lengths(*state.model)});
-    }
-    return cloths;
-}
-
-}  // namespace
-
 FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
     : device_(device),
       model_(model),
@@ -75,14 +51,7 @@ std::vector<FrameKind> FrameLoop::kinds() const {
 
 void FrameLoop::build_graphs() {
     frames_ = {};
-    const bool cut =
-        std::ranges::any_of(solver_.topologies(), [](const CutTopology& t) { return !t.vertices().empty(); });
-    const bool masked = std::ranges::any_of(solver_.topologies(), &CutTopology::masked);
-    if (options_.draw && (!raster_ || cut != draws_cut_ || masked != draws_masked_)) {
-        raster_ = std::make_unique<RasterPass>(device_, model_.scene, options_.width, options_.height, options_.samples,
-                                               RasterOptions{.view = options_.view, .cut = cut, .masked = masked});
-        draws_cut_ = cut, draws_masked_ = masked;
-    }
+    if (options_.draw) raster_.fit(device_, model_.scene, options_, solver_.topologies());
     for (const FrameKind kind : kinds()) frames_[static_cast<std::size_t>(kind)] = build(kind, model_);
 }
 
@@ -153,7 +122,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
         CutTopology& topology = solver_.topologies()[hit.cloth];
         new_resources = new_resources || !topology.masked();
         const CutCounts counts = topology.apply(hit.findings);
-        new_resources = new_resources || outgrown(hit.before, topology);
+        new_resources = new_resources || (options_.draw && draws_outgrown(hit.before, topology));
         if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, topology);
     }
     if (new_resources) return rebuild_resources(solver_.download_state(*pool_));
@@ -161,14 +130,6 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
     if (hits.empty() || !options_.draw) return;
     build_graphs();  // how much is drawn is part of the recording
     record();
-}
-
-bool FrameLoop::outgrown(const CutImages& before, const CutTopology& topology) const {
-    const auto other_size = [](std::size_t was, std::size_t is) {
-        return (was == 0) != (is == 0) || draw_list_capacity(was) != draw_list_capacity(is);
-    };
-    return options_.draw && (other_size(before.index_count, topology.indices().size()) ||
-                             other_size(before.vertex_count, topology.vertices().size()));
 }
 
 void FrameLoop::rebuild_resources(const SimulationState& state) {
@@ -205,7 +166,7 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     if (has.hands_out && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
     if (has.hands_out && options_.draw)
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
-    else if (!options_.draw)
+    else if (!options_.draw && !options_.draws_beside)
         frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
                          "no picture is wanted");
     if (has.hands_out && options_.normals)

@@ -18,11 +18,10 @@
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
+#include "cloth_raster.h"
 #include "drape/simulation.h"
 #include "frame_copy.h"
 #include "graph/executor.h"
-#include "passes/cloth_solver.h"
-#include "passes/raster.h"
 
 namespace drape {
 
@@ -34,11 +33,12 @@ struct CutEvent {
 };
 
 struct FrameLoopOptions {
-    bool draw = true;         ///< colour images are wanted
-    bool positions = false;   ///< position arrays are wanted
-    bool velocities = false;  ///< arrays of velocities are wanted; needs statistics
-    bool normals = false;     ///< arrays of normals are wanted
-    bool statistics = false;  ///< statistics of every frame handed out are wanted
+    bool draw = true;           ///< colour images are wanted
+    bool draws_beside = false;  ///< they are, but another device makes them (pictures.h)
+    bool positions = false;     ///< position arrays are wanted
+    bool velocities = false;    ///< arrays of velocities are wanted; needs statistics
+    bool normals = false;       ///< arrays of normals are wanted
+    bool statistics = false;    ///< statistics of every frame handed out are wanted
     std::uint32_t width = 1280, height = 720, samples = 4;
     PictureView view;
     graph::TimestampMode timestamps = graph::TimestampMode::stages;
@@ -99,6 +99,8 @@ class FrameLoop {
     SimulationState save() const;
     /// Takes over what another loop of the same model saved. Throws Error when it is not that.
     void restore(const SimulationState& state);
+    /// What cuts have made of each cloth so far.
+    const std::vector<CutTopology>& topologies() const { return solver_.topologies(); }
     /// Three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
@@ -146,7 +148,6 @@ class FrameLoop {
     void allocate_and_record();
     void record();
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
-    bool outgrown(const CutImages& before, const CutTopology& topology) const;
     void rebuild_resources(const SimulationState& state);
     // loop_state.cpp
     template <class Archive>
@@ -208,8 +209,7 @@ class FrameLoop {
     const SimulationModel& model_;
     FrameLoopOptions options_;
     ClothSolver solver_;
-    std::unique_ptr<RasterPass> raster_;
-    bool draws_cut_ = false, draws_masked_ = false;  ///< what raster_ was made for
+    ClothRaster raster_;
     std::array<Frame, frame_contents.size()> frames_;
     std::array<Frame, attempt_step_count> attempts_;
     std::map<std::uint32_t, Rung> rungs_;  ///< by substeps

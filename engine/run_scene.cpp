@@ -402,8 +402,7 @@ RunSummary run_scene(const RunRequest& request) {
     std::optional<OutputFolder> folder;
     check_formats(request, scene.description);
     if (!request.stream) folder.emplace(request.output, request.existing);
-    prefer_calling_thread(scene.description, request.draws());
-    const Device device = device_of(request.scene);
+    const Device device = device_of(request.scene, scene.description, request.draws());
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();

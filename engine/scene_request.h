@@ -25,6 +25,7 @@ LoadedScene load_text(const SceneRequest& request, std::string text);
 std::string key_of(const RunRequest& request, const LoadedScene& scene, const DeviceInfo& device);
 
 SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions, bool velocities);
-Device device_of(const SceneRequest& request);
+/// To run the scene with.
+Device device_of(const SceneRequest& request, const SceneDescription& scene, bool draws);
 
 }  // namespace drape

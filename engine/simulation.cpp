@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
 #include "byte_stream.h"
@@ -16,6 +17,7 @@
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
 #include "passes/device_schedule.h"
+#include "pictures.h"
 #include "scene/overlap.h"
 #include "scene/start.h"
 #include "scene/start_crossings.h"
@@ -28,18 +30,13 @@ struct Device::Parts {
           device(instance, selector) {}
     vulkan::Instance instance;
     vulkan::Device device;
+    std::unique_ptr<Parts> drawing;  ///< what pictures are drawn by, unless this device does it
 };
 
 Device::Device(const std::string& selector, Validation validation)
     : parts_(std::make_shared<Parts>(selector, validation)) {}
-std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
-const DeviceInfo& Device::info() const { return parts_->device.info(); }
-std::uint64_t Device::validation_count() const { return parts_->instance.validation_log().count(); }
-std::uint64_t Device::memory_used() const { return parts_->device.budget().used(); }
-std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
-double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
 
-void prefer_calling_thread(const SceneDescription& scene, bool draws) {
+bool prefers_calling_thread(const SceneDescription& scene) {
     const bool meets_itself =
         std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
     const std::uint64_t most_particles = meets_itself ? 85 * 85 : 72 * 72;
@@ -50,8 +47,42 @@ void prefer_calling_thread(const SceneDescription& scene, bool draws) {
     bool small = true;
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) small = small && is_small(cloth, 1);
     for (const std::vector<std::size_t>& list : cloths_alike(scene)) small = small && is_small(list[0], list.size());
-    if (!draws && small) setenv("LP_NUM_THREADS", "0", 0);
+    return small;
 }
+
+Device Device::for_scene(const SceneDescription& scene, bool draws, const std::string& selector,
+                         Validation validation) {
+    constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads it when a device is looked for
+    if (std::getenv(variable) || !prefers_calling_thread(scene)) return Device(selector, validation);
+    setenv(variable, "0", 0);
+    std::optional<Device> device;
+    try {
+        device.emplace(selector, validation);
+    } catch (...) {
+        unsetenv(variable);
+        throw;
+    }
+    unsetenv(variable);
+    if (draws && device_kind(device->info()) == DeviceKind::cpu)
+        device->parts_->drawing = std::make_unique<Parts>(device->info().uuid_text(), validation);
+    return *device;
+}
+
+std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
+const DeviceInfo& Device::info() const { return parts_->device.info(); }
+
+std::uint64_t Device::validation_count() const {
+    const std::uint64_t own = parts_->instance.validation_log().count();
+    return parts_->drawing ? own + parts_->drawing->instance.validation_log().count() : own;
+}
+
+std::uint64_t Device::memory_used() const {
+    const std::uint64_t own = parts_->device.budget().used();
+    return parts_->drawing ? own + parts_->drawing->device.budget().used() : own;
+}
+
+std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
+double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
 
 namespace {
 
@@ -140,13 +171,43 @@ struct Simulation::Parts {
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
-          loop(given.parts_->device, model, loop_options(scene, options)) {}
+          asked(loop_options(scene, options)),
+          loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
+        if (given.parts_->drawing && asked.draw)
+            pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
+    }
+
+    /// Of the loop whose frames `pictures` draws.
+    FrameLoopOptions beside_pictures() {
+        FrameLoopOptions options = asked;
+        options.draw = false;
+        options.draws_beside = options.positions = true;
+        options.on_cut = [this](const CutEvent& event, const CutTopology& topology) {
+            pictures->follow(loop.topologies());
+            if (asked.on_cut) asked.on_cut(event, topology);
+        };
+        return options;
+    }
+
+    struct Planned {
+        const graph::Graph& graph;
+        const graph::Plan& plan;
+    };
+    /// What a frame takes that is handed out: one graph, or two, one per device.
+    std::vector<Planned> output() const {
+        constexpr FrameKind kind = FrameKind::simulate_and_output;
+        std::vector<Planned> all{{loop.graph(kind), loop.plan(kind)}};
+        if (pictures) all.push_back({pictures->graph(), pictures->plan()});
+        return all;
+    }
 
     Device device;
     bool keep_promises;
     SimulationModel model;
     Watch watch;
+    FrameLoopOptions asked;
     FrameLoop loop;
+    std::unique_ptr<Pictures> pictures;  ///< where a device of their own draws them
     FrameCopy kept;
 };
 
@@ -166,15 +227,32 @@ const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
 
 bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+    Pictures* const pictures = parts_->pictures.get();
+    bool giving = false;  // a throw is the caller's own
+    const auto give = [&](const FinishedFrame& frame) {
+        giving = true;
+        finished(frame);
+        giving = false;
+    };
+    const auto hand_out = [&](const FinishedFrame& frame) {
+        return pictures ? pictures->draw(frame, give) : finished(frame);
+    };
     const auto checked = [&](const FinishedFrame& frame) {
         const auto failure = frame_failure(parts_->model, parts_->watch, frame);
-        if (!failure) return finished(frame);
+        if (!failure) return hand_out(frame);
         if (parts_->keep_promises) raise(*failure);
         FinishedFrame failed = frame;
         failed.failure = failure;
-        finished(failed);
+        hand_out(failed);
     };
-    return parts_->loop.run(last, wanted, checked, stop);
+    try {
+        const bool complete = parts_->loop.run(last, wanted, checked, stop);
+        if (pictures) pictures->flush(give);
+        return complete;
+    } catch (const FrameError&) {  // those before it are handed out
+        if (pictures && !giving) pictures->flush(give);
+        throw;
+    }
 }
 
 std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame(); }
@@ -196,6 +274,7 @@ void Simulation::restore(const SimulationState& state) {
         throw Error("the saved state is not of this scene: its part 'watch' is of something else");
     parts_->loop.restore(state);
     parts_->watch.transfer(again);
+    if (parts_->pictures) parts_->pictures->follow(parts_->loop.topologies());
 }
 
 const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
@@ -206,7 +285,6 @@ std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
 
 SimulationFacts Simulation::facts() const {
     const SimulationModel& model = parts_->model;
-    const graph::Plan& output = parts_->loop.plan(FrameKind::simulate_and_output);
     const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
     SimulationFacts facts{.method = std::string(model.method().name),
                           .schedule = std::string(spelling(schedule_spellings, parts_->loop.schedule())),
@@ -218,47 +296,54 @@ SimulationFacts Simulation::facts() const {
                           .limits_are_kept = model.closed_loop(),
                           .skipped = {},
                           .compromises = model.compromises(),
-                          .pass_count = output.passes.size(),
-                          .barrier_count = graph::barrier_count(output),
+                          .pass_count = 0,
+                          .barrier_count = 0,
                           .simulated_pass_count = simulate.passes.size(),
                           .simulated_barrier_count = graph::barrier_count(simulate)};
-    for (const graph::Skipped& skipped : output.skipped) facts.skipped.push_back({skipped.what, skipped.reason});
+    for (const Parts::Planned& output : parts_->output()) {
+        facts.pass_count += output.plan.passes.size();
+        facts.barrier_count += graph::barrier_count(output.plan);
+        const std::vector<SimulationFacts::Skipped> before = facts.skipped;  // both graphs say what the scene lacks
+        for (const graph::Skipped& skipped : output.plan.skipped)
+            if (std::ranges::find(before, skipped.what, &SimulationFacts::Skipped::what) == before.end())
+                facts.skipped.push_back({skipped.what, skipped.reason});
+    }
     return facts;
 }
 
 std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
 
 std::vector<PassWork> Simulation::work() const {
-    const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);
     std::vector<PassWork> all;
-    for (const graph::PlannedPass& planned : parts_->loop.plan(FrameKind::simulate_and_output).passes) {
-        const graph::Pass& pass = graph.passes()[planned.pass];
-        auto found = std::ranges::find(all, pass.label, &PassWork::name);
-        if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0, 0});
-        ++found->count;
-        found->flops += pass.flops;
-        for (const graph::Use& use : pass.uses)
-            found->bytes += graph.resources()[use.handle.resource].byte_count(use.handle);
-    }
+    for (const auto& [graph, plan] : parts_->output())
+        for (const graph::PlannedPass& planned : plan.passes) {
+            const graph::Pass& pass = graph.passes()[planned.pass];
+            auto found = std::ranges::find(all, pass.label, &PassWork::name);
+            if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0, 0});
+            ++found->count;
+            found->flops += pass.flops;
+            for (const graph::Use& use : pass.uses)
+                found->bytes += graph.resources()[use.handle.resource].byte_count(use.handle);
+        }
     return all;
 }
 
 std::vector<ResourceMemory> Simulation::memory() const {
-    const graph::Graph& graph = parts_->loop.graph(FrameKind::simulate_and_output);
-    const graph::Plan& plan = parts_->loop.plan(FrameKind::simulate_and_output);
     std::vector<ResourceMemory> all;
-    for (std::size_t index = 0; index < graph.resources().size(); ++index) {
-        const graph::Resource& resource = graph.resources()[index];
-        if (plan.lifespans[index].used())
-            all.push_back({resource.name, resource.byte_count() * graph::copy_count(resource)});
-    }
+    for (const auto& [graph, plan] : parts_->output())
+        for (std::size_t index = 0; index < graph.resources().size(); ++index) {
+            const graph::Resource& resource = graph.resources()[index];
+            if (plan.lifespans[index].used())
+                all.push_back({resource.name, resource.byte_count() * graph::copy_count(resource)});
+        }
     std::ranges::stable_sort(all, std::ranges::greater(), &ResourceMemory::bytes);
     return all;
 }
 
 std::string Simulation::describe_plan(const std::string& format) const {
-    return graph::dump(parts_->loop.graph(FrameKind::simulate_and_output),
-                       parts_->loop.plan(FrameKind::simulate_and_output), format);
+    std::string text;
+    for (const auto& [graph, plan] : parts_->output()) text += graph::dump(graph, plan, format);
+    return text;
 }
 
 }  // namespace drape

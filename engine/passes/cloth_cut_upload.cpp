@@ -43,6 +43,14 @@ bool follows_cuts(const FieldRow& row) { return row.life == FieldLife::constant 
 
 }  // namespace
 
+bool draws_outgrown(const CutImages& before, const CutTopology& topology) {
+    const auto other_size = [](std::size_t was, std::size_t is) {
+        return (was == 0) != (is == 0) || draw_list_capacity(was) != draw_list_capacity(is);
+    };
+    return other_size(before.index_count, topology.indices().size()) ||
+           other_size(before.vertex_count, topology.vertices().size());
+}
+
 CutImages ClothSolver::cut_images(std::size_t cloth) const {
     CutImages images{{}, topologies_[cloth].indices().size(), topologies_[cloth].vertices().size()};
     for (const FieldRow& row : cloth_fields())

@@ -21,6 +21,7 @@
 #include "passes/nested_pass.h"
 #include "passes/normal_pass.h"
 #include "passes/pin_pass.h"
+#include "passes/position_upload.h"
 #include "passes/self_contact_pass.h"
 #include "passes/spring_pass.h"
 #include "passes/statistics_pass.h"
@@ -200,6 +201,10 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
     const std::size_t count = model_.scene.cutters.size();
     const graph::Handle cutters = declare_cutters(graph, count);
     for_each_cloth([&](ClothState& state) { add_cut(graph, pipelines_, state, cutters, count); });
+}
+
+void ClothSolver::add_positions(graph::Graph& graph) {
+    for_each_cloth([&](ClothState& state) { add_position_upload(graph, state); });
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {

@@ -21,6 +21,9 @@ struct CutImages {
     std::size_t index_count, vertex_count;  ///< drawn
 };
 
+/// Whether what is drawn of a cloth after a cut needs other buffers.
+bool draws_outgrown(const CutImages& before, const CutTopology& topology);
+
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
@@ -38,6 +41,8 @@ class ClothSolver {
     void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
+    /// Adds what takes every cloth's positions from the host (passes/position_upload.h).
+    void add_positions(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
     void add_normals(graph::Graph& graph);
     /// Adds the statistics of every cloth (passes/statistics_pass.h), to be read by `statistics`.

@@ -19,8 +19,6 @@ namespace {
 using Times = std::vector<double>;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* thread_variable = "LP_NUM_THREADS";
-
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 int frames_of(double milliseconds, const SpeedEffort& effort) {
@@ -140,19 +138,16 @@ void put_work(const Simulation& simulation, SpeedResult& result) {
 }  // namespace
 
 const Device& SpeedDevices::of(const SceneDescription& scene, bool draw) {
-    const bool given = std::getenv(thread_variable) != nullptr;
-    if (!given) prefer_calling_thread(scene, draw);
-    const bool is_calling = !given && std::getenv(thread_variable) != nullptr;
-    std::unique_ptr<Device>& device = devices_[is_calling];
+    std::optional<Device>& device = devices_[{prefers_calling_thread(scene), draw}];
     if (!device)
-        device = std::make_unique<Device>(request_.device, request_.validate ? Validation::print : Validation::off);
-    if (!given) unsetenv(thread_variable);
+        device =
+            Device::for_scene(scene, draw, request_.device, request_.validate ? Validation::print : Validation::off);
     return *device;
 }
 
 std::uint64_t SpeedDevices::validation_count() const {
     std::uint64_t count = 0;
-    for (const auto& [is_calling, device] : devices_) count += device->validation_count();
+    for (const auto& [kind, device] : devices_) count += device->validation_count();
     return count;
 }
 

@@ -3,7 +3,8 @@
 
 #include <functional>
 #include <map>
-#include <memory>
+#include <optional>
+#include <utility>
 
 #include "bench/bench_request.h"
 #include "bench/speed_result.h"
@@ -18,7 +19,7 @@ struct SpeedEffort {
     double seconds = 0.2;  ///< of each side in each round; two frames at least
 };
 
-/// A device as a run of a scene opens it (prefer_calling_thread), each kind once.
+/// A device as a run of a scene opens it, each kind once.
 class SpeedDevices {
   public:
     explicit SpeedDevices(const BenchRequest& request) : request_(request) {}
@@ -27,7 +28,8 @@ class SpeedDevices {
 
   private:
     const BenchRequest& request_;
-    std::map<bool, std::unique_ptr<Device>> devices_;  ///< by whether the calling thread does the work
+    /// By whether the calling thread does the work, and whether it draws.
+    std::map<std::pair<bool, bool>, std::optional<Device>> devices_;
 };
 
 /// Throws Stopped, DeviceError.

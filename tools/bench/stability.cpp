@@ -83,7 +83,9 @@ class StabilityBench {
     void renew() {
         if (device_) validation_count_ += device_->validation_count();
         device_.reset();
-        device_ = std::make_unique<Device>(request_.device, request_.validate ? Validation::print : Validation::off);
+        // All its sheets are as small.
+        device_ = std::make_unique<Device>(Device::for_scene(parse_scene(base_scene()), false, request_.device,
+                                                             request_.validate ? Validation::print : Validation::off));
         const DeviceInfo& info = device_->info();
         device_text_ = fmt::format("{} ({} {})", info.name, info.driver, info.driver_version);
         since_renewed_ = 0;
@@ -136,8 +138,6 @@ void write_files(const StabilityRequest& request, const StabilityReport& report)
 
 StabilitySummary run_stability(const StabilityRequest& request) {
     std::vector<StabilityCase> cases = chosen(request);
-    // All its sheets are small.
-    prefer_calling_thread(parse_scene(base_scene()), false);
     make_folder(request.folder);
     StabilityBench bench(request, std::move(cases));
     StabilitySummary summary;

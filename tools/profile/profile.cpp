@@ -48,8 +48,8 @@ void describe(const ProfileRequest& request, const Simulation& simulation, const
 
 Profile run_profile(const ProfileRequest& request) {
     const SceneDescription scene = asked_scene(request.scene);
-    prefer_calling_thread(scene, request.draw);
-    const Device device(request.scene.device, request.scene.validate ? Validation::print : Validation::off);
+    const Device device = Device::for_scene(scene, request.draw, request.scene.device,
+                                            request.scene.validate ? Validation::print : Validation::off);
     Profile profile;
     profile.copy_bandwidth = device.copy_bandwidth();
     SimulationOptions options;
@@ -68,7 +68,8 @@ Profile run_profile(const ProfileRequest& request) {
         if (frame.failure && profile.failure.empty()) profile.failure = frame.failure->reason;
         if (frame.frame == request.warm_up) start = now;
         if (frame.frame > request.warm_up) {
-            ProfiledFrame& one = profile.frames.emplace_back(frame.frame, seconds(before), seconds(now), frame.effort);
+            profile.frames.push_back({frame.frame, seconds(before), seconds(now), frame.effort, {}});
+            ProfiledFrame& one = profile.frames.back();
             for (const StageTime& time : frame.timings) add(one.device, time);
         }
         before = now;

@@ -23,11 +23,20 @@ struct DeviceInfo {
 enum class Validation { off, count, print };  ///< print: each message on stderr, too
 
 /// An opened device; copies share it.
+struct SceneDescription;
+
 class Device {
   public:
     /// `selector`: empty (the best there is), INDEX, UUID, a unique part of the NAME, or "cpu". Throws DeviceError that
     /// lists the devices.
     explicit Device(const std::string& selector = {}, Validation validation = Validation::off);
+
+    /// The device as it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread; what it
+    /// `draws` is then drawn by a second device with worker threads, while this one simulates the next frames. For that
+    /// the environment variable LP_NUM_THREADS is set while devices are opened; where it is set already, and on other
+    /// drivers, this is the constructor. To be called before other threads run.
+    static Device for_scene(const SceneDescription& scene, bool draws, const std::string& selector = {},
+                            Validation validation = Validation::off);
 
     /// Every Vulkan device. Throws DeviceError without a Vulkan driver.
     static std::vector<DeviceInfo> list();
@@ -46,13 +55,9 @@ class Device {
     std::shared_ptr<Parts> parts_;
 };
 
-struct SceneDescription;
-
-/// Lavapipe hands every dispatch to its worker threads, which takes about 30 us; where no cloth, and no cloths that are
-/// simulated together, have more than 72 x 72 particles (with self-collision, whose passes are many, 85 x 85) and
-/// nothing is drawn, all of it is done sooner on the calling thread (24 x 24: 2.5 times). Where `scene` is such a one,
-/// asks for that in the process's devices from the next on, by the environment variable LP_NUM_THREADS, unless it is
-/// set; other drivers do not know it. To be called before other threads run.
-void prefer_calling_thread(const SceneDescription& scene, bool draws);
+/// Lavapipe hands every dispatch to its worker threads, which takes about 30 us. Whether a scene's simulation is done
+/// sooner on one thread: no cloth, and no cloths that are simulated together, have more than 72 x 72 particles (with
+/// self-collision, whose passes are many, 85 x 85).
+bool prefers_calling_thread(const SceneDescription& scene);
 
 }  // namespace drape

@@ -180,7 +180,8 @@ class Simulation {
     std::optional<SelfContactReport> self_contact() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
-    /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot".
+    /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot"; of two devices
+    /// (Device::for_scene) one after the other.
     std::string describe_plan(const std::string& format) const;
 
   private:
