@@ -13,16 +13,6 @@ Pictures::Pictures(const vulkan::Device& device, const SimulationModel& model, c
     allocate();
 }
 
-Pictures::~Pictures() {
-    // The slots wait for what is in flight before the recording and images go.
-    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot) {
-        try {
-            slots_.wait(slot);
-        } catch (const vulkan::VulkanError&) {  // a lost device has nothing in flight
-        }
-    }
-}
-
 void Pictures::build() {
     raster_.fit(device_, model_.scene, options_, solver_.topologies());
     graph_ = {};

@@ -25,7 +25,6 @@ class Pictures {
 
     /// Of `options`, what is said of pictures. `device` and `model` must outlive it.
     Pictures(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
-    ~Pictures();
 
     /// Takes a frame that has positions. A later `draw` or `flush` gives it to `finished` with its picture, in order,
     /// and with positions only where the options want them.
@@ -55,7 +54,7 @@ class Pictures {
     graph::Plan plan_;
     std::unique_ptr<graph::ResourcePool> pool_;
     std::unique_ptr<graph::RecordedPlan> recorded_;
-    vulkan::FrameSlots slots_;
+    vulkan::FrameSlots slots_;  ///< goes, and waits for what is in flight, before what that uses
     std::array<std::optional<PendingPicture>, vulkan::frame_slot_count> pending_;
     std::uint32_t next_slot_ = 0;
 };

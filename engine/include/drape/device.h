@@ -22,9 +22,9 @@ struct DeviceInfo {
 /// Core and synchronization validation by the Khronos layer, which must be installed.
 enum class Validation { off, count, print };  ///< print: each message on stderr, too
 
-/// An opened device; copies share it.
 struct SceneDescription;
 
+/// An opened device; copies share it.
 class Device {
   public:
     /// `selector`: empty (the best there is), INDEX, UUID, a unique part of the NAME, or "cpu". Throws DeviceError that
