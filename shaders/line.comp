@@ -11,7 +11,7 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/line.h"
-#include "include/some_at_a_time.h"
+#include "include/in_pairs.h"
 #ifdef BENT
 #include "include/bent_line.h"
 #endif
@@ -88,53 +88,78 @@ void store_bent(Line line, int p, BentParticle particle) {
     store_scratch(line, p, vec4(particle.turn, particle.by_turn), vec2(particle.by_shift, 0.0f));
 }
 
+/// A walk from the line's start on: what is known before particle p is eliminated.
+struct ParticleWalk {
+    int p;
+    LineParticle particle, next;
+    vec3 edge;    // between them
+    float share;  // of its spring
+    BentLine bent;
+};
+
+/// Eliminates particle p, after whose spring comes another, or none, which has no share.
+void eliminate_between(Line line, inout ParticleWalk walk, vec3 edge_after, float share_after) {
+    float stiffness = stiffness_of(line, walk.particle, walk.next, walk.share);
+    BentParticle eliminated = eliminate_bent(walk.bent, walk.edge, stiffness, edge_after,
+                                             element_bend(line.bend, walk.share, share_after), walk.particle.position.w);
+    store_bent(line, walk.p, eliminated);
+    walk.bent = eliminated.line;
+    ++walk.p;
+}
+
+void eliminate_next(Line line, inout ParticleWalk walk) {
+    LineParticle after = particle_after(line, walk.next);
+    vec3 edge_after = start_edge_of(walk.next, after);
+    float share_after = share_of(line, walk.next.at);
+    eliminate_between(line, walk, edge_after, share_after);
+    walk.particle = walk.next;
+    walk.next = after;
+    walk.edge = edge_after;
+    walk.share = share_after;
+}
+
 /// The first system, from the line's start on.
 void eliminate_particles(Line line) {
     LineParticle particle = load_particle(line_start(line.index, line.step));
     LineParticle next = particle_after(line, particle);
-    vec3 edge = start_edge_of(particle, next);
-    float share = share_of(line, particle.at);
-    BentLine bent = unbent_line();
-    int p = 0;  // a line has two particles at least
-    do {
-        bool has_element = p + 1 < line.last;
-        LineParticle after = particle_after(line, next);
-        vec3 edge_after = has_element ? start_edge_of(next, after) : vec3(0.0f, 0.0f, 0.0f);
-        float share_after = has_element ? share_of(line, next.at) : 0.0f;
-        BentParticle eliminated =
-            eliminate_bent(bent, edge, stiffness_of(line, particle, next, share), edge_after,
-                           element_bend(line.bend, share, share_after), particle.position.w);
-        store_bent(line, p, eliminated);
-        bent = eliminated.line;
-        edge = edge_after;
-        share = share_after;
-        particle = next;
-        next = after;
-        ++p;
-    } while (p < line.last);
-    store_bent(line, line.last, eliminate_last_bent(bent, particle.position.w));
+    ParticleWalk walk = ParticleWalk(0, particle, next, start_edge_of(particle, next), share_of(line, particle.at),
+                                     unbent_line());
+    IN_PAIRS(line.last - 1, eliminate_next(line, walk))  // a line has two particles at least
+    eliminate_between(line, walk, vec3(0.0f, 0.0f, 0.0f), 0.0f);
+    store_bent(line, line.last, eliminate_last_bent(walk.bent, walk.next.position.w));
 }
 #else
+/// A walk from the line's start on: what is known before particle p is eliminated.
+struct ParticleWalk {
+    int p;
+    LineParticle particle;
+    EliminatedParticle eliminated;  // the particle before
+    vec3 edge_before;
+    float stiffness_before;
+};
+
+void eliminate_next(Line line, inout ParticleWalk walk) {
+    LineParticle next = particle_after(line, walk.particle);
+    vec3 edge = start_edge_of(walk.particle, next);
+    float stiffness = stiffness_of(line, walk.particle, next, share_of(line, walk.particle.at));
+    walk.eliminated = eliminate_particle(walk.eliminated, walk.edge_before, walk.stiffness_before, edge, stiffness,
+                                         walk.particle.position.w);
+    store_first(line, walk.p, walk.eliminated.row);
+    walk.particle = next;
+    walk.edge_before = edge;
+    walk.stiffness_before = stiffness;
+    ++walk.p;
+}
+
 /// The first system, from the line's start on.
 void eliminate_particles(Line line) {
-    LineParticle particle = load_particle(line_start(line.index, line.step));
-    EliminatedParticle eliminated = unmoved_start();
-    vec3 edge_before = vec3(0.0f, 0.0f, 0.0f);
-    float stiffness_before = 0.0f;
-    SOME_AT_A_TIME(p, 0, 1) {
-        bool has_spring = p < line.last;
-        LineParticle next = particle_after(line, particle);
-        vec3 edge = has_spring ? start_edge_of(particle, next) : vec3(0.0f, 0.0f, 0.0f);
-        float stiffness = stiffness_of(line, particle, next, share_of(line, particle.at));
-        stiffness = has_spring ? stiffness : 0.0f;
-        eliminated =
-            eliminate_particle(eliminated, edge_before, stiffness_before, edge, stiffness, particle.position.w);
-        if (p <= line.last) store_first(line, p, eliminated.row);
-        particle = next;
-        edge_before = edge;
-        stiffness_before = stiffness;
-    }
-    WHILE_SOME_ARE_LEFT(p, 1, <= line.last);
+    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    ParticleWalk walk =
+        ParticleWalk(0, load_particle(line_start(line.index, line.step)), unmoved_start(), none, 0.0f);
+    IN_PAIRS(line.last, eliminate_next(line, walk))
+    walk.eliminated = eliminate_particle(walk.eliminated, walk.edge_before, walk.stiffness_before, none, 0.0f,
+                                         walk.particle.position.w);
+    store_first(line, line.last, walk.eliminated.row);
 }
 #endif
 
@@ -150,71 +175,107 @@ vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
 #endif
 }
 
-/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C - T| that it meets.
+/// A walk from the line's end back: what is known before spring e is eliminated.
+struct SpringWalk {
+    int e;
+    LineParticle first, second;  // of spring e
+    LineSpring spring;
+    vec3 delta, moved_first;  // of its first particle
+    vec3 turn, normal_after;
+    vec2 eliminated;  // the spring after it
+    float largest;    // |C - T|
+};
+
+/// Eliminates spring e and stores it beside what the first system changes of its first particle.
+void eliminate_between(Line line, inout SpringWalk walk, vec3 normal_before) {
+    float share = share_of(line, walk.first.at);
+    float tension = filtered_tension_of(line, walk.first, walk.second, walk.spring);
+    walk.largest = larger_violation(walk.largest, walk.spring, share, line.compression, tension);
+    walk.eliminated = eliminate_spring(walk.eliminated, normal_before, walk.spring, walk.normal_after,
+                                       walk.first.position.w, walk.second.position.w, share, line.compression,
+                                       line.compliance, tension);
+    store_scratch(line, walk.e, vec4(walk.delta, tension), walk.eliminated);
+}
+
+/// Spring e, which has one before it.
+void eliminate_next(Line line, inout SpringWalk walk) {
+    LineParticle before = particle_before(line, walk.first);
+    vec3 delta_before = delta_of(line, walk.e - 1, walk.delta, walk.turn);
+    vec3 moved_before = filtered(before, delta_before);
+    LineSpring spring_before = spring_between(line, before, moved_before, walk.first, walk.moved_first);
+    eliminate_between(line, walk, spring_before.normal);
+    walk.normal_after = walk.spring.normal;
+    walk.spring = spring_before;
+    walk.second = walk.first;
+    walk.first = before;
+    walk.moved_first = moved_before;
+    walk.delta = delta_before;
+    --walk.e;
+}
+
+/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C - T| that it
+/// meets.
 float eliminate_springs(Line line) {
-    float largest = 0.0f;
-    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f), turn = vec3(0.0f, 0.0f, 0.0f);
-    vec2 eliminated = vec2(0.0f, 0.0f);
+    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    vec3 turn = none;
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
-    vec3 delta = delta_of(line, line.last, vec3(0.0f, 0.0f, 0.0f), turn);
+    vec3 delta = delta_of(line, line.last, none, turn);
     vec3 moved_second = filtered(second, delta);
     store_scratch(line, line.last, vec4(delta, 0.0f), vec2(0.0f, 0.0f));
     delta = delta_of(line, line.last - 1, delta, turn);
     LineParticle first = particle_before(line, second);
     vec3 moved_first = filtered(first, delta);
-    LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
-    SOME_AT_A_TIME(e, line.last - 1, -1) {
-        LineParticle before = particle_before(line, first);
-        vec3 delta_before = delta_of(line, e > 0 ? e - 1 : 0, delta, turn);
-        vec3 moved_before = filtered(before, delta_before);
-        LineSpring spring_before = spring_between(line, before, moved_before, first, moved_first);
-        vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
-        float share = e >= 0 ? share_of(line, first.at) : 0.0f;
-        float tension = filtered_tension_of(line, first, second, spring);
-        largest = larger_violation(largest, spring, share, line.compression, tension);
-        eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w, share, line.compression, line.compliance, tension);
-        if (e >= 0) store_scratch(line, e, vec4(delta, tension), eliminated);
-        normal_after = spring.normal;
-        spring = spring_before;
-        second = first;
-        first = before;
-        moved_first = moved_before;
-        delta = delta_before;
-    }
-    WHILE_SOME_ARE_LEFT(e, -1, >= 0);
-    return largest;
+    SpringWalk walk =
+        SpringWalk(line.last - 1, first, second, spring_between(line, first, moved_first, second, moved_second), delta,
+                   moved_first, turn, none, vec2(0.0f, 0.0f), 0.0f);
+    IN_PAIRS(line.last - 1, eliminate_next(line, walk))
+    eliminate_between(line, walk, none);
+    return walk.largest;
 }
 
-/// From the line's start on: substitutes in the second system; a particle is written once both its springs are known.
+/// A walk from the line's start on: what is known before particle p is written.
+struct MoveWalk {
+    int p;
+    LineParticle first;
+    vec4 delta;  // xyz: of it; w: the tension of the spring after it
+    vec3 moved_first, normal_before;
+    float change_before;
+};
+
+/// Writes particle p, both of whose springs are known.
+void move(MoveWalk walk, vec3 normal, float change) {
+    vec3 correction = line_correction(walk.normal_before, walk.change_before, normal, change);
+    vec3 moved = moved_by_both(walk.first.moved.xyz, walk.delta.xyz, correction, walk.first.position.w);
+    STORE_TRIPLE(displacement_out, walk.first.at, moved, walk.first.moved.w);
+}
+
+/// Particle p, which has a spring after it, and that spring's tension.
+void move_next(Line line, inout MoveWalk walk) {
+    LineParticle second = particle_after(line, walk.first);
+    vec4 delta_after = load_first(line, walk.p + 1);
+    vec3 moved_second = filtered(second, delta_after.xyz);
+    LineSpring spring = spring_between(line, walk.first, walk.moved_first, second, moved_second);
+    float change = substitute_spring(load_second(line, walk.p), walk.change_before);
+    move(walk, spring.normal, change);
+    float share = share_of(line, walk.first.at);
+    float tension = changed_tension(walk.delta.w, change, share, SPRING_COMPLIANCE(line, share));
+    STORE_SCALAR(tension_out, walk.first.at, stored_tension(tension, line.followed));
+    walk.change_before = change;
+    walk.normal_before = spring.normal;
+    walk.delta = delta_after;
+    walk.first = second;
+    walk.moved_first = moved_second;
+    ++walk.p;
+}
+
+/// From the line's start on: substitutes in the second system.
 void substitute_springs(Line line) {
-    float change_before = 0.0f;
-    vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
+    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     LineParticle first = load_particle(line_start(line.index, line.step));
-    vec4 delta = load_first(line, 0);  // w: the tension of the spring after it
-    vec3 moved_first = filtered(first, delta.xyz);
-    SOME_AT_A_TIME(p, 0, 1) {
-        bool has_spring = p < line.last;
-        LineParticle second = particle_after(line, first);
-        vec4 delta_after = load_first(line, has_spring ? p + 1 : line.last);
-        vec3 moved_second = filtered(second, delta_after.xyz);
-        LineSpring spring = spring_between(line, first, moved_first, second, moved_second);
-        vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
-        float change = substitute_spring(load_second(line, has_spring ? p : line.last), change_before);
-        change = has_spring ? change : 0.0f;
-        vec3 correction = line_correction(normal_before, change_before, normal, change);
-        vec3 moved = moved_by_both(first.moved.xyz, delta.xyz, correction, first.position.w);
-        if (p <= line.last) STORE_TRIPLE(displacement_out, first.at, moved, first.moved.w);
-        float share = share_of(line, first.at);
-        float tension = changed_tension(delta.w, change, share, SPRING_COMPLIANCE(line, share));
-        if (has_spring) STORE_SCALAR(tension_out, first.at, stored_tension(tension, line.followed));
-        change_before = change;
-        normal_before = normal;
-        delta = delta_after;
-        first = second;
-        moved_first = moved_second;
-    }
-    WHILE_SOME_ARE_LEFT(p, 1, <= line.last);
+    vec4 delta = load_first(line, 0);
+    MoveWalk walk = MoveWalk(0, first, delta, filtered(first, delta.xyz), none, 0.0f);
+    IN_PAIRS(line.last, move_next(line, walk))
+    move(walk, none, 0.0f);
 }
 
 void main() {

@@ -6,66 +6,88 @@
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/simulation_types.h"
+#include "include/in_pairs.h"
 #include "include/line.h"
 #include "include/nested.h"
 #include "include/verlet.h"
 
 layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
 #include "include/nested_sweeps.h"
-// Of the spring of a direction that a particle owns: xy eliminated, z its tension before the sweep, m.
+// Of the spring of a direction that a particle owns: xy eliminated, z its tension before the sweep, as it is stored.
 layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D rows_in;
 coherent TRIPLE_OUT(5, RowsOut, rows_out);
 
+/// A walk from the line's end back: what is known before a spring is eliminated.
+struct SpringWalk {
+    NestedParticle first, second;  // of the spring
+    LineSpring spring;
+    vec3 normal_after;
+    vec2 eliminated;  // the spring after it
+};
+
+void eliminate_between(NestedLine line, inout SpringWalk walk, vec3 normal_before) {
+    float stored = load_tension(line.direction, walk.first.at);
+    walk.eliminated = eliminate_spring(walk.eliminated, normal_before, walk.spring, walk.normal_after,
+                                       walk.first.position.w, walk.second.position.w, share_of(line, walk.first),
+                                       line.compression, line.compliance, tension_in_use(stored, line.per_followed));
+    STORE_TRIPLE(rows_out, walk.first.at, vec3(walk.eliminated, stored), 0.0f);
+}
+
+/// A spring with one before it.
+void eliminate_next(NestedLine line, inout SpringWalk walk) {
+    NestedParticle before = next_particle(line, walk.first, -line.step);
+    LineSpring spring_before = spring_between(line, before, walk.first);
+    eliminate_between(line, walk, spring_before.normal);
+    walk.normal_after = walk.spring.normal;
+    walk.spring = spring_before;
+    walk.second = walk.first;
+    walk.first = before;
+}
+
 void eliminate_line(NestedLine line) {
-    vec3 normal_after = vec3(0.0f, 0.0f, 0.0f);
-    vec2 eliminated = vec2(0.0f, 0.0f);
-    ivec2 back = -line.step;
+    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     NestedParticle second = load_particle(line, line_end(line.index, line.step, line.last + 1, line.columns));
-    NestedParticle first = next_particle(line, second, back);
-    LineSpring spring = spring_between(line, first, second);
-    int e = line.last - 1;  // a box has two columns and rows at least
-    do {
-        NestedParticle before = next_particle(line, first, back);
-        LineSpring spring_before = spring_between(line, before, first);
-        vec3 normal_before = e > 0 ? spring_before.normal : vec3(0.0f, 0.0f, 0.0f);
-        float tension = tension_in_use(load_tension(line.direction, first.at), line.per_followed);
-        eliminated = eliminate_spring(eliminated, normal_before, spring, normal_after, first.position.w,
-                                      second.position.w, share_of(line, first), line.compression, line.compliance,
-                                      tension);
-        STORE_TRIPLE(rows_out, first.at, vec3(eliminated, tension), 0.0f);
-        normal_after = spring.normal;
-        spring = spring_before;
-        second = first;
-        first = before;
-        --e;
-    } while (e >= 0);
+    NestedParticle first = next_particle(line, second, -line.step);
+    SpringWalk walk = SpringWalk(first, second, spring_between(line, first, second), none, vec2(0.0f, 0.0f));
+    IN_PAIRS(line.last - 1, eliminate_next(line, walk))  // a box has two columns and rows at least
+    eliminate_between(line, walk, none);
+}
+
+/// A walk from the line's start on: what is known before a particle is written.
+struct MoveWalk {
+    NestedParticle first;
+    vec3 normal_before;
+    float change_before;
+};
+
+void move(MoveWalk walk, vec3 normal, float change) {
+    vec3 correction = line_correction(walk.normal_before, walk.change_before, normal, change);
+    vec3 moved = moved_by(walk.first.displacement.xyz, correction, walk.first.position.w);
+    STORE_TRIPLE(displacement_out, walk.first.at, moved, walk.first.displacement.w);
+}
+
+/// A particle with a spring after it, and that spring's tension.
+void move_next(NestedLine line, inout MoveWalk walk) {
+    NestedParticle second = next_particle(line, walk.first, line.step);
+    LineSpring spring = spring_between(line, walk.first, second);
+    vec4 row = imageLoad(rows_in, walk.first.at);
+    float change = substitute_spring(row.xy, walk.change_before);
+    move(walk, spring.normal, change);
+    float share = share_of(line, walk.first);
+    float tension = changed_tension(tension_in_use(row.z, line.per_followed), change, share,
+                                    SPRING_COMPLIANCE(line, share));
+    // The spring across the box's seam is not the box's: it keeps what it has.
+    store_tension(line.direction, walk.first.at, share > 0.0f ? stored_tension(tension, line.followed) : row.z);
+    walk.first = second;
+    walk.normal_before = spring.normal;
+    walk.change_before = change;
 }
 
 void substitute_line(NestedLine line) {
-    float change_before = 0.0f;
-    vec3 normal_before = vec3(0.0f, 0.0f, 0.0f);
-    NestedParticle first = load_particle(line, line_start(line.index, line.step));
-    int p = 0;
-    do {
-        bool has_spring = p < line.last;
-        NestedParticle second = next_particle(line, first, line.step);
-        LineSpring spring = spring_between(line, first, second);
-        vec3 normal = has_spring ? spring.normal : vec3(0.0f, 0.0f, 0.0f);
-        vec4 row = imageLoad(rows_in, first.at);
-        float change = substitute_spring(row.xy, change_before);
-        change = has_spring ? change : 0.0f;
-        vec3 correction = line_correction(normal_before, change_before, normal, change);
-        vec3 moved = moved_by(first.displacement.xyz, correction, first.position.w);
-        STORE_TRIPLE(displacement_out, first.at, moved, first.displacement.w);
-        float share = share_of(line, first);
-        float tension = changed_tension(row.z, change, share, SPRING_COMPLIANCE(line, share));
-        // The spring across the box's seam is not the box's.
-        if (has_spring && share > 0.0f) store_tension(line.direction, first.at, stored_tension(tension, line.followed));
-        change_before = change;
-        normal_before = normal;
-        first = second;
-        ++p;
-    } while (p <= line.last);
+    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    MoveWalk walk = MoveWalk(load_particle(line, line_start(line.index, line.step)), none, 0.0f);
+    IN_PAIRS(line.last, move_next(line, walk))
+    move(walk, none, 0.0f);
 }
 
 void sweep_direction(NestedBox box, NestedLine line) {
