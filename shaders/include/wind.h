@@ -22,12 +22,11 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
                                      float lift_coefficient, float area_limit) {
     precise vec3 doubled = ordered_cross(p1 - p0, p2 - p0);
     precise float doubled_squared = ordered_dot(doubled, doubled);
-    if (!(doubled_squared > 0.0f)) return WindForce(vec3(0.0f, 0.0f, 0.0f), 0.0f);
     precise float doubled_area = sqrt(doubled_squared);
     precise float half_doubled = 0.5f * doubled_area;
     precise float area = half_doubled > area_limit ? area_limit : half_doubled;
     precise vec3 relative = wind - velocity;
-    precise vec3 unit = doubled / doubled_area;
+    precise vec3 unit = doubled * reciprocal(doubled_area);
     precise float along = ordered_dot(relative, unit);
     precise vec3 normal = along < 0.0f ? -unit : unit;
     precise float facing = along < 0.0f ? -along : along;
@@ -36,7 +35,9 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
     precise float speed = sqrt(squared);
     precise float resisting = 2.0f * facing <= speed ? 2.0f * speed : squared / facing;
     precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * area;
-    return WindForce(force, drag);
+    // Chosen, not branched on (include/line.h).
+    bool is_one = doubled_squared > 0.0f;
+    return WindForce(is_one ? force : vec3(0.0f, 0.0f, 0.0f), is_one ? drag : 0.0f);
 }
 
 /// What a sum over triangles starts from: -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
@@ -46,11 +47,13 @@ SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 /// One corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
 SHARED WindForce wind_share(vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step, vec3 wind,
                             float drag_coefficient, float lift_coefficient, float area_limit) {
-    precise vec3 velocity = (d0 + d1 + d2) * inverse_step / 3.0f;
+    const float third = 1.0f / 3.0f;
+    precise float third_of_inverse_step = inverse_step * third;
+    precise vec3 velocity = (d0 + d1 + d2) * third_of_inverse_step;
     WindForce on_triangle =
         triangle_wind_force(p0, p1, p2, velocity, wind, drag_coefficient, lift_coefficient, area_limit);
-    precise vec3 force = on_triangle.force / 3.0f;
-    precise float drag = on_triangle.drag * inverse_step / 3.0f;
+    precise vec3 force = on_triangle.force * third;
+    precise float drag = on_triangle.drag * third_of_inverse_step;
     return WindForce(force, drag);
 }
 
@@ -69,10 +72,9 @@ SHARED vec3 add_area_vector(vec3 sum, vec3 p0, vec3 p1, vec3 p2) {
 /// Unit vector, or zero when there is no direction.
 SHARED vec3 unit_or_zero(vec3 v) {
     precise float squared = ordered_dot(v, v);
-    if (!(squared > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
     precise float size = sqrt(squared);
-    precise vec3 unit = v / size;
-    return unit;
+    precise vec3 unit = v * reciprocal(size);
+    return squared > 0.0f ? unit : vec3(0.0f, 0.0f, 0.0f);
 }
 
 #endif
