@@ -64,14 +64,8 @@ SimulationOptions simulation_options(const SceneRequest& request, bool draw, boo
     return options;
 }
 
-namespace {
-
-Validation validation_of(const SceneRequest& request) { return request.validate ? Validation::print : Validation::off; }
-
-}  // namespace
-
 Device device_of(const SceneRequest& request, const SceneDescription& scene, bool draws) {
-    return Device::for_scene(scene, draws, request.device, validation_of(request));
+    return Device::for_scene(scene, draws, request.device, validation_if(request.validate));
 }
 
 const char* program_version() { return DRAPE_VERSION; }
@@ -88,7 +82,7 @@ SceneDescription asked_scene(const SceneRequest& request) { return load(request)
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
-    const Device device(request.device, validation_of(request));  // one graph, on one device
+    const Device device(request.device, validation_if(request.validate));  // one graph, on one device
     return Simulation(scene, simulation_options(request, draw, !draw, !draw), device).describe_plan(format);
 }
 

@@ -89,16 +89,6 @@ std::unique_ptr<graph::RecordedPlan> FrameLoop::recording(const Frame& frame) co
                                                  options_.barrier_filter);
 }
 
-FrameLoop::~FrameLoop() {
-    // The slots wait for what is in flight before the recordings and images go.
-    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot) {
-        try {
-            slots_.wait(slot);
-        } catch (const vulkan::VulkanError&) {  // a lost device has nothing in flight
-        }
-    }
-}
-
 bool FrameLoop::cutters_active_in(std::uint32_t frame) const {
     const double fps = model_.scene.time.fps;
     return cutters_active(model_.scene.cutters, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);

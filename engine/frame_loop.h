@@ -84,7 +84,6 @@ class FrameLoop {
     /// outlive the loop.
     FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
     FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
-    ~FrameLoop();
 
     /// Frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked
     /// before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
@@ -228,7 +227,7 @@ class FrameLoop {
     std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
     std::unique_ptr<graph::ResourcePool> pool_;
-    vulkan::FrameSlots slots_;
+    vulkan::FrameSlots slots_;  ///< goes first: it waits for what is in flight
     std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
     std::uint32_t next_frame_ = 0, next_slot_ = 0;
     std::vector<std::vector<float>> velocities_;  ///< of the frame that is handed out

@@ -78,8 +78,8 @@ Replay replay_capsule(const ReplayRequest& request) {
     };
     FailureCapsule capsule = read_capsule(request.path);
     const LoadedScene scene = load_text(capsule.scene, capsule.scene_text);
-    const Device device = Device::for_scene(scene.description, false, device_for(request, capsule),
-                                            request.validate ? Validation::print : Validation::off);
+    const Device device =
+        Device::for_scene(scene.description, false, device_for(request, capsule), validation_if(request.validate));
     if (const std::string why = difference(capsule, device.info()); !why.empty())
         say("warning: the replay may differ: " + why);
     SimulationOptions options = simulation_options(capsule.scene, false, false, false);

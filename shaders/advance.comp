@@ -6,8 +6,9 @@
 #pragma variants HOME EXCESS BUFFERED
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
+#include "include/push.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { GridPush push; };
+PUSH_CONSTANTS(GridPush)
 #define TOGETHER
 #ifndef HOME
 #define IN_PLACE

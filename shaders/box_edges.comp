@@ -7,12 +7,13 @@
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/box_edges.h"
+#include "include/push.h"
 #include "include/triangles.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const bool again = false;  // the second round
 layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation looks after, 32 at most
-layout(push_constant) uniform Push { CollisionPush push; };
+PUSH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -6,9 +6,10 @@
 #include "shared/closed_loop_types.h"
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { ChangeStepPush push; };
+PUSH_CONSTANTS(ChangeStepPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_remainder;

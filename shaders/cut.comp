@@ -7,9 +7,10 @@
 #include "shared/simulation_types.h"
 #include "shared/cut_types.h"
 #include "include/cut.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { CutPush push; };
+PUSH_CONSTANTS(CutPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D cut_flags;  // 2 texels per cell: upper, lower triangle
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  // per owned spring; -1: not crossed

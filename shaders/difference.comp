@@ -4,9 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/difference.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { GridPush push; };
+PUSH_CONSTANTS(GridPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D coarse_position;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { DifferenceRecord partials[]; };

@@ -8,6 +8,7 @@
 #pragma variants SHADOWED SAMPLED
 #include "shared/raster_types.h"
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/raster_frame.h"
 #ifdef SHADOWED
 #include "include/shadow_map.h"
@@ -18,7 +19,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool has_floor = true;
-layout(push_constant) uniform Push { GridPush push; };  // pixels
+PUSH_CONSTANTS(GridPush)  // pixels
 #include "include/strips.h"
 #ifdef SAMPLED
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2DMS light;

@@ -8,10 +8,11 @@
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/explicit.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
-layout(push_constant) uniform Push { ExplicitPush push; };
+PUSH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/substep_state.h"
 

@@ -13,9 +13,10 @@
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
 #include "include/explicit.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { ExplicitPush push; };
+PUSH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/row_bands.h"
 #include "include/state_store.h"

@@ -8,10 +8,11 @@
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
 #include "include/explicit.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
-layout(push_constant) uniform Push { ExplicitPush push; };
+PUSH_CONSTANTS(ExplicitPush)
 #include "include/state_store.h"
 
 layout(local_size_x = tile_width, local_size_y = tile_width) in;

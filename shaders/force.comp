@@ -5,8 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIND BEFORE BUFFERED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { ForcePush push; };
+PUSH_CONSTANTS(ForcePush)
 #define TOGETHER
 #include "include/strips.h"
 #define IN_PLACE

@@ -4,10 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/residual.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { IterationPush push; };
+PUSH_CONSTANTS(IterationPush)
 layout(set = 0, binding = 0, std430) readonly buffer Partials { ResidualRecord partials[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Sizes { uvec4 sizes[]; };
 layout(set = 0, binding = 2, std430) buffer State { uvec4 state[]; };

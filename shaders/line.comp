@@ -16,9 +16,10 @@
 #include "include/bent_line.h"
 #endif
 #include "include/verlet.h"
+#include "include/push.h"
 
 layout(local_size_x = line_group_width) in;
-layout(push_constant) uniform Push { LinePush push; };
+PUSH_CONSTANTS(LinePush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

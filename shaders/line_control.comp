@@ -3,9 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
 #include "include/bdf2.h"
+#include "include/push.h"
 
 layout(local_size_x = 1) in;
-layout(push_constant) uniform Push { LineControlPush push; };
+PUSH_CONSTANTS(LineControlPush)
 layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D control_in;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D control_out;
 

@@ -8,10 +8,11 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/cyclic.h"
+#include "include/push.h"
 #include "include/verlet.h"
 
 layout(local_size_x = cyclic_least_width, local_size_y = 1, local_size_x_id = 0, local_size_y_id = 1) in;
-layout(push_constant) uniform Push { LinePush push; };
+PUSH_CONSTANTS(LinePush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;

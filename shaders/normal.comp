@@ -4,10 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { GridPush push; };
+PUSH_CONSTANTS(GridPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -2,11 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/vector.h"
 #include "include/pin.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { PinPush push; };
+PUSH_CONSTANTS(PinPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D displacement;
 layout(set = 0, binding = 2, std430) readonly buffer Pins { PinnedParticle pins[]; };

@@ -8,12 +8,13 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/explicit.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/pin.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(push_constant) uniform Push { ReleasePush push; };
+PUSH_CONSTANTS(ReleasePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
 layout(set = 0, binding = 2, std430) readonly buffer Pins { PinnedParticle pins[]; };

@@ -7,8 +7,9 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bdf2.h"
+#include "include/push.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { PredictPush push; };
+PUSH_CONSTANTS(PredictPush)
 #define TOGETHER
 #include "include/strips.h"
 #define IN_PLACE
@@ -22,10 +23,7 @@ layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_
 TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
 
-// Read where nothing has branched yet: in a branch within a loop the default device loads them anew every round, lane
-// by lane (docs/devices.md).
-bool second_order;
-PredictPush constants;
+bool second_order;  // read where nothing has branched yet (docs/devices.md)
 
 void predict(ivec2 texel) {
     vec4 position = LOAD(position_in, texel);
@@ -45,20 +43,19 @@ void predict(ivec2 texel) {
     vec3 increment;
     float loss;
     if (second_order) {
-        vec3 forced = forced_step(constants.gravity_step_bdf2.xyz, force.xyz, position.w, constants.force_step.y);
-        increment = bdf2_increment(displacement, before, excess, excess_before, forced, constants.weight.x,
-                                   constants.weight.y, constants.loss.y);
-        loss = drag_loss(bdf2_drag(force.w), position.w, constants.force_step.y);
+        vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force.xyz, position.w, push.force_step.y);
+        increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x,
+                                   push.weight.y, push.loss.y);
+        loss = drag_loss(bdf2_drag(force.w), position.w, push.force_step.y);
     } else {
-        increment = verlet_increment(displacement, constants.gravity_step.xyz, force.xyz, position.w,
-                                     constants.force_step.x, constants.loss.x);
-        loss = drag_loss(force.w, position.w, constants.force_step.x);
+        increment = verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w,
+                                     push.force_step.x, push.loss.x);
+        loss = drag_loss(force.w, position.w, push.force_step.x);
     }
     step_displacement(texel, moved, increment, loss);
 }
 
 void main() {
     second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
-    constants = push;
     FOR_STRIP(texel, push.grid, predict(texel))
 }

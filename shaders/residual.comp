@@ -4,11 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/residual.h"
 #include "include/spring.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { ResidualPush push; };
+PUSH_CONSTANTS(ResidualPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, r32f) uniform readonly image2D tension_row;

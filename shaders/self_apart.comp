@@ -3,11 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_apart.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, std430) readonly buffer Crossed { SelfCrossed crossed[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Crossings { SelfCrossings crossings[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Led { vec4 led[]; };

@@ -5,12 +5,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 17) const int strip_rows = 1;     // most of a column that an invocation takes in turn
 layout(constant_id = 19) const int strip_columns = 1;  // and of how many of them
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
 layout(set = 0, binding = 5, std430) buffer Cells { ivec2 cells[]; };

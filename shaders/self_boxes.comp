@@ -4,10 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 #include "include/every.h"
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) writeonly buffer Boxes { SelfBox boxes[]; };

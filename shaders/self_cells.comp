@@ -3,10 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/every.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_tree.h"
 layout(set = 0, binding = 1, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"

@@ -4,10 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CROSSED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacements;
 layout(set = 0, binding = 1, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 2, std430) buffer Record { SelfRecord record[]; };

@@ -4,10 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfClothPush push; };
+PUSH_CONSTANTS(SelfClothPush)
 #define STATE_COLUMNS push.columns
 #include "include/state_store.h"
 #include "include/strips.h"

@@ -5,9 +5,10 @@
 #pragma variants BUFFERED
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfClothPush push; };
+PUSH_CONSTANTS(SelfClothPush)
 #define STATE_COLUMNS push.columns
 #include "include/state_store.h"
 #include "include/strips.h"

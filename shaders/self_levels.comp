@@ -3,10 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, std430) buffer Boxes { SelfBox boxes[]; };
 
 /// Box of the nodes below one.

@@ -5,10 +5,11 @@
 #pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/every.h"
+#include "include/push.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 5, std430) buffer Near { uint near[]; };

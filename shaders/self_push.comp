@@ -8,9 +8,10 @@
 #include "include/self_apart.h"
 #endif
 #include "include/self_contact.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfContactPush push; };
+PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"

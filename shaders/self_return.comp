@@ -6,9 +6,10 @@
 #include "shared/line_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SelfClothPush push; };
+PUSH_CONSTANTS(SelfClothPush)
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;

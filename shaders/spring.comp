@@ -5,11 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED TENSION BUFFERED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { SpringPush push; };
+PUSH_CONSTANTS(SpringPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

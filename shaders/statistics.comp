@@ -6,6 +6,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #pragma variants MASKED COLLIDING
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/statistics.h"
 #ifdef COLLIDING
@@ -13,7 +14,7 @@
 #endif
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { StatisticsPush push; };
+PUSH_CONSTANTS(StatisticsPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

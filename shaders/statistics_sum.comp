@@ -2,10 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/statistics.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { StatisticsSumPush push; };
+PUSH_CONSTANTS(StatisticsSumPush)
 layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
 

@@ -23,9 +23,10 @@
 #define BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { SweepPush push; };
+PUSH_CONSTANTS(SweepPush)
 #define TOGETHER
 #include "include/state_store.h"
 

@@ -8,9 +8,10 @@
 #pragma variants MASKED TENSION CARRIED
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { SweepPush push; };
+PUSH_CONSTANTS(SweepPush)
 #include "include/state_store.h"
 
 layout(local_size_x = tile_width, local_size_y = tile_width) in;

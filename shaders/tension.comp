@@ -4,9 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/explicit.h"
+#include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { TensionPush push; };
+PUSH_CONSTANTS(TensionPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

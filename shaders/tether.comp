@@ -6,11 +6,12 @@
 #include "shared/simulation_types.h"
 #include "shared/tether_types.h"
 #include "include/places.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/tether.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { GridPush push; };
+PUSH_CONSTANTS(GridPush)
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

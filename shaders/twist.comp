@@ -7,11 +7,12 @@
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(push_constant) uniform Push { TwistPush push; };
+PUSH_CONSTANTS(TwistPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -12,9 +12,10 @@
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
 #include "include/bend.h"
+#include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-layout(push_constant) uniform Push { TwistSweepPush push; };
+PUSH_CONSTANTS(TwistSweepPush)
 #define TOGETHER
 #include "include/state_store.h"
 

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
+#include "include/push.h"
 #include "include/triangles.h"
 #include "include/wind.h"
 
@@ -14,7 +15,7 @@ layout(constant_id = 0) const bool advance = false;  // the positions still lack
 layout(constant_id = 20) const int strip_rows = 1;   // of an invocation
 layout(constant_id = 21) const int strip_columns = 1;
 const int most_columns = 2;
-layout(push_constant) uniform Push { WindPush push; };
+PUSH_CONSTANTS(WindPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -1,7 +1,8 @@
 // Sweeps over boxes around lone pins: a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
 // pin that has let go is left alone. MASKED: as in line.comp. SHEARED: there are diagonal springs. Whoever includes
 // this defines how the lines of a direction are solved.
-layout(push_constant) uniform Push { NestedPush push; };
+#include "include/push.h"
+PUSH_CONSTANTS(NestedPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform coherent readonly image2D displacement_in;

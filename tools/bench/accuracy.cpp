@@ -228,7 +228,7 @@ AccuracySummary run_accuracy(const AccuracyRequest& request) {
     if (!request.scene.empty()) user = read_user_scene(request.scene, request.overrides, request.frames);
     const CaseFilter filter(request.filter);
     if (!user) planned(filter, all_problems(request.is_short));  // a filter that matches nothing needs no device
-    const Device device(request.device, request.validate ? Validation::print : Validation::off);
+    const Device device(request.device, validation_if(request.validate));
     const auto current = std::make_shared<AccuracyRun*>();
     const std::vector<Problem> problems = problems_of(request, user, device, current);
     std::vector<PlannedSweep> plan = planned(filter, problems);

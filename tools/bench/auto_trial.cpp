@@ -108,7 +108,7 @@ const SceneGenerator* find_generator(const std::string& name) {
 TrialSummary run_trial(const TrialRequest& request) {
     if (!find_generator(request.generator))
         throw UsageError(fmt::format("--generator: expected a or b, got '{}'", request.generator));
-    const Device device(request.device, request.validate ? Validation::print : Validation::off);
+    const Device device(request.device, validation_if(request.validate));
     make_folder(request.folder);
     TrialSummary summary;
     Trial trial(request, device);

@@ -139,9 +139,7 @@ void put_work(const Simulation& simulation, SpeedResult& result) {
 
 const Device& SpeedDevices::of(const SceneDescription& scene, bool draw) {
     std::optional<Device>& device = devices_[{prefers_calling_thread(scene), draw}];
-    if (!device)
-        device =
-            Device::for_scene(scene, draw, request_.device, request_.validate ? Validation::print : Validation::off);
+    if (!device) device = Device::for_scene(scene, draw, request_.device, validation_if(request_.validate));
     return *device;
 }
 

@@ -31,7 +31,7 @@ Parts start(const SpeedCase& speed_case, const BenchRequest& request) {
     };
     const SceneDescription scene = scene_of(speed_case);
     Parts parts{};
-    const Device device(request.device, request.validate ? Validation::print : Validation::off);
+    const Device device(request.device, validation_if(request.validate));
     parts[0] = lap();
     SimulationOptions options;
     options.draw = speed_case.draw;

@@ -84,8 +84,8 @@ class StabilityBench {
         if (device_) validation_count_ += device_->validation_count();
         device_.reset();
         // All its sheets are as small.
-        device_ = std::make_unique<Device>(Device::for_scene(parse_scene(base_scene()), false, request_.device,
-                                                             request_.validate ? Validation::print : Validation::off));
+        device_ = std::make_unique<Device>(
+            Device::for_scene(parse_scene(base_scene()), false, request_.device, validation_if(request_.validate)));
         const DeviceInfo& info = device_->info();
         device_text_ = fmt::format("{} ({} {})", info.name, info.driver, info.driver_version);
         since_renewed_ = 0;

@@ -48,8 +48,8 @@ void describe(const ProfileRequest& request, const Simulation& simulation, const
 
 Profile run_profile(const ProfileRequest& request) {
     const SceneDescription scene = asked_scene(request.scene);
-    const Device device = Device::for_scene(scene, request.draw, request.scene.device,
-                                            request.scene.validate ? Validation::print : Validation::off);
+    const Device device =
+        Device::for_scene(scene, request.draw, request.scene.device, validation_if(request.scene.validate));
     Profile profile;
     profile.copy_bandwidth = device.copy_bandwidth();
     SimulationOptions options;

@@ -90,7 +90,7 @@ class PySimulation {
         wanted.normals = options.normals;
         wanted.keep_promises = !options.keep_failed;
         const py::gil_scoped_release released;
-        device_.emplace(options.device, options.validate ? Validation::print : Validation::off);
+        device_.emplace(options.device, validation_if(options.validate));
         simulation_.emplace(description, wanted, *device_);
     }
 

@@ -21,6 +21,8 @@ struct DeviceInfo {
 
 /// Core and synchronization validation by the Khronos layer, which must be installed.
 enum class Validation { off, count, print };  ///< print: each message on stderr, too
+/// What a program's --validate asks for.
+constexpr Validation validation_if(bool asked) { return asked ? Validation::print : Validation::off; }
 
 struct SceneDescription;
 
