@@ -233,14 +233,12 @@ SHARED float self_singular_value(vec3 first, vec3 second) {
 SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatch x, SelfPatch motions) {
     precise vec3 along = (x.right - x.left) * 0.5f;
     precise vec3 across = (x.down - x.up) * 0.5f;
-    precise vec3 first = along / cloth.spacing.x;
-    precise vec3 second = across / cloth.spacing.y;
+    precise vec3 first = along * reciprocal(cloth.spacing.x);
+    precise vec3 second = across * reciprocal(cloth.spacing.y);
     float singular = self_singular_value(first, second);
-    // Pairs farther apart keep more, but no more than half of their distance.
-    if (!(singular > 0.5f)) return false;
     vec3 normal = ordered_cross(first, second);
     precise float area = sqrt(self_squared(normal));
-    precise vec3 unit = normal / area;
+    precise vec3 unit = normal * reciprocal(area);
     float doubt = self_doubt(self_largest(
         self_largest(self_largest_coordinate(x.middle), self_largest_coordinate(x.up_left)),
         self_largest(self_largest_coordinate(x.down_right),
@@ -251,7 +249,8 @@ SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatc
     float listed = self_largest(self_least(cloth.thickness, half_flat), slack);
     precise float distance = singular * cloth.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
     precise float needed = ((listed + within * 2.002f) + doubt * 4.0f) + push.least;
-    return distance > needed;
+    // Pairs farther apart keep more, but no more than half of their distance.
+    return singular > 0.5f && distance > needed;
 }
 
 /// Of a place on the sheet where no cloth is: near nothing.
@@ -301,7 +300,7 @@ SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, floa
     precise float sliding = sqrt(ordered_dot(tangent, tangent));
     precise float grip = friction * depth;
     precise float kept = sliding > grip ? grip / sliding : 1.0f;
-    precise vec3 impulse = (gap.normal * depth - tangent * kept) / mass;
+    precise vec3 impulse = (gap.normal * depth - tangent * kept) * reciprocal(mass);
     return gap.distance > 1.0e-12f && depth > 0.0f && mass > 0.0f ? impulse : nothing;
 }
 
@@ -432,7 +431,7 @@ SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, ve
     precise vec3 up = right - below;
     vec3 across = ordered_cross(down, up);
     precise float area = sqrt(self_squared(across));
-    precise vec3 unit = across / area;
+    precise vec3 unit = across * reciprocal(area);
     return exists && area > 1.0e-15f ? unit : vec3(0.0f, 0.0f, 0.0f);
 }
 

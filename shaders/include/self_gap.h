@@ -42,8 +42,9 @@ SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     precise float vb = d5 * d2 - d1 * d6;
     precise float va = d3 * d6 - d5 * d4;
     precise float area = (va + vb) + vc;
-    precise float v = vb / area;
-    precise float w = vc / area;
+    float per_area = reciprocal(area);
+    precise float v = vb * per_area;
+    precise float w = vc * per_area;
     precise float u = (1.0f - v) - w;
     precise float length_ab = d1 - d3;
     precise float length_ac = d2 - d6;
@@ -136,7 +137,7 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     float doubt =
         self_doubt(self_largest(self_largest(self_largest_coordinate(corners.a), self_largest_coordinate(corners.b)),
                                 self_largest(self_largest_coordinate(corners.c), self_largest_coordinate(corners.d))));
-    precise vec3 direction = across / distance;
+    precise vec3 direction = across * reciprocal(distance);
     vec3 normal = distance > 1.0e-12f ? direction : vec3(0.0f, 0.0f, 0.0f);
     return self_gap_along(edges, x, normal, weights, distance, doubt);
 }
@@ -173,7 +174,7 @@ SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
     vec3 square = self_without(self_without(gap.normal, first), second);
     square = self_without(self_without(square, first), second);
     precise float length = sqrt(ordered_dot(square, square));
-    precise vec3 unit = square / length;
+    precise vec3 unit = square * reciprocal(length);
     vec3 normal = length > 1.0e-4f ? unit : gap.normal;
     SelfGap squared = self_gap_along(edges, x, normal, g, gap.distance, gap.doubt);
     if (squared.apart > gap.apart) return squared;

@@ -88,13 +88,13 @@ SHARED SelfPlay self_play(SelfColumns x, SelfColumns motions, vec3 normal) {
 
 /// Whether two cells apart by so much along some direction hold no pair that is listed. The line between nearest points
 /// is at least that long; its normal leans out of the patch's plane by height / apart at most, so corners come nearer
-/// along it by no more than what they move in the plane, and that share of what they move across it.
+/// along it by no more than what they move in the plane, and that share of what they move across it:
+///   apart > kept + 2 (within + across min(1, height / apart)), both sides times `apart`, so that nothing is divided.
 SHARED bool self_clear(float apart, SelfPlay play, float kept) {
-    float leaning = self_limited(self_ratio(play.height, apart));
-    precise float approach = (play.within + play.across * leaning) * 2.002f;
-    precise float needed = kept + approach;
-    precise float surely = apart * 0.999f;
-    return surely > needed;
+    precise float left = (apart * 0.999f - kept) - play.within * 2.002f;
+    precise float leaning = (play.across * 2.002f) * self_least(apart, play.height);
+    precise float surely = left * apart;
+    return apart > 0.0f && left > 0.0f && surely > leaning;
 }
 
 /// How far two groups are apart of which one reaches as far as a or b, the other begins at c or d.
