@@ -55,6 +55,7 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
     std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
     slots_.submit(slot, all);
+    if (options_.meanwhile) options_.meanwhile();
 }
 
 FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t substeps) {

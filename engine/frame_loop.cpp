@@ -192,6 +192,7 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
     slots_.submit(slot, commands);
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
+    if (has.simulates && options_.meanwhile) options_.meanwhile();
 }
 
 void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record) {

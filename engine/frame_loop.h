@@ -46,6 +46,7 @@ struct FrameLoopOptions {
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
     /// Told of every cut, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
+    std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 

@@ -7,8 +7,23 @@
 
 namespace drape {
 
+namespace {
+
+/// Frames that may wait for their pictures: a probe's and some. Where cloth is cut no more than are in flight: a cut
+/// asks for the pictures of all before it.
+std::size_t most_pending(const SimulationModel& model) {
+    return model.scene.cutters.empty() ? 16 : vulkan::frame_slot_count;
+}
+
+}  // namespace
+
 Pictures::Pictures(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
-    : device_(device), model_(model), options_(options), solver_(device, model, Schedule::images), slots_(device) {
+    : device_(device),
+      model_(model),
+      options_(options),
+      solver_(device, model, Schedule::images),
+      slots_(device),
+      most_pending_(most_pending(model)) {
     build();
     allocate();
 }
@@ -37,12 +52,12 @@ void Pictures::record() {
 }
 
 void Pictures::follow(const std::vector<CutTopology>& topologies) {
-    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot) {
-        if (!pending_[slot] || pending_[slot]->has_picture) continue;
-        PendingPicture kept;  // the slot's buffer may go
-        kept.frame.keep(drawn(slot));
-        kept.has_picture = true;
-        pending_[slot] = std::move(kept);
+    for (PendingPicture& picture : pending_) {
+        if (picture.has_picture) continue;
+        if (!picture.slot) begin(picture, *free_slot());  // those before it have left theirs
+        FrameCopy kept;                                   // the slot's buffer may go
+        kept.keep(drawn(picture));
+        picture = {std::move(kept), {}, true};
     }
     bool new_resources = false;
     std::vector<CutImages> before;
@@ -58,10 +73,15 @@ void Pictures::follow(const std::vector<CutTopology>& topologies) {
     record();
 }
 
-void Pictures::draw(const FinishedFrame& frame, const Finished& finished) {
-    const std::uint32_t slot = next_slot_;
-    deliver(slot, finished);
-    next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
+std::optional<std::uint32_t> Pictures::free_slot() const {
+    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
+        if (std::ranges::none_of(pending_, [&](const PendingPicture& picture) { return picture.slot == slot; }))
+            return slot;
+    return {};
+}
+
+void Pictures::begin(PendingPicture& picture, std::uint32_t slot) {
+    const FinishedFrame& frame = picture.frame.frame();
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const std::span<const std::byte> bytes = std::as_bytes(frame.positions[cloth]);
         std::memcpy(pool_->buffer(position_upload_name(model_.cloths[cloth]), slot).mapped().data(), bytes.data(),
@@ -69,14 +89,23 @@ void Pictures::draw(const FinishedFrame& frame, const Finished& finished) {
     }
     raster_->write_frame(*pool_, slot, frame.frame / model_.scene.time.fps);
     slots_.submit(slot, recorded_->commands(slot));
-    FinishedFrame kept = frame;
-    if (!options_.positions) kept.positions.clear();
-    pending_[slot].emplace().frame.keep(kept);
+    picture.slot = slot;
 }
 
-FinishedFrame Pictures::drawn(std::uint32_t slot) {
+void Pictures::begin_waiting() {
+    for (PendingPicture& picture : pending_) {
+        if (picture.slot || picture.has_picture) continue;
+        const auto slot = free_slot();
+        if (!slot) return;
+        begin(picture, *slot);
+    }
+}
+
+FinishedFrame Pictures::drawn(const PendingPicture& picture) {
+    const std::uint32_t slot = *picture.slot;
     slots_.wait(slot);
-    FinishedFrame frame = pending_[slot]->frame.frame();
+    FinishedFrame frame = picture.frame.frame();
+    if (!options_.positions) frame.positions.clear();
     for (graph::Timing& timing : recorded_->timings(slot))
         frame.timings.push_back({std::move(timing.name), timing.milliseconds});
     const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
@@ -85,17 +114,40 @@ FinishedFrame Pictures::drawn(std::uint32_t slot) {
     return frame;
 }
 
-void Pictures::deliver(std::uint32_t slot, const Finished& finished) {
-    if (!pending_[slot]) return;
-    const FinishedFrame frame = pending_[slot]->has_picture ? pending_[slot]->frame.frame() : drawn(slot);
-    const PendingPicture done = std::move(*pending_[slot]);  // what the frame's spans are of
-    pending_[slot].reset();
+bool Pictures::is_there(const PendingPicture& picture) const {
+    return picture.has_picture || (picture.slot && slots_.is_done(*picture.slot));
+}
+
+void Pictures::deliver(const Finished& finished) {
+    const PendingPicture& first = pending_.front();
+    const FinishedFrame frame = first.has_picture ? first.frame.frame() : drawn(first);
+    const PendingPicture done = std::move(pending_.front());  // what the frame's spans are of
+    pending_.pop_front();
     finished(frame);
 }
 
+void Pictures::draw(const FinishedFrame& frame, const Finished& finished) {
+    pending_.emplace_back().frame.keep(frame);
+    go_on(finished);
+    while (pending_.size() > most_pending_) {
+        deliver(finished);
+        begin_waiting();
+    }
+}
+
+void Pictures::go_on(const Finished& finished) {
+    begin_waiting();
+    while (!pending_.empty() && is_there(pending_.front())) {
+        deliver(finished);
+        begin_waiting();
+    }
+}
+
 void Pictures::flush(const Finished& finished) {
-    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
-        deliver((next_slot_ + slot) % vulkan::frame_slot_count, finished);
+    while (!pending_.empty()) {
+        begin_waiting();
+        deliver(finished);
+    }
 }
 
 }  // namespace drape

@@ -2,7 +2,7 @@
 // positions alone: the normals, and what cuts left to draw, it makes as the simulating device would.
 #pragma once
 
-#include <array>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,10 +13,11 @@
 
 namespace drape {
 
-/// A frame whose picture is being drawn.
+/// A frame whose picture waits to be drawn, is being drawn, or is there.
 struct PendingPicture {
     FrameCopy frame;
-    bool has_picture = false;  ///< the copy has it
+    std::optional<std::uint32_t> slot;  ///< that draws it
+    bool has_picture = false;           ///< the copy has it
 };
 
 class Pictures {
@@ -26,10 +27,13 @@ class Pictures {
     /// Of `options`, what is said of pictures. `device` and `model` must outlive it.
     Pictures(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
 
-    /// Takes a frame that has positions. A later `draw` or `flush` gives it to `finished` with its picture, in order,
-    /// and with positions only where the options want them.
+    /// Takes a frame that has positions. It is given to `finished` with its picture, in order, by a later call of any
+    /// of these three, and with positions only where the options want them. Waits for a picture only where more frames
+    /// wait than may: those of a probe come all at once, and are to be drawn while the next ones are simulated.
     void draw(const FinishedFrame& frame, const Finished& finished);
-    /// Gives those that are not given yet.
+    /// Gives those whose pictures are there and begins to draw others. Waits for none.
+    void go_on(const Finished& finished);
+    /// Gives all that are not given yet.
     void flush(const Finished& finished);
     /// The next frames are of cloth that was cut like this.
     void follow(const std::vector<CutTopology>& topologies);
@@ -41,9 +45,15 @@ class Pictures {
     void build();
     void allocate();
     void record();
-    /// The slot's frame, drawn; the picture lies in the slot's buffer.
-    FinishedFrame drawn(std::uint32_t slot);
-    void deliver(std::uint32_t slot, const Finished& finished);
+    std::optional<std::uint32_t> free_slot() const;
+    /// As many of those that wait as there are slots.
+    void begin_waiting();
+    void begin(PendingPicture& picture, std::uint32_t slot);
+    /// The frame of a slot, drawn; the picture lies in the slot's buffer.
+    FinishedFrame drawn(const PendingPicture& picture);
+    bool is_there(const PendingPicture& picture) const;
+    /// Gives the first one.
+    void deliver(const Finished& finished);
 
     const vulkan::Device& device_;
     const SimulationModel& model_;
@@ -55,8 +65,8 @@ class Pictures {
     std::unique_ptr<graph::ResourcePool> pool_;
     std::unique_ptr<graph::RecordedPlan> recorded_;
     vulkan::FrameSlots slots_;  ///< goes, and waits for what is in flight, before what that uses
-    std::array<std::optional<PendingPicture>, vulkan::frame_slot_count> pending_;
-    std::uint32_t next_slot_ = 0;
+    std::size_t most_pending_;
+    std::deque<PendingPicture> pending_;  ///< in order
 };
 
 }  // namespace drape

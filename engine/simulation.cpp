@@ -182,6 +182,9 @@ struct Simulation::Parts {
         FrameLoopOptions options = asked;
         options.draw = false;
         options.draws_beside = options.positions = true;
+        options.meanwhile = [this] {
+            if (give) pictures->go_on(give);
+        };
         options.on_cut = [this](const CutEvent& event, const CutTopology& topology) {
             pictures->follow(loop.topologies());
             if (asked.on_cut) asked.on_cut(event, topology);
@@ -208,6 +211,7 @@ struct Simulation::Parts {
     FrameLoopOptions asked;
     FrameLoop loop;
     std::unique_ptr<Pictures> pictures;  ///< where a device of their own draws them
+    Pictures::Finished give;             ///< to the caller, while one runs the simulation
     FrameCopy kept;
 };
 
@@ -234,6 +238,11 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         finished(frame);
         giving = false;
     };
+    struct Given {
+        Pictures::Finished& give;
+        ~Given() { give = nullptr; }
+    } const given{parts_->give};
+    given.give = give;
     const auto hand_out = [&](const FinishedFrame& frame) {
         return pictures ? pictures->draw(frame, give) : finished(frame);
     };

@@ -1,6 +1,7 @@
 #include "graph/executor.h"
 
-#include <fmt/core.h>
+#include <algorithm>
+#include <cstring>
 
 #include "vulkan/api.h"
 #include "vulkan/structure.h"
@@ -22,8 +23,9 @@ class Recorder {
             vkGetInstanceProcAddr(instance, "vkCmdEndDebugUtilsLabelEXT"));
     }
 
-    /// `bracket_begins`: positions of passes, ascending, before which a timestamp is written.
-    void record(VkCommandBuffer commands, std::uint32_t slot, VkQueryPool queries,
+    /// `bracket_begins`: positions of passes, ascending, before which a timestamp is written; `ticks`: where all end
+    /// up.
+    void record(VkCommandBuffer commands, std::uint32_t slot, VkQueryPool queries, const vulkan::Buffer* ticks,
                 std::span<const std::uint32_t> bracket_begins) const {
         auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
         vulkan::check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
@@ -38,6 +40,7 @@ class Recorder {
         }
         emit(commands, plan_.final_barriers);
         write_timestamp(commands, queries, query);
+        if (queries) copy_timestamps(commands, queries, query_count, *ticks);
         vulkan::check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
     }
 
@@ -67,6 +70,23 @@ class Recorder {
 
     static void write_timestamp(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t query) {
         if (queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query);
+    }
+
+    /// The device copies them, since a host that asks the default device for them waits until it has nothing left to do
+    /// (docs/devices.md).
+    static void copy_timestamps(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t count,
+                                const vulkan::Buffer& ticks) {
+        vkCmdCopyQueryPoolResults(commands, queries, 0, count, ticks.handle(), 0, sizeof(std::uint64_t),
+                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        auto memory = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+        memory.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+        memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &memory;
+        vkCmdPipelineBarrier2(commands, &dependency);
     }
 
     /// One command for all: layout changes as image barriers, the rest merged into one memory barrier.
@@ -122,7 +142,8 @@ RecordedPlan::RecordedPlan(const Graph& graph, const Plan& plan, const ResourceP
     make_pools();
     const Recorder recorder(graph, plan, pool, keep);
     for (std::uint32_t slot = 0; slot < commands_.size(); ++slot) {
-        recorder.record(commands_[slot], slot, queries_[slot], bracket_begins_);
+        recorder.record(commands_[slot], slot, queries_[slot], ticks_.empty() ? nullptr : &ticks_[slot],
+                        bracket_begins_);
     }
 }
 
@@ -162,22 +183,19 @@ void RecordedPlan::make_pools() {
     queries.queryCount = static_cast<std::uint32_t>(brackets_.size() + 1);
     for (VkQueryPool& slot : queries_) {
         vulkan::create_handle(vkCreateQueryPool, device_.handle(), queries, slot, "vkCreateQueryPool", "plan");
+        const vulkan::Buffer& ticks = ticks_.emplace_back(
+            device_, vulkan::BufferDescription{"timestamps", queries.queryCount * sizeof(std::uint64_t),
+                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::BufferHome::readback});
+        std::ranges::fill(ticks.mapped(), std::byte{0});
     }
-    // So that asking before the first submit is allowed, and answers "not ready".
-    device_.run_once([&](VkCommandBuffer commands) {
-        for (const VkQueryPool slot : queries_) vkCmdResetQueryPool(commands, slot, 0, queries.queryCount);
-    });
 }
 
 std::vector<Timing> RecordedPlan::timings(std::uint32_t slot) const {
     std::vector<Timing> timings;
     if (brackets_.empty()) return timings;
     std::vector<std::uint64_t> ticks(brackets_.size() + 1);
-    const VkResult result = vkGetQueryPoolResults(
-        device_.handle(), queries_[slot], 0, static_cast<std::uint32_t>(ticks.size()),
-        ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT);
-    if (result == VK_NOT_READY) return timings;
-    vulkan::check(result, "vkGetQueryPoolResults", "plan");
+    std::memcpy(ticks.data(), ticks_[slot].mapped().data(), std::span(ticks).size_bytes());
+    if (ticks.back() == 0) return timings;  // never submitted
     const std::uint32_t bits = device_.timestamp_valid_bits();
     const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     const double milliseconds_per_tick = static_cast<double>(device_.limits().timestampPeriod) * 1e-6;

@@ -147,7 +147,8 @@ class RecordedPlan {
 
     VkCommandBuffer commands(std::uint32_t slot) const { return commands_[slot]; }
     /// Of the slot's last finished submit, in order, summed by name (stages) or by label (passes). Masked by
-    /// timestampValidBits, times timestampPeriod in double; empty when the device has no timestamps.
+    /// timestampValidBits, times timestampPeriod in double; empty when the device has no timestamps, and before the
+    /// first submit.
     std::vector<Timing> timings(std::uint32_t slot) const;
 
   private:
@@ -161,6 +162,7 @@ class RecordedPlan {
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
     std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};
+    std::vector<vulkan::Buffer> ticks_;  ///< by slot: what its queries found, all 0 before its first submit
     /// Name, first and last query; neighbours share one. Each begins with the pass of the same place in
     /// bracket_begins_.
     std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;

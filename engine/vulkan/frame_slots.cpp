@@ -36,6 +36,13 @@ void FrameSlots::wait(std::uint32_t slot) {
     pending_[slot] = false;
 }
 
+bool FrameSlots::is_done(std::uint32_t slot) const {
+    if (!pending_[slot]) return true;
+    const VkResult status = vkGetFenceStatus(device_.handle(), fences_[slot]);
+    if (status != VK_NOT_READY) check(status, "vkGetFenceStatus", fmt::format("frame slot {}", slot));
+    return status == VK_SUCCESS;
+}
+
 void FrameSlots::submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands) {
     const std::string object = fmt::format("frame slot {}", slot);
     if (pending_[slot]) throw VulkanError(object + " was submitted again before it was waited for");

@@ -22,6 +22,8 @@ class FrameSlots {
     /// Blocks until the last submit of the slot has finished (at once when there was none). Throws
     /// VulkanError on device loss.
     void wait(std::uint32_t slot);
+    /// Whether `wait` would return at once. Throws likewise.
+    bool is_done(std::uint32_t slot) const;
     /// Throws VulkanError when the slot's last submit was not waited for.
     void submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands);
     void submit(std::uint32_t slot, VkCommandBuffer commands) { submit(slot, std::span(&commands, 1)); }

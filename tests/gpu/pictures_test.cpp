@@ -158,6 +158,20 @@ TEST_F(PicturesTest, OfClothsThatAreSimulatedTogether) {
     compare(pictures_of());
 }
 
+/// Frames in which cloth sleeps come in sooner than their pictures can be drawn, and more of them than may wait.
+TEST_F(PicturesTest, OfClothThatSleeps) {
+    open(R"({"time": {"fps": 60, "frames": 161}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"grid": [8, 9], "size": [0.3, 0.4], "placement": {"origin": [0, 1, 0]}, "areal_density": 0.2, "damping": 4,
+              "pins": [{"edge": "top"}]}],
+  "colliders": {"spheres": [{"center": [0.1, 0.8, 1], "radius": 0.1,
+                             "path": [{"t": 0}, {"t": 0.3, "translate": [0.2, 0, 0]}]}]}})");
+    compare(pictures_of());
+    Simulation simulation(scene_, pictures_of(), *beside_);
+    std::uint32_t asleep = 0;
+    simulation.run(160, every_frame, [&](const FinishedFrame& frame) { asleep += frame.effort.asleep ? 1 : 0; });
+    EXPECT_GT(asleep, 24u);
+}
+
 TEST_F(PicturesTest, OfSomeFramesWithArrays) {
     open(colliding_scene);
     SimulationOptions options = pictures_of();

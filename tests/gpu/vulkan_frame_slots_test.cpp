@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "gpu_test.h"
 #include "vulkan/api.h"
@@ -88,6 +90,21 @@ TEST(VulkanFrameSlots, waiting_for_a_slot_never_submitted_returns_at_once) {
     FrameSlots slots(gpu().device);
     EXPECT_FALSE(slots.pending(0));
     EXPECT_NO_THROW(slots.wait(0));
+}
+
+TEST(VulkanFrameSlots, a_slot_that_is_done_has_done_its_work) {
+    Fills fills;
+    FrameSlots slots(gpu().device);
+    EXPECT_TRUE(slots.is_done(0)) << "never submitted";
+    fills.word(0) = 0;
+    slots.submit(0, fills.commands(0));
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!slots.is_done(0) && std::chrono::steady_clock::now() < last) std::this_thread::yield();
+    ASSERT_TRUE(slots.is_done(0));
+    EXPECT_EQ(fills.word(0), 100u);
+    EXPECT_TRUE(slots.pending(0)) << "only wait() takes note";
+    slots.wait(0);
+    EXPECT_NO_THROW(slots.submit(0, fills.commands(0)));
 }
 
 TEST(VulkanFrameSlots, a_slot_in_flight_is_not_submitted_again) {
