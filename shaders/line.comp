@@ -49,6 +49,8 @@ layout(constant_id = 0) const bool first_iteration = true;  // both systems; lat
 
 #include "include/line_particles.h"
 
+const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // edge or normal of the spring that a line's end lacks
+
 /// Where the scratch of a particle is: what a subgroup stores at a time lies side by side.
 int place(Line line, int p) {
     int group = int(gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x);
@@ -154,7 +156,6 @@ void eliminate_next(Line line, inout ParticleWalk walk) {
 
 /// The first system, from the line's start on.
 void eliminate_particles(Line line) {
-    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     ParticleWalk walk =
         ParticleWalk(0, load_particle(line_start(line.index, line.step)), unmoved_start(), none, 0.0f);
     IN_PAIRS(line.last, eliminate_next(line, walk))
@@ -217,7 +218,6 @@ void eliminate_next(Line line, inout SpringWalk walk) {
 /// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C - T| that it
 /// meets.
 float eliminate_springs(Line line) {
-    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec3 turn = none;
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
     vec3 delta = delta_of(line, line.last, none, turn);
@@ -271,7 +271,6 @@ void move_next(Line line, inout MoveWalk walk) {
 
 /// From the line's start on: substitutes in the second system.
 void substitute_springs(Line line) {
-    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     LineParticle first = load_particle(line_start(line.index, line.step));
     vec4 delta = load_first(line, 0);
     MoveWalk walk = MoveWalk(0, first, delta, filtered(first, delta.xyz), none, 0.0f);

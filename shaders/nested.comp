@@ -17,6 +17,8 @@ layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
 layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D rows_in;
 coherent TRIPLE_OUT(5, RowsOut, rows_out);
 
+const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // normal of the spring that a line's end lacks
+
 /// A walk from the line's end back: what is known before a spring is eliminated.
 struct SpringWalk {
     NestedParticle first, second;  // of the spring
@@ -45,7 +47,6 @@ void eliminate_next(NestedLine line, inout SpringWalk walk) {
 }
 
 void eliminate_line(NestedLine line) {
-    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     NestedParticle second = load_particle(line, line_end(line.index, line.step, line.last + 1, line.columns));
     NestedParticle first = next_particle(line, second, -line.step);
     SpringWalk walk = SpringWalk(first, second, spring_between(line, first, second), none, vec2(0.0f, 0.0f));
@@ -84,7 +85,6 @@ void move_next(NestedLine line, inout MoveWalk walk) {
 }
 
 void substitute_line(NestedLine line) {
-    const vec3 none = vec3(0.0f, 0.0f, 0.0f);
     MoveWalk walk = MoveWalk(load_particle(line, line_start(line.index, line.step)), none, 0.0f);
     IN_PAIRS(line.last, move_next(line, walk))
     move(walk, none, 0.0f);

@@ -44,12 +44,12 @@ void predict(ivec2 texel) {
     float loss;
     if (second_order) {
         vec3 forced = forced_step(push.gravity_step_bdf2.xyz, force.xyz, position.w, push.force_step.y);
-        increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x,
-                                   push.weight.y, push.loss.y);
+        increment = bdf2_increment(displacement, before, excess, excess_before, forced, push.weight.x, push.weight.y,
+                                   push.loss.y);
         loss = drag_loss(bdf2_drag(force.w), position.w, push.force_step.y);
     } else {
-        increment = verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w,
-                                     push.force_step.x, push.loss.x);
+        increment = verlet_increment(displacement, push.gravity_step.xyz, force.xyz, position.w, push.force_step.x,
+                                     push.loss.x);
         loss = drag_loss(force.w, position.w, push.force_step.x);
     }
     step_displacement(texel, moved, increment, loss);

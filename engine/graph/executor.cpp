@@ -83,9 +83,16 @@ class Recorder {
         memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
         memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
         memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        depend(commands, memory, {});
+    }
+
+    static void depend(VkCommandBuffer commands, const VkMemoryBarrier2& memory,
+                       const std::vector<VkImageMemoryBarrier2>& images) {
         auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.memoryBarrierCount = 1;
+        dependency.memoryBarrierCount = memory.dstStageMask != 0 ? 1 : 0;
         dependency.pMemoryBarriers = &memory;
+        dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
+        dependency.pImageMemoryBarriers = images.data();
         vkCmdPipelineBarrier2(commands, &dependency);
     }
 
@@ -104,12 +111,7 @@ class Recorder {
             memory.dstStageMask |= barrier.destination_stages;
             memory.dstAccessMask |= barrier.destination_accesses;
         }
-        auto dependency = structure<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.memoryBarrierCount = memory.dstStageMask != 0 ? 1 : 0;
-        dependency.pMemoryBarriers = &memory;
-        dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
-        dependency.pImageMemoryBarriers = images.data();
-        vkCmdPipelineBarrier2(commands, &dependency);
+        depend(commands, memory, images);
     }
 
     VkImageMemoryBarrier2 layout_change(const Barrier& barrier) const {
