@@ -9,10 +9,14 @@ namespace drape {
 
 namespace {
 
-/// Frames that may wait for their pictures: a probe's and some. Where cloth is cut no more than are in flight: a cut
-/// asks for the pictures of all before it.
+/// Frames that may wait for their pictures: a probe's and some, as long as their positions take no more than 64 MiB.
+/// Where cloth is cut no more than are in flight: a cut asks for the pictures of all before it.
 std::size_t most_pending(const SimulationModel& model) {
-    return model.scene.cutters.empty() ? 16 : vulkan::frame_slot_count;
+    constexpr std::size_t most = 16, most_bytes = std::size_t{64} << 20;
+    if (!model.scene.cutters.empty()) return vulkan::frame_slot_count;
+    std::size_t bytes = 0;
+    for (const ClothModel& cloth : model.cloths) bytes += cloth.grid.particle_count() * sizeof(float[4]);
+    return std::clamp<std::size_t>(most_bytes / bytes, vulkan::frame_slot_count, most);
 }
 
 }  // namespace

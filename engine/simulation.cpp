@@ -53,8 +53,8 @@ bool prefers_calling_thread(const SceneDescription& scene) {
 Device Device::for_scene(const SceneDescription& scene, bool draws, const std::string& selector,
                          Validation validation) {
     constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads it when a device is looked for
-    if (std::getenv(variable) || !prefers_calling_thread(scene)) return Device(selector, validation);
-    setenv(variable, "0", 0);
+    if (std::getenv(variable)) return Device(selector, validation);
+    if (prefers_calling_thread(scene)) setenv(variable, "0", 0);
     std::optional<Device> device;
     try {
         device.emplace(selector, validation);

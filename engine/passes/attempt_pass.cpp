@@ -72,7 +72,7 @@ void add_remember(graph::Graph& graph, ClothState& state) {
     add_copies(graph, state, "remember", copies);
 }
 
-void add_change_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_change_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                      std::size_t cloth) {
     const bool second_order = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
@@ -98,7 +98,7 @@ void add_change_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         });
 }
 
-void add_compare(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
+void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const Grid& grid = state.model->grid;
     const graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
         difference_readback_name(*state.model), difference_count(grid), graph::Lifetime::host_output);
@@ -122,7 +122,7 @@ void add_compare(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
 
 std::string difference_readback_name(const ClothModel& cloth) { return cloth.name + "/differences on the host"; }
 
-void add_attempt(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                  std::size_t cloth, AttemptStep step) {
     switch (step) {
         case AttemptStep::keep:

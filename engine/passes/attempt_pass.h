@@ -18,7 +18,7 @@ inline constexpr std::size_t attempt_step_count = 5;
 inline constexpr const char* attempt_name = "attempt";
 std::string difference_readback_name(const ClothModel& cloth);
 
-void add_attempt(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                  std::size_t cloth, AttemptStep step);
 
 }  // namespace drape

@@ -27,7 +27,7 @@ void add_elements(graph::Graph& graph, const vulkan::ComputePipeline& pipeline, 
 
 }  // namespace
 
-void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_bend(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::BendPush>();
     const std::string name =
         fmt::format("bend {} {}", bend_axes[static_cast<std::size_t>(push.channel)].name, push.colour);
@@ -37,7 +37,7 @@ void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, 
         state, step, name, push, false);
 }
 
-void add_twist(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_twist(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::TwistPush>();
     const std::string name = fmt::format("twist {} {}", push.first.x, push.first.y);
     const bool second_order = state.model->plan.second_order;

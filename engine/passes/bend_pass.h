@@ -6,7 +6,7 @@
 namespace drape {
 
 /// Both read position [, spring shares], read and write displacement.
-void add_bend(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
-void add_twist(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_bend(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
+void add_twist(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

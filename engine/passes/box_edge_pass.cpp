@@ -17,7 +17,7 @@ std::size_t rounds_each(const SimulationModel& model) {
 
 }  // namespace
 
-void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_box_edges(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step) {
     // The boxes are between the two ends.
     std::vector<vulkan::SpecializationConstant> ends = collider_constants(model.scene);

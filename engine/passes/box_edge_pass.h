@@ -5,7 +5,7 @@
 
 namespace drape {
 
-void add_box_edges(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_box_edges(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step);
 
 }  // namespace drape

@@ -7,7 +7,7 @@ namespace drape {
 
 namespace {
 
-void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_residual(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("residual.comp", {{"masked", state.masked()}}));
     const glsl::ResidualPush push = state.model->residual;
@@ -30,7 +30,7 @@ void add_residual(graph::Graph& graph, PipelineCache& pipelines, ClothState& sta
 
 }  // namespace
 
-void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SimulationModel& model,
+void add_check(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SimulationModel& model,
                const Step& step) {
     add_residual(graph, pipelines, state, step);
     const vulkan::ComputePipeline& pipeline = pipelines.get("iteration_decision.comp");

@@ -7,7 +7,7 @@ namespace drape {
 
 /// Reads position, displacement, tension of the stretch springs and stiffness where the cloth has it; writes the sizes
 /// of the next iteration's dispatches (StepDispatch).
-void add_check(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SimulationModel& model,
+void add_check(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SimulationModel& model,
                const Step& step);
 
 /// Copies the number of iterations that the frame has run to the host.

@@ -134,7 +134,7 @@ class ClothSolver {
     const SimulationModel* run_;  ///< of the graph being built
     Schedule schedule_;
     std::vector<CutTopology> topologies_;
-    PipelineCache pipelines_;
+    Pipelines pipelines_;
     /// Per cloth; the same in the graph of every kind of frame.
     std::vector<std::shared_ptr<std::vector<glsl::uvec4>>> iteration_sizes_;
     std::vector<ClothState> cloths_;

@@ -19,7 +19,7 @@ std::size_t rounds_each(const SimulationModel& model) {
 
 }  // namespace
 
-void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_collision(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step) {
     std::vector<vulkan::SpecializationConstant> constants = collider_constants(model.scene);
     constants.push_back({"round_count", model.collision_rounds()});

@@ -6,7 +6,7 @@
 namespace drape {
 
 /// Reads position and the colliders, reads and writes displacement.
-void add_collision(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_collision(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                    const SimulationModel& model, const Step& step);
 
 }  // namespace drape

@@ -17,7 +17,7 @@ graph::Handle declare_cutters(graph::Graph& graph, std::size_t cutter_count) {
                                               graph::Lifetime::host_input);
 }
 
-void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, graph::Handle cutters,
+void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle cutters,
              std::size_t cutter_count) {
     const ClothModel& model = *state.model;
     const Grid& grid = model.grid;

@@ -17,7 +17,7 @@ graph::Handle declare_cutters(graph::Graph& graph, std::size_t cutter_count);
 
 /// Reads position (and stiffness and cells of a cloth that has them) and the cutters; writes flags, fractions and
 /// the count.
-void add_cut(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, graph::Handle cutters,
+void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle cutters,
              std::size_t cutter_count);
 
 /// Fetches flags and fractions of a cloth that was hit: a submit and a wait.

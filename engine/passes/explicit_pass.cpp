@@ -16,7 +16,7 @@ struct FlightDispatch {
 };
 
 /// Strips where the state is stored through buffers, else tiles.
-FlightDispatch flight_dispatch(PipelineCache& pipelines, const ClothState& state, const Step& step) {
+FlightDispatch flight_dispatch(Pipelines& pipelines, const ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::ExplicitPush>();
     const auto variant = [&](const char* shader) { return vulkan::variant_name(shader, {{"masked", state.masked()}}); };
     const vulkan::SpecializationConstant has_shear{"has_shear", push.relative_stiffness.z > 0 ? 1u : 0u};
@@ -32,7 +32,7 @@ FlightDispatch flight_dispatch(PipelineCache& pipelines, const ClothState& state
 }
 
 /// Steps at once, or one that streams.
-void add_flight(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_flight(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const FlightDispatch dispatch = flight_dispatch(pipelines, state, step);
     graph.add_pass(
         state.step_name(step.count > 1 ? fmt::format("{} explicit steps", step.count) : "explicit step", step),
@@ -49,7 +49,7 @@ void add_flight(graph::Graph& graph, PipelineCache& pipelines, ClothState& state
 
 }  // namespace
 
-void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_explicit_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     if (step.count > 1 || (step.streams && !wind)) return add_flight(graph, pipelines, state, step);
     const auto& push = step.push<glsl::ExplicitPush>();

@@ -8,6 +8,6 @@ namespace drape {
 
 /// Reads position, displacement, both remainders [, wind_force, spring shares]; writes their spare images, which become
 /// the state. After the first substep of a frame it begins with X += d.
-void add_explicit_step(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_explicit_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

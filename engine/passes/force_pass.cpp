@@ -2,7 +2,7 @@
 
 namespace drape {
 
-void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_force(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const bool before = step.last && state[Field::displacement_before].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
@@ -28,7 +28,7 @@ void add_force(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     if (step.turns) state.turn_displacement();
 }
 
-void add_advance(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
+void add_advance(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const bool excess = state[Field::end_excess].valid();
     std::vector<vulkan::SpecializationConstant> constants = {{"strip_length", pipelines.strip_length()}};
     if (excess) constants.push_back({"collides", state.model->collides ? 1u : 0u});

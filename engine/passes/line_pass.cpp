@@ -7,7 +7,7 @@
 
 namespace drape {
 
-void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_line_control(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get("line_control.comp");
     graph.add_pass(
         state.step_name("line control", step),
@@ -17,7 +17,7 @@ void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState&
         });
 }
 
-void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_predict(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const bool wind = state[Field::wind_force].valid();
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline = pipelines.get(
@@ -44,7 +44,7 @@ void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& stat
 
 namespace {
 
-const vulkan::ComputePipeline& line_pipeline(PipelineCache& pipelines, const ClothState& state, const Step& step) {
+const vulkan::ComputePipeline& line_pipeline(Pipelines& pipelines, const ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::LinePush>();
     const vulkan::SpecializationConstant first{"first_iteration", step.iteration == 0 ? 1u : 0u};
     if (!step.reduced)
@@ -68,7 +68,7 @@ glsl::ivec2 invocations(const Step& step) {
 
 }  // namespace
 
-void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_line(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::LinePush>();
     const auto direction = static_cast<std::size_t>(push.channel);
     const StepDispatch dispatch(state, step, line_pipeline(pipelines, state, step), invocations(step));

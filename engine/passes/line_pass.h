@@ -6,14 +6,14 @@
 namespace drape {
 
 /// Decides whether the substep is BDF2 or backward Euler: reads and writes the control.
-void add_line_control(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_line_control(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 /// Reads and writes position, displacement, their remainders and the history; reads the control, and wind_force when
 /// the scene has wind.
-void add_predict(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_predict(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 /// Reads position, reads and writes displacement and the direction's tension; reads spring shares and updates the
 /// control where the cloth has them.
-void add_line(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_line(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

@@ -24,7 +24,7 @@ std::uint32_t group_width(const ClothState& state, const glsl::NestedPush& push,
 
 bool is_sheared(const Step& step) { return step.push<glsl::NestedPush>().rest_length.z > 0; }
 
-const vulkan::ComputePipeline& nested_pipeline(PipelineCache& pipelines, const ClothState& state, const Step& step,
+const vulkan::ComputePipeline& nested_pipeline(Pipelines& pipelines, const ClothState& state, const Step& step,
                                                std::span<const glsl::ivec4> pins) {
     if (step.reduced)
         return pipelines.get(
@@ -38,7 +38,7 @@ const vulkan::ComputePipeline& nested_pipeline(PipelineCache& pipelines, const C
 
 }  // namespace
 
-void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_nested(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const ClothModel& model = *state.model;
     const auto& push = step.push<glsl::NestedPush>();
     const std::span<const glsl::ivec4> table =

@@ -6,6 +6,6 @@
 namespace drape {
 
 /// One round: reads position, nested sweeps, spring shares and control; updates displacement and all tensions.
-void add_nested(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_nested(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

@@ -2,7 +2,7 @@
 
 namespace drape {
 
-void add_normals(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
+void add_normals(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("normal.comp", {{"masked", state.masked()}}));
     graph.add_pass(

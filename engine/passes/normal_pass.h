@@ -6,6 +6,6 @@
 namespace drape {
 
 /// Reads position, writes normal.
-void add_normals(graph::Graph& graph, PipelineCache& pipelines, ClothState& state);
+void add_normals(graph::Graph& graph, Pipelines& pipelines, ClothState& state);
 
 }  // namespace drape

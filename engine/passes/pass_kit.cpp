@@ -24,33 +24,28 @@ std::array<std::uint32_t, 2> folded(std::uint64_t invocations) {
 
 }  // namespace
 
-const vulkan::ComputePipeline& PipelineCache::get(const std::string& module,
-                                                  const std::vector<vulkan::SpecializationConstant>& constants) {
-    std::string key = module;
-    for (const auto& constant : constants) key += fmt::format(" {}={}", constant.name, constant.value);
-    std::unique_ptr<vulkan::ComputePipeline>& pipeline = pipelines_[key];
-    if (!pipeline) {
-        const vulkan::Shader shader{module};
-        pipeline = std::make_unique<vulkan::ComputePipeline>(device_, key, shader, constants);
-    }
-    return *pipeline;
+const vulkan::ComputePipeline& Pipelines::get(const std::string& module,
+                                              const std::vector<vulkan::SpecializationConstant>& constants) {
+    const vulkan::ComputePipeline& pipeline = device_.compute_pipeline(module, constants);
+    asked_for_.insert(&pipeline);
+    return pipeline;
 }
 
-bool PipelineCache::wide_atomics() const { return device_.wide_atomics(); }
-std::uint32_t PipelineCache::entries_each() const { return device_.info().type == "cpu" ? 8 : 1; }
-std::uint32_t PipelineCache::strip_rows(std::size_t rounds_each) const {
+bool Pipelines::wide_atomics() const { return device_.wide_atomics(); }
+std::uint32_t Pipelines::entries_each() const { return device_.info().type == "cpu" ? 8 : 1; }
+std::uint32_t Pipelines::strip_rows(std::size_t rounds_each) const {
     const std::size_t most = device_.info().type == "cpu" ? 32 : 1;
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(most_loop_rounds / rounds_each, 1, most));
 }
-std::uint32_t PipelineCache::strip_columns() const { return device_.info().type == "cpu" ? 2 : 1; }
-std::uint32_t PipelineCache::strips_of(std::size_t rows) const {
+std::uint32_t Pipelines::strip_columns() const { return device_.info().type == "cpu" ? 2 : 1; }
+std::uint32_t Pipelines::strips_of(std::size_t rows) const {
     return static_cast<std::uint32_t>((rows - 1) / strip_rows() + 1);
 }
-std::uint32_t PipelineCache::strip_length() const { return device_.info().type == "cpu" ? 16 : 1; }
-std::array<std::uint32_t, 2> PipelineCache::over_strips(glsl::ivec2 grid) const {
+std::uint32_t Pipelines::strip_length() const { return device_.info().type == "cpu" ? 16 : 1; }
+std::array<std::uint32_t, 2> Pipelines::over_strips(glsl::ivec2 grid) const {
     return folded((static_cast<std::uint64_t>(grid.x) * static_cast<std::uint64_t>(grid.y) - 1) / strip_length() + 1);
 }
-std::array<std::uint32_t, 2> PipelineCache::over_parts(glsl::ivec2 grid) const {
+std::array<std::uint32_t, 2> Pipelines::over_parts(glsl::ivec2 grid) const {
     const std::uint64_t columns = (static_cast<std::uint32_t>(grid.x) - 1) / strip_columns() + 1;
     return folded(columns * strips_of(static_cast<std::size_t>(grid.y)));
 }

@@ -1,10 +1,10 @@
 // What every simulation pass shares: the cloth's images as graph handles, the scene's host inputs, and the
-// pipelines made so far.
+// pipelines of the device.
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,13 +15,14 @@
 
 namespace drape {
 
-/// Compute pipelines by module and constants, made when first asked for.
-class PipelineCache {
+/// The device's compute pipelines, those asked for here counted, and what an invocation of theirs takes on it.
+class Pipelines {
   public:
-    explicit PipelineCache(const vulkan::Device& device) : device_(device) {}
+    explicit Pipelines(const vulkan::Device& device) : device_(device) {}
     const vulkan::ComputePipeline& get(const std::string& module,
                                        const std::vector<vulkan::SpecializationConstant>& constants = {});
-    std::size_t size() const { return pipelines_.size(); }
+    /// Different ones asked for.
+    std::size_t size() const { return asked_for_.size(); }
     /// Entries of a list that an invocation takes in turn: on a CPU, where one costs as much to begin as some entries,
     /// several.
     std::uint32_t entries_each() const;
@@ -44,7 +45,7 @@ class PipelineCache {
 
   private:
     const vulkan::Device& device_;
-    std::map<std::string, std::unique_ptr<vulkan::ComputePipeline>> pipelines_;
+    std::set<const vulkan::ComputePipeline*> asked_for_;
 };
 
 /// Why a cloth of this size cannot have its state written through buffer views (shaders/include/state_store.h); empty

@@ -10,7 +10,7 @@ glsl::PinPush pin_push(const ClothState& state, const Step& step) {
 
 }  // namespace
 
-void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_pin_release(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const MethodPlan& plan = state.model->plan;
     const bool tension = plan.release_stiffness.x > 0, masked = tension && state.masked();
     std::vector<vulkan::SpecializationConstant> constants;
@@ -44,7 +44,7 @@ void add_pin_release(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
         });
 }
 
-void add_pin_motion(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_pin_motion(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get("pin_motion.comp");
     graph.add_pass(
         state.step_name("pin motion", step),

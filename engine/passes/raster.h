@@ -123,7 +123,7 @@ class RasterPass {
     std::optional<StrainScale> scale_;  ///< of a heat map
     ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
-    PipelineCache compute_;
+    Pipelines compute_;
     const vulkan::ComputePipeline* shadow_rows_ = nullptr;  ///< none without a shadow
     std::uint32_t shadow_rows_invocations_ = 0;
     const vulkan::ComputePipeline* encoding_ = nullptr;

@@ -37,26 +37,26 @@ void add_pass(graph::Graph& graph, const Step& step, const char* name, const vul
 }
 
 /// Invocations that go over the places on the sheet.
-int over_sheet(const PipelineCache& pipelines, const Step& step) {
+int over_sheet(const Pipelines& pipelines, const Step& step) {
     const glsl::ivec2 grid = step.push<glsl::SelfContactPush>().grid;
     const std::size_t each = pipelines.entries_each();
     return static_cast<int>(std::min((std::size_t(grid.x) * std::size_t(grid.y) + each - 1) / each, most_invocations));
 }
 
 /// Of a pass that looks up which cloth a place is of (shaders/include/self_cloths.h).
-const vulkan::ComputePipeline& pipeline_of(PipelineCache& pipelines, const std::string& module, const Step& step) {
+const vulkan::ComputePipeline& pipeline_of(Pipelines& pipelines, const std::string& module, const Step& step) {
     const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
     return pipelines.get(module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}});
 }
 /// Likewise of one that says how far those after it run (shaders/include/self_lists.h).
-const vulkan::ComputePipeline& listing_pipeline(PipelineCache& pipelines, const std::string& module, const Step& step) {
+const vulkan::ComputePipeline& listing_pipeline(Pipelines& pipelines, const std::string& module, const Step& step) {
     const int cloths = step.push<glsl::SelfContactPush>().cloth_count;
     return pipelines.get(
         module, {{"cloth_count", static_cast<std::uint32_t>(cloths)}, {"entries_each", pipelines.entries_each()}});
 }
 
 /// Invocations of a pass between a cloth and the sheet.
-glsl::ivec2 over_strips(const PipelineCache& pipelines, const ClothState& cloth) {
+glsl::ivec2 over_strips(const Pipelines& pipelines, const ClothState& cloth) {
     const auto [across, down] = pipelines.over_strips(cloth.model->grid.size());
     return {static_cast<int>(across), static_cast<int>(down)};
 }
@@ -117,7 +117,7 @@ void add_sized_pass(graph::Graph& graph, const ClothState& contact, const Step& 
 
 }  // namespace
 
-void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+void add_self_gather(graph::Graph& graph, Pipelines& pipelines, const ClothState& cloth, ClothState& contact,
                      const Step& step) {
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("self_gather.comp", {{"masked", cloth.masked()}, {"buffered", cloth.buffered}}),
@@ -133,7 +133,7 @@ void add_self_gather(graph::Graph& graph, PipelineCache& pipelines, const ClothS
                                   });
 }
 
-void add_self_gather_again(graph::Graph& graph, PipelineCache& pipelines, const ClothState& cloth, ClothState& contact,
+void add_self_gather_again(graph::Graph& graph, Pipelines& pipelines, const ClothState& cloth, ClothState& contact,
                            const Step& step) {
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("self_gather_again.comp", {{"buffered", cloth.buffered}}),
@@ -145,7 +145,7 @@ void add_self_gather_again(graph::Graph& graph, PipelineCache& pipelines, const 
                                   });
 }
 
-void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& cloth, ClothState& contact,
+void add_self_return(graph::Graph& graph, Pipelines& pipelines, ClothState& cloth, ClothState& contact,
                      const Step& step) {
     const bool history = cloth.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
@@ -162,7 +162,7 @@ void add_self_return(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
                                   });
 }
 
-void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_common(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     const std::string module = vulkan::variant_name("self_common.comp", {{"crossed", crossed(step)}});
     add_pass(graph, step, "self common", pipelines.get(module), 1, [&](PassSetup& setup) {
         read(setup, contact, Field::self_displacements, "displacements");
@@ -173,7 +173,7 @@ void add_self_common(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
     });
 }
 
-void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_boxes(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_pass(graph, step, "self boxes", listing_pipeline(pipelines, "self_boxes.comp", step),
              over_sheet(pipelines, step), [&](PassSetup& setup) {
                  read_sheet(setup, contact);
@@ -187,7 +187,7 @@ void add_self_boxes(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
              });
 }
 
-void add_self_search(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_search(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self search",
                    pipelines.get("self_search.comp", {{"entries_each", pipelines.entries_each()}}),
                    glsl::self_size_search, [&](PassSetup& setup) {
@@ -196,7 +196,7 @@ void add_self_search(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
                    });
 }
 
-void add_self_kept(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_kept(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self kept", pipeline_of(pipelines, "self_kept.comp", step),
                    glsl::self_size_kept, [&](PassSetup& setup) {
                        read(setup, contact, Field::self_boxes, "boxes");
@@ -207,13 +207,13 @@ void add_self_kept(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    });
 }
 
-void add_self_levels(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_levels(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self levels", pipelines.get("self_levels.comp"),
                    glsl::self_size_levels + step.push<glsl::SelfContactPush>().level - 1,
                    [&](PassSetup& setup) { update_in_place(setup, contact, Field::self_kept, "boxes"); });
 }
 
-void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_blocks(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self blocks", listing_pipeline(pipelines, "self_blocks.comp", step),
                    glsl::self_size_blocks, [&](PassSetup& setup) {
                        read(setup, contact, Field::self_kept, "boxes");
@@ -223,7 +223,7 @@ void add_self_blocks(graph::Graph& graph, PipelineCache& pipelines, ClothState& 
                    });
 }
 
-void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_cells(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self cells", listing_pipeline(pipelines, "self_cells.comp", step),
                    glsl::self_size_cells, [&](PassSetup& setup) {
                        read(setup, contact, Field::self_kept, "boxes");
@@ -233,7 +233,7 @@ void add_self_cells(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
                    });
 }
 
-void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_near(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self near", listing_pipeline(pipelines, "self_near.comp", step),
                    glsl::self_size_near, [&](PassSetup& setup) {
                        read(setup, contact, Field::self_boxes, "boxes");
@@ -243,7 +243,7 @@ void add_self_near(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    });
 }
 
-void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, glsl::ivec2 largest,
+void add_self_bent(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, glsl::ivec2 largest,
                    const Step& step) {
     const auto cloths = static_cast<std::uint32_t>(step.push<glsl::SelfContactPush>().cloth_count);
     const vulkan::ComputePipeline& pipeline =
@@ -264,7 +264,7 @@ void add_self_bent(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
             graph::PassContext& context) { context.dispatch(pipeline, push, over[0], over[1], cloths); });
 }
 
-void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_crossings(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self crossings", pipeline_of(pipelines, "self_crossings.comp", step),
                    glsl::self_size_primitives, [&](PassSetup& setup) {
                        read(setup, contact, Field::self_positions, "positions");
@@ -278,7 +278,7 @@ void add_self_crossings(graph::Graph& graph, PipelineCache& pipelines, ClothStat
                    });
 }
 
-void add_self_apart(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_apart(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_pass(graph, step, "self apart", pipelines.get("self_apart.comp", {{"entries_each", pipelines.entries_each()}}),
              step.push<glsl::SelfContactPush>().cloth_count, [&](PassSetup& setup) {
                  read(setup, contact, Field::self_crossed, "crossed");
@@ -289,7 +289,7 @@ void add_self_apart(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
              });
 }
 
-void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_primitives(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     const std::string module = vulkan::variant_name("self_primitives.comp", {{"crossed", crossed(step)}});
     add_sized_pass(graph, contact, step, "self primitives", listing_pipeline(pipelines, module, step),
                    glsl::self_size_primitives, [&](PassSetup& setup) {
@@ -302,7 +302,7 @@ void add_self_primitives(graph::Graph& graph, PipelineCache& pipelines, ClothSta
                    });
 }
 
-void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_pairs(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self pairs", listing_pipeline(pipelines, "self_pairs.comp", step),
                    glsl::self_size_pairs, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
@@ -312,7 +312,7 @@ void add_self_pairs(graph::Graph& graph, PipelineCache& pipelines, ClothState& c
                    });
 }
 
-void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_contact(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     const std::string module = vulkan::variant_name("self_contact.comp", {{"wide", pipelines.wide_atomics()}});
     add_sized_pass(graph, contact, step, "self contact", listing_pipeline(pipelines, module, step),
                    glsl::self_size_contact + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
@@ -324,7 +324,7 @@ void add_self_contact(graph::Graph& graph, PipelineCache& pipelines, ClothState&
                    });
 }
 
-void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_push(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     const std::string module = vulkan::variant_name(
         "self_push.comp",
         {{"wide", pipelines.wide_atomics()}, {"crossed", crossed(step)}, {"buffered", contact.buffered}});
@@ -337,7 +337,7 @@ void add_self_push(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    });
 }
 
-void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_room(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     add_sized_pass(graph, contact, step, "self room", listing_pipeline(pipelines, "self_room.comp", step),
                    glsl::self_size_room + step.push<glsl::SelfContactPush>().round, [&](PassSetup& setup) {
                        read_sheet(setup, contact);
@@ -349,7 +349,7 @@ void add_self_room(graph::Graph& graph, PipelineCache& pipelines, ClothState& co
                    });
 }
 
-void add_self_move(graph::Graph& graph, PipelineCache& pipelines, ClothState& contact, const Step& step) {
+void add_self_move(graph::Graph& graph, Pipelines& pipelines, ClothState& contact, const Step& step) {
     const std::string module = vulkan::variant_name("self_move.comp", {{"buffered", contact.buffered}});
     add_pass(graph, step, "self move", pipeline_of(pipelines, module, step), over_sheet(pipelines, step),
              [&](PassSetup& setup) {

@@ -6,7 +6,7 @@
 
 namespace drape {
 
-void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_spring(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     glsl::SpringPush push = step.push<glsl::SpringPush>();
     push.first_iteration = step.iteration == 0 ? 1 : 0;
     const auto direction = static_cast<std::size_t>(push.channel);

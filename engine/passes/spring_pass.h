@@ -6,6 +6,6 @@
 namespace drape {
 
 /// Reads position, reads and writes displacement; stiffness where the cloth has it, tension where it is kept.
-void add_spring(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_spring(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

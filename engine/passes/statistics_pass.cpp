@@ -13,7 +13,7 @@ std::uint32_t strip_count(const Grid& grid) {
 /// Records of a cloth that the first pass leaves.
 std::uint32_t partial_count(const Grid& grid) { return grid.columns() * strip_count(grid); }
 
-graph::Handle add_partials(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
     const bool collides = inputs.colliders.valid();
     std::vector<vulkan::SpecializationConstant> constants;
@@ -58,7 +58,7 @@ std::uint32_t chunk_count(std::uint32_t partials) {
 }
 
 /// A pass that joins `count` records of each cloth to one of each of their chunks.
-graph::Handle add_sum(graph::Graph& graph, PipelineCache& pipelines, const ClothState& state, const char* name,
+graph::Handle add_sum(graph::Graph& graph, Pipelines& pipelines, const ClothState& state, const char* name,
                       graph::Handle records, std::uint32_t count, graph::Handle result) {
     const vulkan::ComputePipeline& pipeline = pipelines.get("statistics_sum.comp");
     const glsl::StatisticsSumPush push{static_cast<int>(count)};
@@ -79,7 +79,7 @@ graph::Handle add_sum(graph::Graph& graph, PipelineCache& pipelines, const Cloth
 
 std::string statistics_readback_name(const std::string& state) { return state + "/statistics on the host"; }
 
-void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model) {
     graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
     const std::uint32_t partials = partial_count(state.model->grid), chunks = chunk_count(partials);

@@ -11,7 +11,7 @@ std::string statistics_readback_name(const std::string& state);
 
 /// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". The sums are trees in a
 /// fixed order without atomics, so they repeat bit for bit and equal the twin's (reference/statistics.h).
-void add_statistics(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
 
 }  // namespace drape

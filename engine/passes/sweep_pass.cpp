@@ -54,8 +54,7 @@ struct SweepDispatch {
 };
 
 /// Strips where the state is stored through buffers, else tiles.
-SweepDispatch sweep_dispatch(PipelineCache& pipelines, const ClothState& state, const Step& step,
-                             SweptTension tension) {
+SweepDispatch sweep_dispatch(Pipelines& pipelines, const ClothState& state, const Step& step, SweptTension tension) {
     const auto& push = step.push<glsl::SweepPush>();
     const auto variant = [&](const char* shader) {
         return vulkan::variant_name(shader, {{"masked", state.masked()},
@@ -85,7 +84,7 @@ void declare(graph::PassSetup& setup, ClothState& state) {
 
 }  // namespace
 
-void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_sweep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::SweepPush>();
     const SweptTension tension = swept_tension(state, step);
     const SweepDispatch dispatch = sweep_dispatch(pipelines, state, step, tension);
@@ -101,7 +100,7 @@ void add_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state,
     state.turn_displacement();
 }
 
-void add_twist_sweep(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_twist_sweep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const auto& push = step.push<glsl::TwistSweepPush>();
     const bool second_order = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline = pipelines.get(

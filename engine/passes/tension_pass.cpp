@@ -2,7 +2,7 @@
 
 namespace drape {
 
-void add_tension(graph::Graph& graph, PipelineCache& pipelines, ClothState& state) {
+void add_tension(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const vulkan::ComputePipeline& pipeline = pipelines.get("tension.comp");
     graph.add_pass(
         state.pass_name("tension", "statistics"),

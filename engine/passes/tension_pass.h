@@ -6,6 +6,6 @@
 namespace drape {
 
 /// Reads position and displacement at a frame's end, writes the tension of the stretch springs.
-void add_tension(graph::Graph& graph, PipelineCache& pipelines, ClothState& state);
+void add_tension(graph::Graph& graph, Pipelines& pipelines, ClothState& state);
 
 }  // namespace drape

@@ -2,7 +2,7 @@
 
 namespace drape {
 
-void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step) {
+void add_tether(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step) {
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("tether.comp", {{"buffered", state.buffered}}),
                       {{"strip_length", pipelines.strip_length()}});

@@ -6,6 +6,6 @@
 namespace drape {
 
 /// Reads position and tethers, reads and writes displacement.
-void add_tether(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const Step& step);
+void add_tether(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const Step& step);
 
 }  // namespace drape

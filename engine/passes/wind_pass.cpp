@@ -2,7 +2,7 @@
 
 namespace drape {
 
-void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_wind(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
               const Step& step) {
     const std::uint32_t advances = step.substep > 0 ? 1 : 0;
     const vulkan::ComputePipeline& pipeline = pipelines.get(

@@ -6,7 +6,7 @@
 namespace drape {
 
 /// Reads position, displacement and the wind; writes wind_force.
-void add_wind(graph::Graph& graph, PipelineCache& pipelines, ClothState& state, const SceneInputs& inputs,
+void add_wind(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
               const Step& step);
 
 }  // namespace drape

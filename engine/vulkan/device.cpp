@@ -10,6 +10,7 @@
 #include "vulkan/api.h"
 #include "vulkan/device_requirements.h"
 #include "vulkan/device_selection.h"
+#include "vulkan/pipeline.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {
@@ -160,8 +161,19 @@ void Device::create() {
 Device::~Device() {
     if (!handle_) return;
     let_finish(handle_);
+    pipelines_.clear();
     vkDestroyCommandPool(handle_, once_pool_, nullptr);
     vkDestroyDevice(handle_, nullptr);
+}
+
+const ComputePipeline& Device::compute_pipeline(const std::string& module,
+                                                std::span<const SpecializationConstant> constants) const {
+    std::string key = module;
+    for (const SpecializationConstant& constant : constants)
+        key += fmt::format(" {}={}", constant.name, constant.value);
+    std::unique_ptr<ComputePipeline>& pipeline = pipelines_[key];
+    if (!pipeline) pipeline = std::make_unique<ComputePipeline>(*this, key, Shader{module}, constants);
+    return *pipeline;
 }
 
 std::uint32_t Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags required,

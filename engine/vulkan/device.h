@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +39,9 @@ struct OptionalFeatures {
     bool wide_atomics = true;
     bool samples_in_shaders = true;
 };
+
+class ComputePipeline;
+struct SpecializationConstant;
 
 class Device {
   public:
@@ -85,6 +90,10 @@ class Device {
     void submit(std::span<const VkCommandBuffer> commands, VkFence fence, std::string_view object) const;
     /// Records with `record`, submits, waits: for set-up and tests, never in the frame loop.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
+    /// Of a committed module and its constants: made when first asked for, which takes a driver 2 to 30 ms
+    /// (docs/devices.md), and kept as long as the device, for every run on it. Throws as ComputePipeline does.
+    const ComputePipeline& compute_pipeline(const std::string& module,
+                                            std::span<const SpecializationConstant> constants = {}) const;
     /// VK_EXT_debug_utils name, when validation is on.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
@@ -115,6 +124,7 @@ class Device {
     std::uint64_t max_allocation_size_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     mutable MemoryBudget budget_{0};
+    mutable std::map<std::string, std::unique_ptr<ComputePipeline>> pipelines_;  ///< by module and constants
 };
 
 }  // namespace drape::vulkan

@@ -76,7 +76,7 @@ TEST(TwinTest, HolesAndTwoCloths) {
     compare(scene);
 }
 
-/// Over 64 of 1024 particles each (PipelineCache::over_strips): a second row of workgroups.
+/// Over 64 of 1024 particles each (Pipelines::over_strips): a second row of workgroups.
 TEST(TwinTest, MoreWorkgroupsThanStandBesideEachOther) {
     SceneDescription scene = test::thrown_sheet({263, 255}, 1);
     scene.solver.tethers = true;

@@ -156,6 +156,17 @@ std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<
 
 }  // namespace
 
+TEST(VulkanComputePipeline, of_the_device_is_made_once_per_module_and_constants) {
+    const vulkan::Device& device = gpu().device;
+    const SpecializationConstant each[] = {{"strip_length", 16}}, others[] = {{"strip_length", 1}};
+    const ComputePipeline& first = device.compute_pipeline("encode.comp", each);
+    EXPECT_EQ(&device.compute_pipeline("encode.comp", each), &first);
+    EXPECT_NE(device.compute_pipeline("encode.comp", others).handle(), first.handle());
+    EXPECT_NE(device.compute_pipeline("encode.comp").handle(), first.handle());
+    for (int attempt = 0; attempt < 2; ++attempt)
+        EXPECT_THAT(error_of([&] { device.compute_pipeline("nowhere.comp"); }), HasSubstr("nowhere.comp"));
+}
+
 TEST(VulkanComputePipeline, specialises_constants_and_workgroup_size) {
     const SpecializationConstant constants[] = {{"factor", std::bit_cast<std::uint32_t>(2.5f)}, {"local_size_x", 16}};
     const ComputePipeline pipeline(gpu().device, "scale", scale_shader(), constants);
