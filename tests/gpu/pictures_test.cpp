@@ -245,7 +245,19 @@ TEST_F(PicturesTest, AreInWhatIsSaidOfTheRun) {
     EXPECT_THAT(two.describe_plan("text"), testing::HasSubstr("position upload"));
 }
 
-TEST(DeviceForAScene, DrawsBesideOnlyWhereTheCallingThreadSimulates) {
+TEST_F(PicturesTest, OfClothTooLargeForOneThread) {
+    open(R"({"time": {"fps": 60, "frames": 6}, "image": {"size": [64, 48], "samples": 4},
+  "cloths": [{"grid": [80, 74], "size": [0.6, 0.5], "placement": {"origin": [0, 1, 0]},
+              "pins": [{"corner": "top_left"}, {"corner": "top_right"}]}],
+  "solver": {"method": "line", "substeps": 3}})");
+    ASSERT_FALSE(prefers_calling_thread(scene_));
+    compare(pictures_of());
+    const Simulation one(scene_, pictures_of(), library_device()), two(scene_, pictures_of(), *beside_);
+    EXPECT_EQ(two.facts().pass_count, one.facts().pass_count + 2 * scene_.cloths.size())
+        << "of each cloth a readback and an upload";
+}
+
+TEST(DeviceForAScene, SimulatesSmallClothOnTheCallingThread) {
     SceneDescription scene = parse_scene(colliding_scene);
     EXPECT_TRUE(prefers_calling_thread(scene));
     scene.cloths[0].grid = {73, 73};

@@ -33,10 +33,10 @@ class Device {
     /// lists the devices.
     explicit Device(const std::string& selector = {}, Validation validation = Validation::off);
 
-    /// The device as it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread; what it
-    /// `draws` is then drawn by a second device with worker threads, while this one simulates the next frames. For that
-    /// the environment variable LP_NUM_THREADS is set while devices are opened; where it is set already, and on other
-    /// drivers, this is the constructor. To be called before other threads run.
+    /// The device as it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread. On a CPU
+    /// what it `draws` is drawn by a second device with worker threads, while this one simulates the next frames. For
+    /// that the environment variable LP_NUM_THREADS is set while devices are opened; where it is set already, and on a
+    /// GPU, this is the constructor. To be called before other threads run.
     static Device for_scene(const SceneDescription& scene, bool draws, const std::string& selector = {},
                             Validation validation = Validation::off);
 
