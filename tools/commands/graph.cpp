@@ -16,7 +16,7 @@ void add_graph(Program& program) {
         return ExitCode::ok;
     };
     CLI::App& command = program.add("graph", "Print what runs in a frame, what was skipped, and why", R"text(
-As one device runs it; where small cloth is drawn by a second one (as `render` does on a CPU), the same passes are two
+As one device runs it; where a second one draws (as in `render` on a CPU), the same passes are two
 graphs, joined by a readback and an upload of positions.
 
 Examples:

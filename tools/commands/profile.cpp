@@ -40,8 +40,8 @@ void add_profile(Program& program) {
     const auto options = std::make_shared<ProfileOptions>();
     CLI::App& command = program.add("profile", "Where a frame's time goes, by the device's timestamps", R"text(
 Runs the scene, writes no frame, and tells per frame how long the device spent on each stage (or pass), with the spread
-over the measured frames; `frame` is the time from one frame's end to the next. Where small cloth is drawn by a second
-device, as `render` does on a CPU, both work at once, and `device`, the sum of all stages, is longer. Bytes are those of what each pass
+over the measured frames; `frame` is the time from one frame's end to the next. Where a second device draws, as in
+`render` on a CPU, both work at once, and `device`, the sum of all stages, is longer. Bytes are those of what each pass
 declares, read and written once; GB/s and the share of what a copy of 64 MiB moves follow from them. Flops are those
 that a kernel's functions take per particle or spring, counted; GFLOP/s follow. Where timestamps are not supported it
 says "unavailable".
