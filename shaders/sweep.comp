@@ -19,7 +19,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED TENSION CARRIED
+#pragma variants MASKED TENSION|CARRIED
 #define BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"

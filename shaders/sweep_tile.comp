@@ -5,7 +5,7 @@
 // the stretch error; it starts from zero. CARRIED: that of all springs is, as by sweep.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION CARRIED
+#pragma variants MASKED TENSION|CARRIED
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
 #include "include/push.h"
