@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "failure.h"
+#include "run/failure.h"
 #include "streams.h"
 
 namespace drape::cli {

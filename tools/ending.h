@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "failure.h"
+#include "run/failure.h"
 
 namespace drape::cli {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "exit_code.h"
+#include "run/exit_code.h"
 #include "shell_words.h"
 
 namespace drape::cli {

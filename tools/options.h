@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "drape.h"
+#include "run/run.h"
 
 namespace CLI {
 class App;

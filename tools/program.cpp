@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "drape.h"
 #include "help_text.h"
+#include "run/run.h"
 #include "scene/nearest_word.h"
 #include "streams.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "exit_code.h"
+#include "run/exit_code.h"
 
 namespace CLI {
 class App;

@@ -1,4 +1,4 @@
-// The device (passes/statistics_pass.h) and the twin (reference/statistics.h) reduce a cloth's state to a record; here
+// The device (solver/statistics_pass.h) and the twin (reference/statistics.h) reduce a cloth's state to a record; here
 // its numbers get their units. Pure.
 #pragma once
 

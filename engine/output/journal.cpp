@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "byte_stream.h"
+#include "base/byte_stream.h"
 #include "output/output_error.h"
 
 namespace drape {

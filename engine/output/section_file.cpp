@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "byte_stream.h"
+#include "base/byte_stream.h"
 #include "output/atomic_file.h"
 #include "output/output_error.h"
 

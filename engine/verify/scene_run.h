@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth/schedule.h"
-#include "frame_loop.h"
+#include "simulation/frame_loop.h"
 
 namespace drape::verify {
 

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "frame_checks.h"
-#include "passes/device_schedule.h"
+#include "simulation/frame_checks.h"
+#include "solver/device_schedule.h"
 #include "verify/scene_oracles.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "bench/measure.h"
-#include "drape.h"
 #include "output/temporary_folder.h"
 #include "reference/model_scenes.h"
 #include "reference/symplectic_reference.h"
+#include "run/run.h"
 
 namespace drape::bench {
 namespace {

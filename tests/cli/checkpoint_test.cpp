@@ -9,12 +9,12 @@
 #include <csignal>
 #include <cstring>
 
-#include "byte_stream.h"
-#include "checkpoints.h"
+#include "base/byte_stream.h"
 #include "output/journal.h"
 #include "output/output_folder.h"
 #include "output/section_file.h"
 #include "program.h"
+#include "run/checkpoints.h"
 #include "scenes.h"
 
 namespace drape {

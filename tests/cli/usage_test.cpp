@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "exit_code.h"
 #include "output/frame_writer.h"
 #include "program.h"
+#include "run/exit_code.h"
 #include "scenes.h"
 
 namespace drape {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "byte_stream.h"
+#include "base/byte_stream.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/hang.h"
 #include "support/sheets.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "byte_stream.h"
+#include "base/byte_stream.h"
 #include "support/sheets.h"
 
 namespace drape {

@@ -1,5 +1,5 @@
 // What makes a frame no result, and what a run of several cloths says of the worst: of all cloths, not the first.
-#include "frame_checks.h"
+#include "simulation/frame_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "output/temporary_folder.h"
-#include "run_statistics.h"
+#include "run/run_statistics.h"
 #include "support/sheets.h"
 
 namespace drape {

@@ -1,8 +1,7 @@
 // A failed run's capsule, raw and with its checksum repaired: an error, or settings that hold, and a scene that can be
 // loaded or says why not.
-#include "capsule.h"
-
 #include "output/output_error.h"
+#include "run/failure_capsule.h"
 #include "section_input.h"
 
 namespace drape {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "byte_stream.h"
-#include "checkpoints.h"
+#include "base/byte_stream.h"
 #include "cloth/substep_control.h"
 #include "output/output_error.h"
+#include "run/checkpoints.h"
 #include "section_input.h"
 
 namespace drape {

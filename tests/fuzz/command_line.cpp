@@ -1,8 +1,8 @@
 // A command line, a word per line: a command to run, help, or what is wrong with it; never two of them.
-#include "drape.h"
 #include "drape/error.h"
 #include "fuzz.h"
 #include "program.h"
+#include "run/run.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace drape;

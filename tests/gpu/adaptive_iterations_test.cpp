@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "frame_loop.h"
+#include "simulation/frame_loop.h"
 #include "twin_comparison.h"
 
 namespace drape {

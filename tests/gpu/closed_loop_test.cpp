@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame_copy.h"
-#include "frame_loop.h"
+#include "picture/frame_copy.h"
 #include "reference/twin_loop.h"
+#include "simulation/frame_loop.h"
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 

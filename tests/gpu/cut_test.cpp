@@ -9,9 +9,9 @@
 #include <random>
 
 #include "device_run.h"
-#include "frame_loop.h"
 #include "gpu_test.h"
 #include "scene/vectors.h"
+#include "simulation/frame_loop.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
 #include "support/twin_with_cuts.h"

@@ -10,7 +10,7 @@
 
 #include "cloth/schedule.h"
 #include "graph/executor.h"
-#include "passes/cloth_solver.h"
+#include "solver/cloth_solver.h"
 
 namespace drape::test {
 

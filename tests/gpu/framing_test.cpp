@@ -1,5 +1,5 @@
 // Where a scene without a camera is looked at from, and what its pins hang on, in numbers and in pictures.
-#include "passes/framing.h"
+#include "picture/framing.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "passes/collider_mesh.h"
-#include "passes/fixtures.h"
+#include "picture/collider_mesh.h"
+#include "picture/fixtures.h"
 #include "raster_picture.h"
 
 namespace drape {

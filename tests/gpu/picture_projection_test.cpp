@@ -7,10 +7,10 @@
 #include <cmath>
 #include <optional>
 
-#include "frame_loop.h"
 #include "gpu_test.h"
-#include "passes/camera.h"
+#include "picture/camera.h"
 #include "scene_files.h"
+#include "simulation/frame_loop.h"
 
 namespace drape {
 namespace {

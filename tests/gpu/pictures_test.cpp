@@ -1,5 +1,5 @@
 // Pictures that a second device draws while the first simulates on are those that one device draws, frame by frame.
-#include "pictures.h"
+#include "picture/pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

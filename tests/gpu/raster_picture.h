@@ -13,8 +13,8 @@
 #include "gpu_test.h"
 #include "graph/executor.h"
 #include "graph/plan.h"
-#include "passes/camera.h"
-#include "passes/raster.h"
+#include "picture/camera.h"
+#include "picture/raster.h"
 
 namespace drape {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/camera.h"
+#include "picture/camera.h"
 #include "raster_picture.h"
 #include "scene/collider_pose.h"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame_loop.h"
 #include "gpu_test.h"
 #include "scene_files.h"
+#include "simulation/frame_loop.h"
 
 namespace drape {
 namespace {

@@ -11,11 +11,11 @@
 
 #include "cloth/texels.h"
 #include "device_run.h"
-#include "frame_checks.h"
-#include "frame_loop.h"
 #include "gpu_test.h"
-#include "passes/statistics_pass.h"
-#include "run_statistics.h"
+#include "run/run_statistics.h"
+#include "simulation/frame_checks.h"
+#include "simulation/frame_loop.h"
+#include "solver/statistics_pass.h"
 #include "support/sheets.h"
 
 namespace drape {

@@ -1,8 +1,8 @@
 // Cloths that are simulated together are reduced together, each about its own middle.
 #include <gtest/gtest.h>
 
-#include "frame_loop.h"
 #include "gpu_test.h"
+#include "simulation/frame_loop.h"
 #include "support/sheets.h"
 
 namespace drape {

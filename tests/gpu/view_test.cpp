@@ -11,7 +11,7 @@
 
 #include "drape/simulation.h"
 #include "library_device.h"
-#include "passes/legend.h"
+#include "picture/legend.h"
 
 namespace drape {
 namespace {

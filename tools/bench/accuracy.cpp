@@ -13,9 +13,9 @@
 #include "bench/report.h"
 #include "bench/scene_problem.h"
 #include "bench/store.h"
-#include "drape.h"
 #include "output/atomic_file.h"
 #include "output/manifest.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

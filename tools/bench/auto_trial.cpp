@@ -12,9 +12,9 @@
 #include "bench/random_scenes.h"
 #include "bench/trial_run.h"
 #include "bench/wild_scenes.h"
-#include "drape.h"
 #include "output/kept_frames.h"
 #include "output/output_error.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "drape.h"
 #include "output/output_error.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

@@ -11,11 +11,11 @@
 
 #include "cloth/frame_inputs.h"
 #include "cloth/schedule.h"
-#include "drape.h"
 #include "drape/simulation.h"
 #include "output/manifest.h"
-#include "passes/cloth_solver.h"
-#include "passes/device_schedule.h"
+#include "run/run.h"
+#include "solver/cloth_solver.h"
+#include "solver/device_schedule.h"
 #include "spirv_modules.h"
 
 namespace drape::bench {

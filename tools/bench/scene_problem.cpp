@@ -12,8 +12,8 @@
 #include "cloth/directions.h"
 #include "cloth/grid.h"
 #include "cloth/solver_choice.h"
-#include "drape.h"
 #include "output/atomic_file.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

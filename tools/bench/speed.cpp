@@ -9,9 +9,9 @@
 #include "bench/measure.h"
 #include "bench/speed_measure.h"
 #include "bench/speed_report.h"
-#include "drape.h"
 #include "output/atomic_file.h"
 #include "output/manifest.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

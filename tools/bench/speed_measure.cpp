@@ -9,8 +9,8 @@
 
 #include "bench/measure.h"
 #include "native/native_run.h"
-#include "passes/cloth_solver.h"
-#include "passes/device_schedule.h"
+#include "solver/cloth_solver.h"
+#include "solver/device_schedule.h"
 
 namespace drape::bench {
 

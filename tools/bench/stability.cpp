@@ -10,9 +10,9 @@
 #include "bench/line_file.h"
 #include "bench/measure.h"
 #include "bench/stability_run.h"
-#include "drape.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
+#include "run/run.h"
 
 namespace drape::bench {
 

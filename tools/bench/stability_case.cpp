@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bench/wild_scenes.h"
-#include "passes/device_schedule.h"
 #include "scene/random.h"
+#include "solver/device_schedule.h"
 
 namespace drape::bench {
 

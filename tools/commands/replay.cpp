@@ -1,7 +1,7 @@
-#include "capsule.h"
 #include "ending.h"
 #include "options.h"
 #include "program.h"
+#include "run/failure_capsule.h"
 #include "streams.h"
 
 namespace drape::cli {

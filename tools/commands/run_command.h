@@ -1,7 +1,7 @@
 // What `render` and `simulate` share: a run into a folder.
 #pragma once
 
-#include "drape.h"
+#include "run/run.h"
 
 namespace drape::cli {
 

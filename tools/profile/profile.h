@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "drape.h"
 #include "drape/simulation.h"
+#include "run/run.h"
 
 namespace drape::profile {
 

@@ -6,9 +6,9 @@
 #include <pybind11/stl.h>
 
 #include "drape/simulation.h"
-#include "failure.h"
 #include "output/frame_writer.h"
-#include "run_statistics.h"
+#include "run/failure.h"
+#include "run/run_statistics.h"
 
 namespace py = pybind11;
 

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "drape.h"
 #include "output/atomic_file.h"
 #include "output/json_text.h"
 #include "output/output_error.h"
+#include "run/run.h"
 
 namespace drape::sweep {
 

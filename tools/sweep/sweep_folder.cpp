@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "drape.h"
 #include "output/atomic_file.h"
 #include "output/json_text.h"
 #include "output/output_error.h"
+#include "run/run.h"
 #include "sweep/dataset.h"
 
 namespace drape::sweep {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "exit_code.h"
+#include "run/exit_code.h"
 #include "sweep/sweep_spec.h"
 
 namespace drape::sweep {

@@ -260,7 +260,7 @@ struct ImageSettings {
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 4;          ///< 1 or 4
     Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
-    bool fixtures = true;               ///< poles, rails and knobs that pinned cloth hangs on (passes/fixtures.h)
+    bool fixtures = true;               ///< poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
     bool operator==(const ImageSettings&) const = default;
 };
 
@@ -282,7 +282,7 @@ struct SceneDescription {
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
     SolverSettings solver;
-    std::optional<Camera> camera;                             ///< without one: passes/framing.h finds one
+    std::optional<Camera> camera;                             ///< without one: picture/framing.h finds one
     std::vector<DirectionalLight> lights = default_lights();  ///< at most 4
     Vec3 ambient{0.36, 0.40, 0.47};                           ///< of the sky, linear radiance factor 0..1
     Vec3 ambient_ground{0.20, 0.17, 0.14};                    ///< of the ground

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,57 +15,12 @@
 #include "drape/compromise.h"
 #include "drape/device.h"
 #include "drape/error.h"
+#include "drape/frame.h"
 #include "drape/scene_reader.h"
 #include "drape/schedule.h"
-#include "drape/statistics.h"
 #include "drape/view.h"
 
 namespace drape {
-
-/// Milliseconds that the device spent on a stage of a frame.
-struct StageTime {
-    std::string name;
-    double milliseconds = 0;
-};
-
-/// What a frame took.
-struct FrameEffort {
-    std::uint32_t substeps = 0;
-    std::uint32_t attempts = 1;  ///< method `auto`: 1 where the first was kept
-    /// Method `auto`: estimated error of the motion in this frame, the worst cloth's, m per second of simulated time;
-    /// NaN where it was not estimated.
-    double motion_error = std::numeric_limits<double>::quiet_NaN();
-    /// Method `auto`: false where that is above its limit because more substeps do not reduce it. Cloth that crumples
-    /// parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
-    bool predictable = true;
-    /// Method `auto`: everything lies still, and the frame is the one before it; nothing was simulated.
-    bool asleep = false;
-    /// Method `auto`: false where the most substeps that it tries miss a limit (handed out without keep_promises only).
-    bool within_limits = true;
-};
-
-/// Particles are numbered row * columns + column.
-struct FinishedFrame {
-    std::uint32_t frame = 0;                         ///< shows the time frame / fps; 0 is the initial state
-    std::span<const std::uint8_t> rgba;              ///< empty unless drawn: rows from the top, sRGB
-    std::vector<std::span<const float>> positions;   ///< per cloth, when wanted: x y z (m) and w per particle, w being
-                                                     ///< its inverse mass over an inner particle's; 0: held
-    std::vector<std::span<const float>> velocities;  ///< per cloth, when wanted: x y z (m/s) and 0
-    std::vector<std::span<const float>> normals;     ///< per cloth, when wanted: unit x y z of the front, and 0
-    std::vector<ClothStatistics> statistics;         ///< per cloth, when wanted
-    FrameEffort effort;
-    std::optional<FrameFailure> failure;  ///< with statistics
-    std::vector<StageTime> timings;       ///< empty where the device has no timestamps
-};
-
-/// A cut found at the end of a frame; it acts from the next frame on.
-struct Cut {
-    std::uint32_t frame = 0;
-    std::size_t cloth = 0;
-    std::uint32_t springs = 0, triangles = 0;  ///< cut and split now
-    std::uint32_t crumbs = 0;                  ///< pieces there are now of less than four triangles of the grid
-    std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is drawn whole
-};
 
 /// How finely FinishedFrame::timings tells the device's time. Each bracket costs about 10 us on a CPU.
 enum class Timings { none, stages, passes };

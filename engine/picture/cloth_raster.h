@@ -1,0 +1,29 @@
+// The raster pass as the cuts so far ask for it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "picture/picture_options.h"
+#include "picture/raster.h"
+#include "solver/cloth_solver.h"
+
+namespace drape {
+
+std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::vector<ClothState>& states);
+
+class ClothRaster {
+  public:
+    /// Makes the pass anew where a cloth was cut, or has got spring shares, for the first time. What was recorded with
+    /// the old one must not run any more.
+    void fit(const vulkan::Device& device, const SceneDescription& scene, const PictureOptions& options,
+             const std::vector<CutTopology>& topologies);
+    explicit operator bool() const { return pass_ != nullptr; }
+    RasterPass* operator->() const { return pass_.get(); }
+
+  private:
+    std::unique_ptr<RasterPass> pass_;
+    bool cut_ = false, masked_ = false;  ///< what it was made for
+};
+
+}  // namespace drape

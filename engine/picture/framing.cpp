@@ -1,0 +1,183 @@
+#include "picture/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "picture/picture_places.h"
+#include "scene/collider_pose.h"
+#include "scene/start.h"
+#include "scene/vectors.h"
+
+namespace drape {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Axis-aligned box that grows.
+struct Bounds {
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    bool empty() const { return !(low[0] <= high[0]); }
+    void add(const Vec3& center, double radius) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], center[i] - radius);
+            high[i] = std::max(high[i], center[i] + radius);
+        }
+    }
+    void add(const Vec3& center, double radius, const MotionPath& path) {
+        if (path.keys.empty()) add(center, radius);
+        for (const MotionKey& key : path.keys) add(sum(center, key.translate), radius);
+    }
+};
+
+/// Corners of the cloth where it starts.
+std::array<Vec3, 4> corners(const Cloth& cloth) {
+    std::array<Vec3, 4> result;
+    for (std::uint32_t i = 0; i < 4; ++i)
+        result[i] = start_place(cloth, i % 2 * (cloth.grid[0] - 1), i / 2 * (cloth.grid[1] - 1));
+    return result;
+}
+
+Vec3 landed(const Vec3& point, const Plane& plane) {
+    return sum(point, plane.normal, plane.offset - dot(point, plane.normal));
+}
+
+void add_cloth(const Cloth& cloth, const std::vector<Collider>& colliders, Bounds& bounds) {
+    const double swing = 0.25 * 0.5 * std::hypot(cloth.size[0], cloth.size[1]);
+    for (const Vec3& point : corners(cloth)) {
+        bounds.add(point, swing);
+        for (const Pin& pin : cloth.pins) bounds.add(point, 0, pin.path);
+        for (const Collider& collider : colliders)
+            if (const Plane* plane = std::get_if<Plane>(&collider.shape)) bounds.add(landed(point, *plane), swing);
+    }
+}
+
+Vec3 unit(const Vec3& v) {
+    const double size = length(v);
+    return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 0, 0};
+}
+
+/// Where `point` of a cloth comes to hang straight below the nearest of its pins.
+std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& down) {
+    std::optional<Vec3> place;
+    double nearest = infinity;
+    for (const Pin& pin : cloth.pins)
+        for (const bool last_column : {false, true})
+            for (const bool last_row : {false, true}) {
+                const Vec3 held = start_place(cloth, (last_column ? pin.particles.last : pin.particles.first)[0],
+                                              (last_row ? pin.particles.last : pin.particles.first)[1]);
+                const double distance = length(sum(point, held, -1));
+                if (pin.release || distance >= nearest) continue;
+                nearest = distance;
+                place = sum(held, down, distance);
+            }
+    return place;
+}
+
+/// Points that the picture should hold.
+std::vector<Vec3> subject(const SceneDescription& scene) {
+    std::vector<Vec3> points;
+    const Vec3 down = unit(scene.gravity);
+    const bool lands_on_bodies = std::ranges::any_of(
+        scene.colliders, [](const Collider& collider) { return !std::holds_alternative<Plane>(collider.shape); });
+    for (const Cloth& cloth : scene.cloths) {
+        for (const Vec3& corner : corners(cloth)) {
+            points.push_back(corner);
+            for (const Pin& pin : cloth.pins)
+                for (const MotionKey& key : pin.path.keys) points.push_back(sum(corner, key.translate));
+            const std::optional<Vec3> hung = hanging(cloth, corner, down);
+            const std::optional<double> floor = floor_below(scene.colliders, corner[1]);
+            // Wind keeps a flag up; cloth that nothing holds comes down, and draws together on bodies that it meets.
+            if (hung && !scene.wind.blows())
+                points.push_back({(*hung)[0], std::max((*hung)[1], floor.value_or(-infinity)), (*hung)[2]});
+            if (!hung && floor) {
+                const Vec3 middle = start_place(cloth, cloth.grid[0] / 2, cloth.grid[1] / 2);
+                const Vec3 end = sum(middle, sum(corner, middle, -1), lands_on_bodies ? 0.5 : 1);
+                points.push_back({end[0], *floor, end[2]});
+            }
+        }
+    }
+    for (const Collider& collider : scene.colliders) {
+        const ShapeGeometry shape = shape_geometry(collider.shape);
+        if (!(shape.reach < infinity)) continue;
+        Bounds bounds;
+        bounds.add(shape.center, shape.reach / std::numbers::sqrt3, collider.path);
+        for (int i = 0; i < 8; ++i)
+            points.push_back({(i & 1 ? bounds.high : bounds.low)[0], (i & 2 ? bounds.high : bounds.low)[1],
+                              (i & 4 ? bounds.high : bounds.low)[2]});
+    }
+    return points;
+}
+
+/// Extents of the points seen from `eye` along `forward`: tangents of the angles to the outermost.
+struct Seen {
+    double left = infinity, right = -infinity, low = infinity, high = -infinity, nearest = infinity;
+};
+Seen seen(const std::vector<Vec3>& points, const Vec3& eye, const std::array<Vec3, 3>& axes) {
+    Seen result;
+    for (const Vec3& point : points) {
+        const Vec3 away = sum(point, eye, -1);
+        const double depth = dot(away, axes[2]);
+        result.nearest = std::min(result.nearest, depth);
+        result.left = std::min(result.left, dot(away, axes[0]) / depth);
+        result.right = std::max(result.right, dot(away, axes[0]) / depth);
+        result.low = std::min(result.low, dot(away, axes[1]) / depth);
+        result.high = std::max(result.high, dot(away, axes[1]) / depth);
+    }
+    return result;
+}
+
+Camera automatic_camera(const SceneDescription& scene, double aspect) {
+    Camera camera;
+    camera.fov = 34;
+    std::vector<Vec3> points = subject(scene);
+    if (points.empty()) return camera;
+    Bounds bounds;
+    for (const Vec3& point : points) bounds.add(point, 0);
+    const Vec3 diagonal = sum(bounds.high, bounds.low, -1);
+    Vec3 target = sum(bounds.low, diagonal, 0.5);
+    const double size = std::max(length(diagonal), 1e-6);
+    const Vec3 forward = unit({-0.5, -0.4, -0.85}), right = unit(cross(forward, {0, 1, 0}));
+    const Vec3 up = cross(right, forward);
+    const double half_high = std::tan(camera.fov * std::numbers::pi / 360) * 0.9, half_wide = half_high * aspect;
+    // The nearest distance that shows all of it, by bisection; the middle of what is seen becomes the target.
+    double near = 0.5 * size, far = 20 * size;
+    for (int round = 0; round < 60; ++round) {
+        const double distance = 0.5 * (near + far);
+        const Seen view = seen(points, sum(target, forward, -distance), {right, up, forward});
+        const bool behind = view.nearest <= 0.02 * size;
+        const double wide = 0.5 * (view.right - view.left), high = 0.5 * (view.high - view.low);
+        const bool fits = !behind && wide <= half_wide && high <= half_high;
+        (fits ? far : near) = distance;
+        if (fits && round < 30) {
+            target = sum(target, right, 0.5 * (view.left + view.right) * distance);
+            target = sum(target, up, 0.5 * (view.low + view.high) * distance);
+        }
+    }
+    camera.position = sum(target, forward, -far);
+    camera.target = target;
+    return camera;
+}
+
+}  // namespace
+
+BoundingSphere scene_extent(const SceneDescription& scene) {
+    Bounds bounds;
+    for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene.colliders, bounds);
+    for (const Collider& collider : scene.colliders) {
+        const ShapeGeometry shape = shape_geometry(collider.shape);
+        if (shape.reach < infinity) bounds.add(shape.center, shape.reach, collider.path);
+    }
+    if (bounds.empty()) return {};
+    const Vec3 diagonal = sum(bounds.high, bounds.low, -1);
+    return {sum(bounds.low, diagonal, 0.5), std::max(0.5 * length(diagonal), 1e-6)};
+}
+
+Camera picture_camera(const SceneDescription& scene, std::uint32_t width, std::uint32_t height) {
+    return scene.camera ? *scene.camera : automatic_camera(scene, static_cast<double>(width) / height);
+}
+
+}  // namespace drape

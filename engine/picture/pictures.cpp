@@ -1,0 +1,157 @@
+#include "picture/pictures.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "solver/position_upload.h"
+
+namespace drape {
+
+namespace {
+
+/// Frames that may wait for their pictures: a probe's and some, as long as their positions take no more than 64 MiB.
+/// Where cloth is cut no more than are in flight: a cut asks for the pictures of all before it.
+std::size_t most_pending(const SimulationModel& model) {
+    constexpr std::size_t most = 16, most_bytes = std::size_t{64} << 20;
+    if (!model.scene.cutters.empty()) return vulkan::frame_slot_count;
+    std::size_t bytes = 0;
+    for (const ClothModel& cloth : model.cloths) bytes += cloth.grid.particle_count() * sizeof(float[4]);
+    return std::clamp<std::size_t>(most_bytes / bytes, vulkan::frame_slot_count, most);
+}
+
+}  // namespace
+
+Pictures::Pictures(const vulkan::Device& device, const SimulationModel& model, const PictureOptions& options)
+    : device_(device),
+      model_(model),
+      options_(options),
+      solver_(device, model, Schedule::images),
+      slots_(device),
+      most_pending_(most_pending(model)) {
+    build();
+    allocate();
+}
+
+void Pictures::build() {
+    raster_.fit(device_, model_.scene, options_, solver_.topologies());
+    graph_ = {};
+    solver_.declare(graph_, {.drawing = true});
+    solver_.add_positions(graph_);
+    solver_.add_normals(graph_);
+    raster_->add(graph_, raster_cloths(model_, solver_.cloths()));
+    plan_ = graph::make_plan(graph_);
+}
+
+void Pictures::allocate() {
+    recorded_.reset();
+    pool_.reset();
+    const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
+    pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
+    solver_.upload(*pool_);
+    record();
+}
+
+void Pictures::record() {
+    recorded_ = std::make_unique<graph::RecordedPlan>(graph_, plan_, *pool_, options_.timestamps);
+}
+
+void Pictures::follow(const std::vector<CutTopology>& topologies) {
+    for (PendingPicture& picture : pending_) {
+        if (picture.has_picture) continue;
+        if (!picture.slot) begin(picture, *free_slot());  // those before it have left theirs
+        FrameCopy kept;                                   // the slot's buffer may go
+        kept.keep(drawn(picture));
+        picture = {std::move(kept), {}, true};
+    }
+    bool new_resources = false;
+    std::vector<CutImages> before;
+    for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) {
+        before.push_back(solver_.cut_images(cloth));
+        new_resources = new_resources || draws_outgrown(before[cloth], topologies[cloth]) ||
+                        solver_.topologies()[cloth].masked() != topologies[cloth].masked();
+    }
+    solver_.topologies() = topologies;
+    build();  // how much is drawn is part of the recording
+    if (new_resources) return allocate();
+    for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) solver_.upload_cut(*pool_, cloth, before[cloth]);
+    record();
+}
+
+std::optional<std::uint32_t> Pictures::free_slot() const {
+    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
+        if (std::ranges::none_of(pending_, [&](const PendingPicture& picture) { return picture.slot == slot; }))
+            return slot;
+    return {};
+}
+
+void Pictures::begin(PendingPicture& picture, std::uint32_t slot) {
+    const FinishedFrame& frame = picture.frame.frame();
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const std::span<const std::byte> bytes = std::as_bytes(frame.positions[cloth]);
+        std::memcpy(pool_->buffer(position_upload_name(model_.cloths[cloth]), slot).mapped().data(), bytes.data(),
+                    bytes.size());
+    }
+    raster_->write_frame(*pool_, slot, frame.frame / model_.scene.time.fps);
+    slots_.submit(slot, recorded_->commands(slot));
+    picture.slot = slot;
+}
+
+void Pictures::begin_waiting() {
+    for (PendingPicture& picture : pending_) {
+        if (picture.slot || picture.has_picture) continue;
+        const auto slot = free_slot();
+        if (!slot) return;
+        begin(picture, *slot);
+    }
+}
+
+FinishedFrame Pictures::drawn(const PendingPicture& picture) {
+    const std::uint32_t slot = *picture.slot;
+    slots_.wait(slot);
+    FinishedFrame frame = picture.frame.frame();
+    if (!options_.positions) frame.positions.clear();
+    for (graph::Timing& timing : recorded_->timings(slot))
+        frame.timings.push_back({std::move(timing.name), timing.milliseconds});
+    const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
+    raster_->finish(bytes.first(raster_->readback_byte_count()));
+    frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
+    return frame;
+}
+
+bool Pictures::is_there(const PendingPicture& picture) const {
+    return picture.has_picture || (picture.slot && slots_.is_done(*picture.slot));
+}
+
+void Pictures::deliver(const Finished& finished) {
+    const PendingPicture& first = pending_.front();
+    const FinishedFrame frame = first.has_picture ? first.frame.frame() : drawn(first);
+    const PendingPicture done = std::move(pending_.front());  // what the frame's spans are of
+    pending_.pop_front();
+    finished(frame);
+}
+
+void Pictures::draw(const FinishedFrame& frame, const Finished& finished) {
+    pending_.emplace_back().frame.keep(frame);
+    go_on(finished);
+    while (pending_.size() > most_pending_) {
+        deliver(finished);
+        begin_waiting();
+    }
+}
+
+void Pictures::go_on(const Finished& finished) {
+    begin_waiting();
+    while (!pending_.empty() && is_there(pending_.front())) {
+        deliver(finished);
+        begin_waiting();
+    }
+}
+
+void Pictures::flush(const Finished& finished) {
+    while (!pending_.empty()) {
+        begin_waiting();
+        deliver(finished);
+    }
+}
+
+}  // namespace drape

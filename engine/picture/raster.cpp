@@ -1,0 +1,421 @@
+#include "picture/raster.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <initializer_list>
+
+#include "include/tone.h"
+#include "picture/legend.h"
+#include "picture/raster_frame.h"
+#include "picture/raster_recording.h"
+#include "vulkan/api.h"
+
+namespace drape {
+
+using graph::Access;
+using graph::Handle;
+
+/// Newest handles of what a frame's passes write one after the other.
+struct RasterPass::Targets {
+    Handle frame;
+    Handle colliders;    ///< invalid where no body is drawn
+    Handle heat_colors;  ///< invalid where the view is no heat map
+    Handle color, depth;
+    Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
+    Handle shadow_map, shadow_depth, shadow_rows;  ///< invalid without a shadow
+};
+
+namespace {
+
+/// RGBA8 as one integer: a storage image that every device has.
+constexpr VkFormat color_format = VK_FORMAT_R32_UINT;
+/// Radiance goes beyond 1, and light is averaged before it is encoded.
+constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
+
+std::string shadow_skip_reason(const SceneDescription& scene, const RasterOptions& options) {
+    if (!options.shadow) return "switched off";
+    if (scene.lights.empty()) return "the scene has no light";
+    if (!(scene.lights[0].intensity > 0)) return "the first light has no intensity";
+    const auto casts = [](const ColliderDraw& draw) { return draw.casts_shadow; };
+    if (scene.cloths.empty() && std::ranges::none_of(collider_draws(scene.colliders, {}), casts))
+        return "the scene has nothing that casts one";
+    return {};
+}
+
+glsl::uint pattern_number(Pattern pattern) {
+    switch (pattern) {
+        case Pattern::plain:
+            return glsl::pattern_plain;
+        case Pattern::checker:
+            return glsl::pattern_checker;
+        case Pattern::stripes:
+            return glsl::pattern_stripes;
+    }
+    return glsl::pattern_plain;
+}
+
+glsl::ClothPush cloth_push(const RasterCloth& cloth) {
+    const auto u = static_cast<float>(cloth.size_u);
+    const auto v = static_cast<float>(cloth.size_v);
+    // Folds are looked for at a sixteenth of the cloth.
+    const std::uint32_t reach = std::max(1u, std::max(cloth.columns, cloth.rows) / 16);
+    return {{cloth.columns, cloth.rows, pattern_number(cloth.appearance.pattern), reach},
+            {u, v, std::min(u, v) / 8, static_cast<float>(cloth.thickness)},
+            linear_color(cloth.appearance.front),
+            linear_color(cloth.appearance.back),
+            linear_color(cloth.appearance.second)};
+}
+
+glsl::StrainPush strain_push(const RasterCloth& cloth, const StrainScale& scale) {
+    const double range = scale.high - scale.low;
+    return {{cloth.columns, cloth.rows, 0, 0},
+            {static_cast<float>(cloth.rest_lengths[0]), static_cast<float>(cloth.rest_lengths[1]), 0,
+             static_cast<float>(cloth.thickness)},
+            {static_cast<float>(1 / range), static_cast<float>(-scale.low / range), 0, 0}};
+}
+
+/// As radiance: the tone curve turns them into the map's own colours.
+std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) {
+    std::array<glsl::vec4, glsl::heat_color_count> colors{};
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const std::array<double, 3> shown = color_at(map, static_cast<double>(i) / (colors.size() - 1.0));
+        const glsl::vec4 color = linear_color({shown[0] / 255, shown[1] / 255, shown[2] / 255});
+        colors[i] = {glsl::untoned(color.x), glsl::untoned(color.y), glsl::untoned(color.z), 0};
+    }
+    return colors;
+}
+
+/// How a view draws cloths.
+struct ClothShaders {
+    const char *vertex, *fragment;
+    bool lit;
+};
+
+ClothShaders cloth_shaders(View view) {
+    switch (view) {
+        case View::stretch:
+        case View::warp:
+        case View::weft:
+            return {"strain.vert", "strain.frag", false};
+        case View::wire:
+            return {"cloth.vert", "wire.frag", true};
+        case View::normals:
+            return {"cloth.vert", "normals.frag", false};
+        case View::shaded:
+            break;
+    }
+    return {"cloth.vert", "cloth.frag", true};
+}
+
+std::uint32_t strain_number(View view) {
+    return static_cast<std::uint32_t>(view == View::warp   ? glsl::strain_of_warp
+                                      : view == View::weft ? glsl::strain_of_weft
+                                                           : glsl::strain_of_both);
+}
+
+}  // namespace
+
+const vulkan::GraphicsPipeline& RasterPass::ClothPipelines::of(const RasterCloth& cloth) const {
+    if (cloth.cut_vertices.valid()) return *cut;
+    return cloth.spring_shares.valid() && masked ? *masked : *whole;
+}
+
+RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
+                       std::uint32_t height, std::uint32_t samples, const RasterOptions& options)
+    : width_(width),
+      height_(height),
+      samples_(samples),
+      resolves_(samples > 1 && !device.samples_in_shaders()),
+      colliders_(scene.colliders),
+      fixtures_(fixtures(scene)),
+      shadow_skip_reason_(shadow_skip_reason(scene, options)),
+      view_(options.view.kind),
+      scale_(strain_scale(options.view, scene)),
+      compute_(device) {
+    if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
+    const PictureGeometry picture{picture_camera(scene, width, height), scene_extent(scene), width, height,
+                                  options.shift};
+    plane_extent_ = plane_extent(picture.camera, picture.extent);
+    const std::optional<std::size_t> floor = floor_of(scene.colliders, picture.camera);
+    constants_ = frame_constants(scene, picture, floor ? &scene.colliders[*floor] : nullptr);
+    has_floor_ = floor.has_value();
+    if (floor) colliders_.erase(colliders_.begin() + static_cast<std::ptrdiff_t>(*floor));
+    make_pipelines(device, scene, options);
+    make_compute_pipelines();
+}
+
+void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options,
+                                      vulkan::GraphicsState state, vulkan::GraphicsState shadow_state) {
+    const ClothShaders shaders = cloth_shaders(view_);
+    const bool strain = scale_.has_value(), shadow = casts_shadow();
+    state.fragment = {shaders.lit ? vulkan::variant_name(shaders.fragment, {{"shadowed", shadow}}) : shaders.fragment};
+    if (!shaders.lit) state.constants.clear();
+    if (strain) state.constants = {{"shown", strain_number(view_)}};
+    const auto make = [&](const char* name, vulkan::GraphicsState& of, const std::string& vertex) {
+        of.vertex = {vertex};
+        return std::make_unique<vulkan::GraphicsPipeline>(device, name, of);
+    };
+    cloth_.whole = make("raster cloth", state, shaders.vertex);
+    if (shadow) shadow_cloth_.whole = make("shadow cloth", shadow_state, "shadow_cloth.vert");
+    if (strain && options.masked)
+        cloth_.masked = make("raster masked cloth", state, vulkan::variant_name(shaders.vertex, {{"masked", true}}));
+    if (!options.cut) return;
+    cloth_.cut =
+        make("raster cut cloth", state, vulkan::variant_name(shaders.vertex, {{"cut", true}, {"masked", strain}}));
+    if (shadow) shadow_cloth_.cut = make("shadow cut cloth", shadow_state, "shadow_cloth_cut.vert");
+}
+
+void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescription& scene,
+                                const RasterOptions& options) {
+    const bool shadow = casts_shadow();
+    const std::uint32_t lights = light_count(scene);
+    vulkan::GraphicsState state;
+    state.color_format = light_format;
+    state.depth_format = depth_format;
+    state.samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    vulkan::GraphicsState shadow_state = state;
+    state.constants = {{"light_count", lights}};
+    shadow_state.color_format = shadow_format;
+    shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
+    shadow_state.fragment = {"shadow.frag"};
+    if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
+    state.vertex = {"collider.vert"};
+    state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
+    shadow_state.vertex = {"shadow_collider.vert"};
+    for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
+        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
+                                  {"round_columns", range.round_columns}};
+        state.constants = shadow_state.constants;
+        state.constants.push_back({"light_count", lights});
+        // What has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that there the
+        // outer side turns the other way.
+        state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        shadow_state.cull = VK_CULL_MODE_FRONT_BIT;
+        draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
+        if (!shadow || !range.casts_shadow) continue;
+        shadow_draws_.push_back(
+            {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
+    }
+}
+
+void RasterPass::make_compute_pipelines() {
+    encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
+                                                                   {"sampled", samples_ > 1 && !resolves_}}),
+                              {{"has_floor", has_floor_ ? 1u : 0u}, {"strip_length", compute_.strip_length()}});
+    if (!casts_shadow()) return;
+    constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
+    const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
+    shadow_rows_ = &compute_.get("shadow_rows.comp", {{"texels_each", texels_each}});
+    shadow_rows_invocations_ = side * side / texels_each;
+}
+
+std::vector<Collider> RasterPass::drawn_bodies(double time) const {
+    std::vector<Collider> bodies = colliders_;
+    for (const Fixture& fixture : fixtures_) bodies.push_back(posed(fixture, time));
+    return bodies;
+}
+
+/// For the largest bodies of each kind, looked for at so many moments.
+RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
+    constexpr int moments = 64;
+    const Camera camera = picture_camera(scene, width_, height_);
+    const double end = scene.time.frame_count / scene.time.fps;
+    RoundColumns columns{};
+    for (int moment = 0; moment <= moments; ++moment)
+        for (const double time = end * moment / moments; const Collider& body : drawn_bodies(time)) {
+            std::uint32_t& most = columns[static_cast<std::size_t>(body.kind())];
+            most = std::max(most, round_columns(radius_in_pixels(body, time, camera, height_)));
+        }
+    return columns;
+}
+
+RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
+    Targets targets;
+    targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
+    if (const std::size_t count = drawn_bodies(0).size(); count > 0)
+        targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
+    if (scale_)
+        targets.heat_colors =
+            graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
+    const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    targets.color = graph.image({color_name, color_format, width_, height_});
+    targets.drawn = targets.light = graph.image({light_name, light_format, width_, height_, samples});
+    if (resolves_) targets.light = graph.image({resolved_name, light_format, width_, height_});
+    targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
+    if (casts_shadow()) {
+        const std::uint32_t side = glsl::shadow_map_size;
+        targets.shadow_map = graph.image({shadow_map_name, shadow_format, side, side});
+        targets.shadow_depth = graph.image({shadow_depth_name, depth_format, side, side});
+        targets.shadow_rows = graph.buffer({.name = shadow_rows_name,
+                                            .byte_count = std::uint64_t{side} * side * sizeof(glsl::vec4),
+                                            .element = &glsl::layout_of<glsl::vec4>(),
+                                            .texels = true});
+    }
+    return targets;
+}
+
+Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths) const {
+    Targets targets = declare(graph);
+    const std::vector<RasterCloth> kept(cloths.begin(), cloths.end());
+    if (casts_shadow()) {
+        add_shadow(graph, targets, kept);
+    } else {
+        graph.skip("shadow", shadow_skip_reason_);
+    }
+    add_raster(graph, targets, kept);
+    add_encoding(graph, targets);
+    return add_readback(graph, targets);
+}
+
+void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
+    auto attachments = std::make_shared<RasterAttachments>();
+    graph.add_pass(
+        {"shadow", "shadow", "shadow"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::vertex_read);
+            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            for (const RasterCloth& cloth : cloths) {
+                setup.read(cloth.position, Access::vertex_read);
+                setup.read(cloth.indices, Access::index_read);
+                if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
+            }
+            attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
+            attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
+        },
+        [this, attachments, cloths, frame = targets.frame, colliders = targets.colliders](graph::PassContext& context) {
+            begin_rendering(context, *attachments);
+            for (const RasterCloth& cloth : cloths) {
+                const bool cut = cloth.cut_vertices.valid();
+                const vulkan::GraphicsPipeline& pipeline = shadow_cloth_.of(cloth);
+                std::vector<graph::Binding> bound{{"frame", frame}, {"position", cloth.position}};
+                if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
+                context.bind(pipeline, bound);
+                context.push(pipeline, cloth_push(cloth));
+                draw_cloth(context, cloth.indices, cloth.index_count);
+            }
+            for (const Draw& draw : shadow_draws_) {
+                const graph::Binding bound[] = {{"frame", frame}, {"colliders", colliders}};
+                context.bind(*draw.pipeline, bound);
+                draw_colliders(context, draw.range);
+            }
+            vkCmdEndRendering(context.commands());
+        });
+    graph.add_pass(
+        {"shadow rows", "shadow", "shadow rows"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.shadow_map, Access::compute_read, "shadow_map");
+            targets.shadow_rows = setup.write(targets.shadow_rows, Access::compute_write, "shadow_rows");
+        },
+        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, shadow_rows_invocations_, 1); });
+}
+
+void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
+    auto attachments = std::make_shared<RasterAttachments>();
+    graph.add_pass(
+        {"raster", "raster", "raster"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::vertex_read);
+            setup.read(targets.frame, Access::fragment_read);
+            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
+            if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
+            for (const RasterCloth& cloth : cloths) {
+                setup.read(cloth.position, Access::vertex_read);
+                setup.read(cloth.normal, Access::vertex_read);
+                setup.read(cloth.indices, Access::index_read);
+                if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
+                if (scale_ && cloth.spring_shares.valid()) setup.read(cloth.spring_shares, Access::vertex_read);
+            }
+            attachments->clear = {0, 0, 0, 0};
+            attachments->color = targets.drawn = setup.write(targets.drawn, Access::color_write);
+            attachments->depth = setup.write(targets.depth, Access::depth_write);
+            if (resolves_) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
+            if (!resolves_) targets.light = targets.drawn;
+        },
+        [this, attachments, cloths, targets](graph::PassContext& context) {
+            begin_rendering(context, *attachments);
+            draw_picture(context, targets, cloths);
+            vkCmdEndRendering(context.commands());
+        });
+}
+
+void RasterPass::draw_picture(graph::PassContext& context, const Targets& targets,
+                              const std::vector<RasterCloth>& cloths) const {
+    std::vector<graph::Binding> shared{{"frame", targets.frame}};
+    if (casts_shadow()) shared.push_back({"shadow_rows", targets.shadow_rows});
+    const auto bindings = [&](std::initializer_list<graph::Binding> own) {
+        std::vector<graph::Binding> all = shared;
+        all.insert(all.end(), own);
+        return all;
+    };
+    const bool lit = cloth_shaders(view_).lit;
+    for (const RasterCloth& cloth : cloths) {
+        const vulkan::GraphicsPipeline& pipeline = cloth_.of(cloth);
+        std::vector<graph::Binding> bound = lit ? shared : std::vector<graph::Binding>{{"frame", targets.frame}};
+        bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
+        if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
+        if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
+        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_share_image", cloth.spring_shares});
+        context.bind(pipeline, bound);
+        if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
+        if (!scale_) context.push(pipeline, cloth_push(cloth));
+        draw_cloth(context, cloth.indices, cloth.index_count);
+    }
+    for (const Draw& draw : draws_) {
+        context.bind(*draw.pipeline, bindings({{"colliders", targets.colliders}}));
+        draw_colliders(context, draw.range);
+    }
+}
+
+void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
+    graph.add_pass(
+        {"encode", "raster", "encode"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.frame, Access::compute_read, "frame");
+            setup.read(targets.light, Access::compute_read, "light");
+            if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
+            targets.color = setup.write(targets.color, Access::compute_write, "color");
+        },
+        [this](graph::PassContext& context) {
+            const glsl::GridPush push{{static_cast<int>(width_), static_cast<int>(height_)}};
+            const auto [across, down] = compute_.over_strips(push.grid);
+            context.dispatch(*encoding_, push, across, down);
+        });
+}
+
+Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
+    auto readback =
+        std::make_shared<Handle>(graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
+    graph.add_pass(
+        {"readback", "readback", "readback"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.color, Access::transfer_read);
+            *readback = setup.write(*readback, Access::transfer_write);
+        },
+        [color = targets.color, readback](graph::PassContext& context) { copy_to_buffer(context, color, *readback); });
+    return *readback;
+}
+
+void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const {
+    const auto write = [&](const char* name, std::span<const std::byte> bytes) {
+        std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
+    };
+    const std::vector<glsl::ColliderInstance> instances = collider_instances(drawn_bodies(time), plane_extent_, time);
+    write(frame_name, std::as_bytes(std::span(&constants_, 1)));
+    if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
+    if (!scale_) return;
+    const auto colors = heat_colors(*scale_->map);
+    write(heat_colors_name, std::as_bytes(std::span(colors)));
+}
+
+void RasterPass::finish(std::span<std::byte> rgba) const {
+    if (scale_) draw_legend({reinterpret_cast<std::uint8_t*>(rgba.data()), rgba.size()}, width_, height_, *scale_);
+}
+
+std::uint64_t RasterPass::readback_byte_count() const { return std::uint64_t{4} * width_ * height_; }
+
+}  // namespace drape

@@ -1,0 +1,132 @@
+// The picture of a frame: cloths from their images, colliders as their true shapes, the first light's shadow,
+// and the copy that the host reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drape/scene.h"
+#include "drape/view.h"
+#include "graph/executor.h"
+#include "picture/collider_mesh.h"
+#include "picture/fixtures.h"
+#include "picture/strain_scale.h"
+#include "shared/raster_types.h"
+#include "solver/pass_kit.h"
+#include "vulkan/pipeline.h"
+
+namespace drape {
+
+/// A cloth as the raster pass sees it. Images have one texel per particle, rgba32f: position (xyz metres) and
+/// normal (xyz unit, pointing to the front; zero where there is none). Indices are uint32,
+/// row * columns + column, corners of a triangle counter-clockwise seen from the front.
+struct RasterCloth {
+    std::string name;
+    std::uint32_t columns = 0, rows = 0;
+    double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
+    double thickness = 0;           ///< m, by which a collider that its triangles cut is drawn behind it
+    Appearance appearance;
+    graph::Handle position, normal, indices;
+    std::uint32_t index_count = 0;
+    graph::Handle cut_vertices = {};   ///< valid on a cut cloth: indices from columns * rows on are in this buffer
+    graph::Handle spring_shares = {};  ///< valid with holes or cuts: 0 where there is no spring
+    std::array<double, 2> rest_lengths{0, 0};  ///< m, of springs along columns, rows; 0: no such springs
+};
+
+struct RasterOptions {
+    bool shadow = true;
+    PictureView view;
+    bool cut = false;     ///< some cloth has cut vertices: their pipelines are made
+    bool masked = false;  ///< some cloth has spring shares: likewise
+    /// Pixels right and down by which the picture is moved: pictures moved by parts of a pixel add up to one of many
+    /// samples.
+    std::array<double, 2> shift{0, 0};
+};
+
+class RasterPass {
+  public:
+    /// Makes the pipelines that the scene needs and no others. `samples`: 1 or 4.
+    RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width, std::uint32_t height,
+               std::uint32_t samples, const RasterOptions& options = {});
+    RasterPass(const RasterPass&) = delete;
+    RasterPass& operator=(const RasterPass&) = delete;
+
+    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow", "raster" and
+    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows
+    /// from the top, tightly packed. The graph's plans may run as long as this object lives.
+    graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
+
+    /// Fills the host inputs of a slot for the picture at `time` (s).
+    void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
+
+    /// Draws what is drawn on the host, the legend of a heat map, into a picture that was read back.
+    void finish(std::span<std::byte> rgba) const;
+
+    bool casts_shadow() const { return shadow_skip_reason_.empty(); }
+    std::uint64_t readback_byte_count() const;
+
+    static constexpr const char* readback_name = "color/readback";
+    static constexpr const char* frame_name = "raster/frame";
+    static constexpr const char* colliders_name = "raster/colliders";
+    static constexpr const char* heat_colors_name = "raster/heat colors";
+    static constexpr const char* color_name = "color";
+    static constexpr const char* light_name = "light";  ///< radiance
+    static constexpr const char* resolved_name = "light/resolved";
+    static constexpr const char* depth_name = "depth";
+    static constexpr const char* shadow_map_name = "shadow/map";
+    static constexpr const char* shadow_depth_name = "shadow/depth";
+    static constexpr const char* shadow_rows_name = "shadow/rows";
+
+  private:
+    struct Draw {
+        ColliderDraw range;
+        std::unique_ptr<vulkan::GraphicsPipeline> pipeline;
+    };
+    struct Targets;
+
+    /// What draws a cloth, by what it has.
+    struct ClothPipelines {
+        std::unique_ptr<vulkan::GraphicsPipeline> whole, masked, cut;
+        const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
+    };
+
+    void make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options, vulkan::GraphicsState state,
+                              vulkan::GraphicsState shadow_state);
+    void make_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options);
+    void make_compute_pipelines();
+    Targets declare(graph::Graph& graph) const;
+    void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void add_encoding(graph::Graph& graph, Targets& targets) const;
+    void draw_picture(graph::PassContext& context, const Targets& targets,
+                      const std::vector<RasterCloth>& cloths) const;
+    graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
+
+    std::uint32_t width_, height_, samples_;
+    bool resolves_;  ///< the samples, for the encoding pass cannot read them
+    RoundColumns columns_in_picture(const SceneDescription& scene) const;
+    /// The scene's colliders and then its fixtures, at `time` (s).
+    std::vector<Collider> drawn_bodies(double time) const;
+
+    std::vector<Collider> colliders_;
+    std::vector<Fixture> fixtures_;
+    bool has_floor_ = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
+    PlaneExtent plane_extent_;
+    glsl::FrameConstants constants_;
+    std::string shadow_skip_reason_;  ///< empty: there is a shadow
+    View view_;
+    std::optional<StrainScale> scale_;  ///< of a heat map
+    ClothPipelines cloth_, shadow_cloth_;
+    std::vector<Draw> draws_, shadow_draws_;
+    Pipelines compute_;
+    const vulkan::ComputePipeline* shadow_rows_ = nullptr;  ///< none without a shadow
+    std::uint32_t shadow_rows_invocations_ = 0;
+    const vulkan::ComputePipeline* encoding_ = nullptr;
+};
+
+}  // namespace drape

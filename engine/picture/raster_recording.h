@@ -1,0 +1,34 @@
+// The Vulkan commands of the raster passes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "graph/executor.h"
+#include "picture/collider_mesh.h"
+#include "shared/raster_types.h"
+#include "vulkan/pipeline.h"
+
+namespace drape {
+
+/// What a pass renders into; filled while the pass is set up, used when it is recorded.
+struct RasterAttachments {
+    graph::Handle color;
+    graph::Handle depth = {};  ///< invalid: none
+    graph::Handle resolve;     ///< invalid: none
+    std::array<float, 4> clear{1, 1, 1, 1};
+};
+
+/// Begins dynamic rendering over the whole attachments, viewport and scissor set; depth is cleared to 1 (the far end)
+/// and forgotten at the end, like the samples when they are resolved.
+void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments);
+
+void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count);
+
+void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
+
+/// Tightly packed.
+void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);
+
+}  // namespace drape

@@ -1,0 +1,47 @@
+#include "picture/strain_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/vectors.h"
+
+namespace drape {
+
+namespace {
+
+constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 20;
+
+/// N/m, on an edge that bears the cloth's weight, so many times as pins and folds gather it, or the wind's push.
+double edge_force(const Cloth& cloth, const SceneDescription& scene) {
+    const double fastest = length(scene.wind.velocity) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
+    const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;
+    return std::max(gathered_weights * cloth.areal_density * length(scene.gravity), pressure) *
+           std::max(cloth.size[0], cloth.size[1]);
+}
+
+/// 1, 2 or 5 times a power of ten.
+double rounded_up(double value) {
+    const double decade = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double step : {1.0, 2.0, 5.0})
+        if (value <= step * decade * (1 + 1e-9)) return step * decade;
+    return 10 * decade;
+}
+
+}  // namespace
+
+double default_strain_range(const SceneDescription& scene) {
+    double largest = 0;
+    for (const Cloth& cloth : scene.cloths)
+        if (!cloth.stiffness.rigid && cloth.stiffness.stretch > 0)
+            largest = std::max(largest, edge_force(cloth, scene) / cloth.stiffness.stretch);
+    return rounded_up(std::clamp(largest, smallest_range, largest_range));
+}
+
+std::optional<StrainScale> strain_scale(const PictureView& view, const SceneDescription& scene) {
+    if (!view.shows_strain()) return std::nullopt;
+    const double range = view.range > 0 ? view.range : default_strain_range(scene);
+    if (view.kind == View::stretch) return StrainScale{"stretch", &viridis, 0, range};
+    return StrainScale{view.kind == View::warp ? "warp strain" : "weft strain", &cool_warm, -range, range};
+}
+
+}  // namespace drape

@@ -1,0 +1,39 @@
+#include "run/contacts.h"
+
+#include <algorithm>
+
+#include "cloth/frame_inputs.h"
+#include "scene/contact_shape.h"
+
+namespace drape {
+
+namespace glsl {
+#include "include/colliders.h"
+}  // namespace glsl
+
+std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::size_t cloth, double time,
+                                            std::span<const float> xyzw) {
+    const Cloth& shape = scene.cloths[cloth];
+    const double edge = std::min(shape.size[0] / (shape.grid[0] - 1), shape.size[1] / (shape.grid[1] - 1));
+    const auto reach = static_cast<float>(shape.thickness + contact_reach * edge);
+    std::vector<std::int16_t> touched(xyzw.size() / 4, -1);
+    std::vector<float> nearest(touched.size(), reach);
+    for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
+        const int kind = scene.colliders[number].kind();
+        const glsl::ColliderRecord record = collider_record(contact_shape(shape, scene.colliders[number]), time, time);
+        const glsl::vec3 radii{record.shape.x, record.shape.y, record.shape.z};
+        for (std::size_t particle = 0; particle < touched.size(); ++particle) {
+            if (xyzw[4 * particle + 3] == 0) continue;
+            const glsl::vec3 world{xyzw[4 * particle], xyzw[4 * particle + 1], xyzw[4 * particle + 2]};
+            const glsl::vec3 local = glsl::local_point(record, world);
+            if (kind == glsl::kind_ellipsoid && glsl::beyond_bounds(local, radii, reach)) continue;
+            const float distance = glsl::collider_surface(kind, record, world, local).distance;
+            if (distance > nearest[particle]) continue;
+            nearest[particle] = distance;
+            touched[particle] = static_cast<std::int16_t>(number);
+        }
+    }
+    return touched;
+}
+
+}  // namespace drape

@@ -1,0 +1,55 @@
+// What a failed run leaves so that anybody can see it fail again: its scene, its settings, its device, its last
+// checkpoint and what it said (engine/docs/checkpoint.md).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "output/manifest.h"
+#include "run/checkpoints.h"
+#include "run/run.h"
+
+namespace drape {
+
+struct FailureCapsule {
+    SceneRequest scene;  ///< its path is a name only
+    std::string scene_text;
+    bool keep_failed = false;
+    std::uint32_t start = 0, end = 0, step = 1;  ///< frames that were handed out
+    std::string program_version, run_key;
+    Manifest::Device device;
+    std::string status, reason;          ///< as in the manifest
+    std::optional<FrameFailure> failed;  ///< where a frame was no result
+    /// The last frame that was handed out before, and its numbers.
+    std::optional<Manifest::FrameStatistics> last_frame;
+    std::optional<RunCheckpoint> checkpoint;
+};
+
+/// Into the folder, as capsule_file_name. Throws OutputError.
+void write_capsule(OutputFolder& folder, const FailureCapsule& capsule);
+/// Throws OutputError naming the file when it is none.
+FailureCapsule read_capsule(const std::string& path);
+/// The same of a file's bytes. Throws OutputError with what is wrong, to be put behind the file's name.
+FailureCapsule decode_capsule(std::span<const std::byte> file);
+
+struct ReplayRequest {
+    std::string path;
+    std::string device;  ///< selector; empty: the capsule's, if it is there, else the default
+    bool validate = false;
+    std::function<void(const std::string&)> message;
+    std::function<bool()> stop;
+};
+
+struct Replay {
+    bool reached = false;      ///< the same failure, to the bit; else `text` says what was different
+    bool stopped = false;      ///< by `stop`
+    std::string text;          ///< what happened
+    std::exception_ptr error;  ///< of the failure, where there was one
+};
+
+/// Simulates from the capsule's checkpoint to its failure. Throws OutputError, SceneFailure, DeviceError.
+Replay replay_capsule(const ReplayRequest& request);
+
+}  // namespace drape

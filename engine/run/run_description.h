@@ -1,0 +1,30 @@
+// What a run is, for its manifest, its files and who watches it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drape/simulation.h"
+#include "output/frame_writer.h"
+#include "output/manifest.h"
+#include "run/run.h"
+
+namespace drape {
+
+struct FrameRange {
+    std::uint32_t start, end, step;
+    std::uint32_t count() const { return (end - start) / step + 1; }
+};
+
+/// Throws UsageError.
+FrameRange frame_range(const RunRequest& request, const SceneDescription& scene, std::vector<std::string>& warnings);
+
+Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
+                      const DeviceInfo& device, const FrameRange& range);
+/// As the formats need it; `manifest`: with the run's key.
+WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
+                       const Manifest& manifest);
+/// What `-v` says before the first frame.
+std::vector<std::string> notes(const Device& device, const Simulation& simulation);
+
+}  // namespace drape

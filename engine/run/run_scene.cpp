@@ -1,0 +1,447 @@
+// A run into a folder: frames, then the manifest; checkpoints on the way.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "output/kept_frames.h"
+#include "output/manifest.h"
+#include "output/png_sequence.h"
+#include "output/progress.h"
+#include "run/checkpoints.h"
+#include "run/failure_capsule.h"
+#include "run/frame_sink.h"
+#include "run/run.h"
+#include "run/run_description.h"
+#include "scene/start_crossings.h"
+#include "simulation/frame_checks.h"
+
+namespace drape {
+
+namespace {
+
+void check_stream(const RunRequest& request) {
+    const auto formats = output_formats(request.formats);
+    if (formats.size() != 1 || !formats[0]->stream)
+        throw UsageError(fmt::format("a stream takes one format, of {}", stream_format_names()));
+    if (request.existing != ExistingFiles::refuse) throw UsageError("a stream cannot be overwritten or resumed");
+}
+
+/// Throws UsageError when a format cannot be written so, or cannot hold what the scene does.
+void check_formats(const RunRequest& request, const SceneDescription& scene) {
+    if (request.stream) check_stream(request);
+    for (const OutputFormat* format : output_formats(request.formats))
+        if (!format->follows_cuts && !scene.cutters.empty())
+            throw UsageError(
+                fmt::format("--export {}: its faces cannot change, but the scene has cutters", format->name));
+}
+
+bool needs_positions(const RunRequest& request) {
+    return std::ranges::any_of(output_formats(request.formats),
+                               [](const OutputFormat* format) { return !format->draws; });
+}
+
+SimulationOptions run_options(const RunRequest& request) {
+    SimulationOptions options =
+        simulation_options(request.scene, request.draws(), needs_positions(request), request.details());
+    options.keep_promises = !request.keep_failed;
+    return options;
+}
+
+/// Whether some format needs every picture, those of kept frames too.
+bool needs_every_picture(const RunRequest& request) {
+    return std::ranges::any_of(output_formats(request.formats),
+                               [](const OutputFormat* format) { return format->draws && !format->resumes; });
+}
+
+/// Frames of the range that have to be handed out, and those whose pictures are there already.
+struct MissingFrames {
+    std::set<std::uint32_t> frames;
+    std::map<std::uint32_t, KeptFrame> kept;
+};
+
+MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const RunRequest& request,
+                             const FrameRange& range, const std::string& key) {
+    std::map<std::string, KeptFrame> there;
+    if (folder && request.existing == ExistingFiles::resume) there = kept_frames(*folder, key);
+    const bool only_pictures = !needs_positions(request) && !needs_every_picture(request);
+    MissingFrames missing;
+    for (std::uint64_t number = range.start; number <= range.end; number += range.step) {
+        const auto frame = static_cast<std::uint32_t>(number);
+        const auto kept = there.find(frame_file_name(frame, frame_digits(range.end)));
+        const bool is_kept = request.draws() && kept != there.end();
+        if (is_kept) missing.kept.emplace(frame, kept->second);
+        if (!is_kept || !only_pictures) missing.frames.insert(frame);
+    }
+    return missing;
+}
+
+/// How a run ended before its end that would end there again, or with frames that are no result.
+struct RunFailure {
+    std::string status, reason;
+    std::optional<FrameFailure> frame;
+    std::exception_ptr error;
+};
+
+/// The failure of a frame, to be told as its reason and `consequence`.
+RunFailure frame_run_failure(const FrameError& error, bool of_tolerance, const std::string& consequence) {
+    const std::string text = error.what() + consequence;
+    return {of_tolerance ? "tolerance missed" : "diverged", error.what(), error.failure(),
+            of_tolerance ? std::make_exception_ptr(ToleranceMissed(text, error.failure()))
+                         : std::make_exception_ptr(Diverged(text, error.failure()))};
+}
+
+/// What is said at the end of a run that went on.
+RunFailure kept_failure(const FrameFailure& failure) {
+    return frame_run_failure(FrameError(failure.reason, failure), failure.kind == FrameFailure::Kind::tolerance,
+                             "; it and what came after are kept, as --on-failure keep asks");
+}
+
+constexpr const char* output_failed = "output failed";
+
+/// Of the exception being handled, which did not come from a frame's numbers.
+RunFailure broken_run(const std::exception& error) {
+    const char* status = dynamic_cast<const OutputError*>(&error)      ? output_failed
+                         : dynamic_cast<const DeviceError*>(&error)    ? "device failed"
+                         : dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory"
+                                                                       : "internal error";
+    return {status, error.what(), std::nullopt, std::current_exception()};
+}
+
+/// What a run goes by.
+struct RunParts {
+    const RunRequest& request;
+    const MissingFrames& missing;
+    Simulation& simulation;
+    Sink& sink;
+    Checkpoints* checkpoints;  ///< nothing: of a stream
+    RunSummary& summary;
+    std::optional<RunFailure>& failure;
+    std::uint64_t earlier_validation;  ///< messages, of a run that this one goes on
+    const Device& device;
+};
+
+void write_checkpoint(const RunParts& run) {
+    RunCheckpoint checkpoint;
+    checkpoint.next_frame = run.simulation.next_frame();
+    checkpoint.validation_count = run.earlier_validation + run.device.validation_count();
+    if (run.failure) checkpoint.failure = run.failure->frame;
+    run.sink.flush();
+    checkpoint.state = run.simulation.save();
+    run.checkpoints->write(std::move(checkpoint));
+}
+
+/// Runs to `last`, with checkpoints when they are due and where it is stopped. Returns whether it came to `last`.
+bool run_with_checkpoints(const RunParts& run, std::uint32_t last,
+                          const std::function<void(const FinishedFrame&)>& finished) {
+    const auto wanted = [&](std::uint32_t frame) { return run.missing.frames.contains(frame); };
+    const auto stopped = [&] { return run.request.stop && run.request.stop(); };
+    if (!run.checkpoints || !run.checkpoints->enabled()) return run.simulation.run(last, wanted, finished, stopped);
+    std::uint32_t saved = run.simulation.next_frame();
+    for (bool due = true; due;) {
+        due = false;
+        const auto pause = [&] {
+            // What method auto has simulated ahead is handed out first: that takes no time.
+            if (!run.simulation.can_save()) return false;
+            due = run.simulation.next_frame() > saved && run.checkpoints->due();
+            return due || stopped();
+        };
+        if (run.simulation.run(last, wanted, finished, pause)) return true;
+        if (run.simulation.next_frame() > saved) write_checkpoint(run);
+        saved = run.simulation.next_frame();
+        due = due && !stopped();
+    }
+    if (saved > 0) run.summary.checkpoint = saved;
+    return false;
+}
+
+/// Simulates up to the last missing frame and writes the missing ones. Returns whether it came to its end; where it
+/// failed it says how.
+bool write_frames(const RunParts& run, std::uint32_t last) {
+    RunSummary& summary = run.summary;
+    const auto& frames = run.missing.frames;
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count_if(frames, [&](std::uint32_t frame) { return frame >= run.simulation.next_frame(); }));
+    // A run again would fail again at the same frame: what came before it is the result.
+    const auto kept = [&] {
+        const std::uint64_t written = summary.frame_count + summary.kept_count;
+        if (written == 0) return std::string("; nothing was written");
+        return fmt::format("; what was written before it is kept ({} of {} frames)", written,
+                           summary.kept_count + count);
+    };
+    Progress progress(count, Progress::standard_options(run.request.quiet));
+    try {
+        return run_with_checkpoints(run, last, [&](const FinishedFrame& frame) {
+            if (frame.failure && frame.failure->kind == FrameFailure::Kind::not_finite) raise(*frame.failure);
+            if (frame.failure && !run.failure) run.failure = kept_failure(*frame.failure);
+            run.sink.add(frame);
+            progress.frame_done(frame.frame, run.sink.note());
+            if (!run.missing.kept.contains(frame.frame)) ++summary.frame_count;
+        });
+    } catch (const Diverged& error) {
+        run.failure = frame_run_failure(error, false, kept());
+    } catch (const ToleranceMissed& error) {
+        run.failure = frame_run_failure(error, true, kept());
+    } catch (const std::exception& error) {
+        run.failure = broken_run(error);
+    }
+    return false;
+}
+
+/// Throws Error for a record of other cloths: what wrote the file may have made its checksum as well.
+void expect_of_scene(const JournalRecord& record, const SceneDescription& scene) {
+    const auto particles = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1]; };
+    const auto fits = [&](const std::vector<std::vector<float>>& arrays) {
+        return arrays.empty() ||
+               std::ranges::equal(arrays, scene.cloths, [&](const std::vector<float>& values, const Cloth& cloth) {
+                   return values.size() == 4 * particles(cloth);
+               });
+    };
+    const auto cuts = [&] {
+        return record.cloth < scene.cloths.size() && record.faces.size() % 3 == 0 &&
+               std::ranges::all_of(record.faces, [&, count = particles(scene.cloths[record.cloth])](
+                                                     std::uint32_t particle) { return particle < count; });
+    };
+    if (!(record.kind == JournalRecord::Kind::cut ? cuts() : fits(record.positions) && fits(record.velocities)))
+        throw Error("a record of another scene");
+}
+
+/// The checkpoint that a run goes on from: what it does not simulate again has to be there, as pictures and, for
+/// arrays, in the journal.
+std::optional<RunCheckpoint> resumed_from(std::optional<Checkpoints>& checkpoints, const RunRequest& request,
+                                          const SceneDescription& scene, const FrameRange& range,
+                                          const MissingFrames& missing,
+                                          const std::function<void(const std::string&)>& say) {
+    if (!checkpoints || request.existing != ExistingFiles::resume) return std::nullopt;
+    const bool arrays = needs_positions(request);
+    const auto usable = [&](const RunCheckpoint& checkpoint) {
+        std::set<std::uint32_t> told;
+        checkpoints->journal().read(checkpoint.journal_length, [&](const JournalRecord& record) {
+            expect_of_scene(record, scene);
+            const bool enough = !record.positions.empty() && (!request.details() || !record.velocities.empty());
+            if (record.kind == JournalRecord::Kind::frame && enough) told.insert(record.frame);
+        });
+        for (std::uint64_t frame = range.start; frame <= range.end && frame < checkpoint.next_frame;
+             frame += range.step) {
+            const auto number = static_cast<std::uint32_t>(frame);
+            if (needs_every_picture(request)) return false;
+            if (request.draws() && !missing.kept.contains(number)) return false;
+            if (arrays && !told.contains(number)) return false;
+        }
+        return true;
+    };
+    return checkpoints->newest(usable, say);
+}
+
+/// Takes the simulation to the checkpoint, and tells the writers what they were told before it.
+void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange& range) {
+    try {
+        run.simulation.restore(from.state);
+        if (run.simulation.next_frame() != from.next_frame) throw Error("it is of another frame than it says");
+    } catch (const DeviceError&) {
+        throw;
+    } catch (const Error& error) {
+        throw OutputError(fmt::format("cannot resume: the checkpoint of frame {}: {}", from.next_frame, error.what()));
+    }
+    if (run.request.message)
+        run.request.message(fmt::format("note: goes on from the checkpoint of frame {}", from.next_frame));
+    Journal& journal = run.checkpoints->journal();
+    journal.read(from.journal_length, [&](const JournalRecord& record) {
+        if (record.kind == JournalRecord::Kind::cut) return run.sink.repeat_cut(record);
+        const bool wanted =
+            record.frame >= range.start && record.frame <= range.end && (record.frame - range.start) % range.step == 0;
+        if (!wanted || record.frame >= from.next_frame) return;
+        if (!run.missing.kept.contains(record.frame)) ++run.summary.kept_count;
+        run.sink.repeat(record);
+    });
+    journal.go_on_behind(from.journal_length);
+    if (from.failure) run.failure = kept_failure(*from.failure);
+}
+
+/// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
+bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
+
+/// Frame from which on cloths that started through each other are apart.
+std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
+    if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
+    return *told.last_crossed + 1;
+}
+
+std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told) return {};
+    const std::vector<Cloth>& cloths = simulation.scene().cloths;
+    std::vector<std::string> names;
+    for (const Cloth& cloth : cloths)
+        if (cloth.self_collision) names.push_back(cloth.name);
+    std::vector<std::pair<std::string, std::string>> crossed;
+    for (const auto& [one, other] : told->crossed) crossed.emplace_back(cloths[one].name, cloths[other].name);
+    return Manifest::SelfCollision{names,           cloths.size() > 1, told->first_unproved,          told->most_pairs,
+                                   told->truncated, crossed,           apart_since(*told, simulation)};
+}
+
+/// Simulates what is missing. Returns whether all is there.
+bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, const FrameRange& range) {
+    const bool to_the_end = needs_every_frame(run.simulation.scene());
+    const std::set<std::uint32_t>& frames = run.missing.frames;
+    if (frames.empty() && !to_the_end) return true;
+    if (from) go_on_from(*from, run, range);
+    if (run.checkpoints) run.checkpoints->keep_until(from ? from->next_frame : 0);
+    return write_frames(run, to_the_end ? range.end : *frames.rbegin());
+}
+
+/// What a run that did not keep what `auto` aims at is told.
+std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics) {
+    if (facts.limits_are_kept) return statistics.unpredictable();
+    const double rms = statistics.worst_of_run("/stretch_error_rms").value_or(0),
+                 largest = statistics.worst_of_run("/stretch_error_max").value_or(0);
+    if (rms <= facts.tolerance_rms && largest <= facts.tolerance_worst) return std::nullopt;
+    return fmt::format(
+        "the stretch error came to {:.3g} RMS and {:.3g} in a single spring; method auto would have kept {:.3g} and "
+        "{:.3g}",
+        rms, largest, facts.tolerance_rms, facts.tolerance_worst);
+}
+
+/// What a run is told whose cloths met and may have crossed; those that started so were told of before.
+std::optional<std::string> lost_proof(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->first_unproved || *told->first_unproved == 0) return std::nullopt;
+    return fmt::format(
+        "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
+        "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
+        *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
+}
+
+/// What a run is told whose cloths started through each other and did not come apart.
+std::optional<std::string> still_crossed(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->last_crossed || apart_since(*told, simulation)) return std::nullopt;
+    return "cloths that started through each other still are in the last frame";
+}
+
+/// The files of a run that is done, or of one that failed as far as it came.
+void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
+    manifest.cuts = sink.cuts();
+    const std::shared_ptr<const RunStatistics> statistics = sink.statistics();
+    manifest.statistics = [statistics](const Manifest::FrameVisitor& take) { statistics->for_each_frame(take); };
+    manifest.solver.stretch_error = statistics->worst_of_run("/stretch_error_rms");
+    try {
+        sink.add_timings(manifest);
+        // Arrays of a run that something broke are no result; those before a frame that fails again are.
+        const bool whole =
+            summary.complete || (failure && failure->frame && summary.frame_count + summary.kept_count > 0);
+        manifest.files = sink.finish(whole, summary.dropped);
+    } catch (const std::exception& error) {
+        summary.complete = false;
+        if (!failure) failure = broken_run(error);
+    }
+}
+
+/// What a failed run leaves to be replayed. What keeps it from being written has been told, or is told of the manifest.
+void leave_capsule(OutputFolder& folder, const RunRequest& request, const LoadedScene& scene, const FrameRange& range,
+                   const Checkpoints& checkpoints, const RunFailure& failure, Manifest& manifest) {
+    if (failure.status == output_failed) return;
+    FailureCapsule capsule{.scene = request.scene, .scene_text = scene.text, .keep_failed = request.keep_failed};
+    capsule.start = range.start, capsule.end = range.end, capsule.step = range.step;
+    capsule.program_version = program_version();
+    capsule.run_key = manifest.run_key;
+    capsule.device = manifest.device;
+    capsule.status = failure.status;
+    capsule.reason = failure.reason;
+    capsule.failed = failure.frame;
+    capsule.checkpoint = checkpoints.last();
+    // In a run that went on, later ones are of no use.
+    if (capsule.checkpoint && failure.frame && capsule.checkpoint->next_frame > failure.frame->frame)
+        capsule.checkpoint.reset();
+    try {
+        manifest.statistics([&](const Manifest::FrameStatistics& each) {
+            if (!failure.frame || each.frame < failure.frame->frame) capsule.last_frame = each;
+        });
+        write_capsule(folder, capsule);
+        manifest.capsule = capsule_file_name;
+        if (request.message)
+            request.message(
+                fmt::format("note: `drape replay {}` goes to this failure again", folder.path_of(capsule_file_name)));
+    } catch (const OutputError&) {  // the run's own failure is told
+    }
+}
+
+/// The manifest says how a run ended, also where it failed.
+void end_with_manifest(OutputFolder& folder, Manifest& manifest, std::optional<RunFailure>& failure) {
+    if (failure) {
+        manifest.status = failure->status;
+        manifest.failure = failure->reason;
+        manifest.failed_frame = failure->frame;
+    } else if (manifest.validation.message_count > 0) {
+        manifest.status = "validation messages";
+        manifest.failure = fmt::format("{} validation messages", manifest.validation.message_count);
+    }
+    try {
+        write_manifest(folder, manifest);
+    } catch (const OutputError&) {
+        if (!failure) throw;  // else what came first is told: what kept the files from being written keeps this one
+    }
+}
+
+}  // namespace
+
+RunSummary run_scene(const RunRequest& request) {
+    RunSummary summary;
+    const LoadedScene scene = load(request.scene);
+    summary.warnings = scene.warnings;
+    const FrameRange range = frame_range(request, scene.description, summary.warnings);
+    const auto say = [&](const std::string& text) {
+        if (request.message) request.message(text);
+    };
+    const auto warn = [&](const std::string& text) {
+        summary.warnings.push_back(text);
+        say("warning: " + text);
+    };
+    for (const std::string& warning : summary.warnings) say("warning: " + warning);
+    std::optional<OutputFolder> folder;
+    check_formats(request, scene.description);
+    if (!request.stream) folder.emplace(request.output, request.existing);
+    const Device device = device_of(request.scene, scene.description, request.draws());
+    const std::string key = key_of(request, scene, device.info());
+    const MissingFrames missing = missing_frames(folder, request, range, key);
+    summary.kept_count = missing.kept.size();
+    std::optional<Checkpoints> checkpoints;
+    if (folder) checkpoints.emplace(*folder, key, request.checkpoint_interval);
+    const auto from = resumed_from(checkpoints, request, scene.description, range, missing, say);
+    const std::uint64_t earlier_validation = from ? from->validation_count : 0;
+    Manifest manifest;
+    std::optional<RunFailure> failure;
+    {
+        Sink* cut_sink = nullptr;
+        SimulationOptions options = run_options(request);
+        options.on_cut = [&](const Cut& cut) { cut_sink->add_cut(cut); };
+        Simulation simulation(scene.description, options, device);
+        for (const Compromise& each : simulation.facts().compromises) warn(each.what + ": " + each.reason);
+        if (request.verbose) std::ranges::for_each(notes(device, simulation), say);
+        manifest = describe_run(request, scene, simulation, device.info(), range);
+        manifest.run_key = key;
+        Sink sink(folder, request, simulation.scene(), written_run(request, scene, simulation, manifest), missing.kept,
+                  checkpoints && checkpoints->enabled() ? &checkpoints->journal() : nullptr);
+        cut_sink = &sink;
+        const RunParts run{request, missing, simulation,         sink,  checkpoints ? &*checkpoints : nullptr,
+                           summary, failure, earlier_validation, device};
+        summary.complete = run_missing(run, from, range);
+        if (const auto warning = missed_limits(simulation.facts(), *sink.statistics())) warn(*warning);
+        if (const auto warning = lost_proof(simulation)) warn(*warning);
+        if (const auto warning = still_crossed(simulation)) warn(*warning);
+        manifest.warnings = summary.warnings;
+        manifest.self_collision = self_collision_of(simulation);
+        finish_files(sink, manifest, summary, failure);
+    }
+    summary.validation_count = earlier_validation + device.validation_count();
+    manifest.validation = {request.scene.validate, summary.validation_count};
+    if (folder && failure) leave_capsule(*folder, request, scene, range, *checkpoints, *failure, manifest);
+    if (folder && (summary.complete || failure)) {
+        end_with_manifest(*folder, manifest, failure);
+        if (!failure || failure->frame) checkpoints->remove_all();
+    }
+    if (failure) std::rethrow_exception(failure->error);
+    return summary;
+}
+
+}  // namespace drape

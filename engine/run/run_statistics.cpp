@@ -1,0 +1,147 @@
+#include "run/run_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+
+namespace {
+
+void add_strain(FrameValues& values, const std::string& name, const StrainStatistics& strain) {
+    if (strain.spring_count == 0) return;
+    values[name + "_rms"] = strain.rms;
+    values[name + "_max"] = strain.largest;
+    values[name + "_min"] = strain.smallest;
+}
+
+void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatistics& statistics) {
+    add_strain(values, cloth + "/stretch", statistics.stretch);
+    add_strain(values, cloth + "/shear", statistics.shear);
+    if (statistics.stretch.spring_count > 0) {
+        values[cloth + "/stretch_error_rms"] = statistics.stretch_error_rms;
+        values[cloth + "/stretch_error_max"] = statistics.stretch_error_max;
+    }
+    values[cloth + "/kinetic_energy_j"] = statistics.kinetic_energy;
+    values[cloth + "/potential_energy_j"] = statistics.potential_energy;
+    values[cloth + "/elastic_energy_j"] = statistics.elastic_energy;
+    values[cloth + "/center_of_mass_x_m"] = statistics.center_of_mass[0];
+    values[cloth + "/center_of_mass_y_m"] = statistics.center_of_mass[1];
+    values[cloth + "/center_of_mass_z_m"] = statistics.center_of_mass[2];
+    values[cloth + "/distance_max_m"] = statistics.largest_distance;
+    values[cloth + "/speed_max_m_s"] = statistics.largest_speed;
+    if (statistics.iteration_count) values[cloth + "/iterations"] = *statistics.iteration_count;
+    if (statistics.penetration) values[cloth + "/penetration_m"] = *statistics.penetration;
+}
+
+std::optional<double> energy(const FrameValues& values) {
+    const auto found = values.find("energy_j");
+    return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string penetration_text(double metres) {
+    const double millimetres = 1000 * metres;
+    if (millimetres == 0) return "no penetration";
+    return millimetres < 0.001 ? "penetration below 0.001 mm" : fmt::format("penetration {:.3g} mm", millimetres);
+}
+
+}  // namespace
+
+FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame) {
+    const std::vector<ClothStatistics>& cloths = frame.statistics;
+    FrameValues values;
+    if (frame.effort.substeps > 0) {
+        values["substeps"] = frame.effort.substeps;
+        values["attempts"] = frame.effort.attempts;
+        values["motion_error_m_s"] = frame.effort.motion_error;
+        if (!frame.effort.predictable) values["motion_unpredictable"] = 1;
+    }
+    if (frame.effort.asleep) values["asleep"] = 1;
+    double kinetic = 0, potential = 0, elastic = 0;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        add_cloth(values, scene.cloths[cloth].name, cloths[cloth]);
+        kinetic += cloths[cloth].kinetic_energy;
+        potential += cloths[cloth].potential_energy;
+        elastic += cloths[cloth].elastic_energy;
+    }
+    for (const ClothStatistics& cloth : cloths) {
+        if (!cloth.penetration) continue;
+        double& deepest = values.try_emplace("penetration_m", *cloth.penetration).first->second;
+        deepest = std::max(deepest, *cloth.penetration);
+    }
+    values["kinetic_energy_j"] = kinetic;
+    values["potential_energy_j"] = potential;
+    values["elastic_energy_j"] = elastic;
+    values["energy_j"] = kinetic + potential + elastic;
+    std::erase_if(values, [](const auto& entry) { return !std::isfinite(entry.second); });
+    return values;
+}
+
+RunStatistics::RunStatistics(OutputFolder* folder) {
+    if (folder) frames_.emplace(*folder);
+}
+
+void RunStatistics::add(std::uint32_t frame, const FrameValues& values) {
+    if (!first_ || frame <= first_->first) first_ = {frame, energy(values)};
+    ++count_;
+    for (const auto& [name, value] : values) {
+        double& largest = largest_.try_emplace(name, value).first->second;
+        largest = std::max(largest, value);
+    }
+    if (values.contains("motion_unpredictable")) {
+        unpredictable_.first = unpredictable_.count++ == 0 ? frame : std::min(unpredictable_.first, frame);
+        if (const auto error = values.find("motion_error_m_s"); error != values.end())
+            unpredictable_.worst_error = std::max(unpredictable_.worst_error, error->second);
+    }
+    if (frames_) frames_->add(frame, values);
+}
+
+/// Over the cloths.
+std::optional<double> RunStatistics::worst(const FrameValues& values, std::string_view name) {
+    std::optional<double> largest;
+    for (const auto& [key, value] : values)
+        if (key.ends_with(name)) largest = std::max(largest.value_or(value), value);
+    return largest;
+}
+
+std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
+    const auto now = energy(values);
+    return now && first_ && first_->second ? std::optional(*now - *first_->second) : std::nullopt;
+}
+
+std::optional<std::string> RunStatistics::unpredictable() const {
+    if (unpredictable_.count == 0) return std::nullopt;
+    return fmt::format(
+        "in {} of {} frames, from frame {} on, method auto did not keep the limit of the motion's error (it came to "
+        "{:.3g} m/s): more substeps do not reduce it, as where cloth crumples; the stretch error is kept",
+        unpredictable_.count, count_, unpredictable_.first, unpredictable_.worst_error);
+}
+
+std::string RunStatistics::note(const FrameValues& values) const {
+    std::vector<std::string> parts;
+    if (const auto rms = worst(values, "/stretch_rms"), max = worst(values, "/stretch_max"); rms && max)
+        parts.push_back(fmt::format("stretch {:.3g} % RMS, {:.3g} % max", 100 * *rms, 100 * *max));
+    if (const auto error = worst(values, "/stretch_error_rms"))
+        parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
+    if (const auto error = values.find("motion_error_m_s"); error != values.end())
+        parts.push_back(fmt::format("motion error {:.3g} mm/s", 1000 * error->second));
+    if (const auto substeps = values.find("substeps"); substeps != values.end())
+        parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
+    if (values.contains("asleep")) parts.push_back("asleep");
+    if (const auto drift = energy_drift(values))
+        parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, first_->first));
+    if (const auto depth = worst(values, "/penetration_m")) parts.push_back(penetration_text(*depth));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void RunStatistics::for_each_frame(const Manifest::FrameVisitor& take) const {
+    if (!frames_) return;
+    frames_->for_each([&](std::uint32_t frame, const FrameValues& values) {
+        Manifest::FrameStatistics each{frame, values};
+        if (const auto drift = energy_drift(values)) each.values["energy_drift_j"] = *drift;
+        take(each);
+    });
+}
+
+}  // namespace drape

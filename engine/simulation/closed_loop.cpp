@@ -1,0 +1,226 @@
+// The closed loop of method `auto` on the device: frames are simulated, judged on the host by a few numbers that the
+// device reduces, and either kept and handed out or done again from their start with more substeps. While a frame is
+// judged the device has nothing to do for as long as the host takes to answer, tens of microseconds; speculating on the
+// answer would draw pictures of frames that fail.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "cloth/impossible_pins.h"
+#include "cloth/step_change.h"
+#include "simulation/frame_loop.h"
+
+namespace drape {
+
+std::span<const AttemptStep> FrameLoop::attempt_steps() const {
+    using enum AttemptStep;
+    static constexpr std::array all{keep, restore, change_step, remember, compare};
+    static_assert(all.size() == attempt_step_count);
+    if (model_.closed_loop()) return all;
+    return std::span(all).first(model_.self_contact ? 2 : 0);
+}
+
+void FrameLoop::build_attempts() {
+    for (const AttemptStep step : attempt_steps()) {
+        Frame frame;
+        solver_.declare(frame.graph, {});
+        solver_.add_attempt(frame.graph, step);
+        frame.plan = graph::make_plan(frame.graph);
+        attempts_[static_cast<std::size_t>(step)] = std::move(frame);
+    }
+}
+
+FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps) {
+    Rung& rung = rungs_[substeps];
+    if (rung.frame.recorded) return rung;
+    rung.model = std::make_unique<SimulationModel>(model_, substeps);
+    rung.frame = build(FrameKind::simulate, *rung.model);
+    rung.frame.recorded = recording(rung.frame);
+    return rung;
+}
+
+void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
+    const Rung& rung = this->rung(run.substeps);
+    const auto commands = [&](AttemptStep step) {
+        return attempts_[static_cast<std::size_t>(step)].recorded->commands(slot);
+    };
+    std::vector<VkCommandBuffer> all;
+    if (run.before) all.push_back(commands(*run.before));
+    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_step));
+    all.push_back(rung.frame.recorded->commands(slot));
+    if (run.after) all.push_back(commands(*run.after));
+    const std::vector<glsl::StepChange> changes = step_changes(model_, state_substeps_, run.substeps);
+    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
+    solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
+    slots_.submit(slot, all);
+    if (options_.meanwhile) options_.meanwhile();
+}
+
+FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t substeps) {
+    slots_.wait(slot);
+    const Rung& rung = this->rung(substeps);
+    Judged judged{solver_.statistics(*pool_, slot, *rung.model), {.substeps = substeps}, {}};
+    for (graph::Timing& timing : rung.frame.recorded->timings(slot))
+        judged.timings.push_back({std::move(timing.name), timing.milliseconds});
+    judged.self_record = solver_.self_record(*pool_, slot);
+    fullest_.most_pairs = std::max(fullest_.most_pairs, judged.self_record.most_pairs);
+    fullest_.most_near = std::max(fullest_.most_near, judged.self_record.most_near);
+    fullest_.most_cells = std::max(fullest_.most_cells, judged.self_record.most_cells);
+    return judged;
+}
+
+void FrameLoop::run_coarse(std::uint32_t frame, bool first, Judgement& judgement) {
+    const Segment& segment = control_->segment();
+    for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
+        const std::uint32_t slot = take_slot(withhold_);
+        Run run{frame + k, segment.substeps / 2, {}, {}, k == 0};
+        if (k == 0) run.before = first ? AttemptStep::keep : AttemptStep::restore;
+        if (k + 1 == segment.frame_count) run.after = AttemptStep::remember;
+        submit_run(slot, run);
+        judgement.coarse_stretch =
+            std::max(judgement.coarse_stretch, stretch_judgement(model_, take_judged(slot, run.substeps).statistics));
+    }
+}
+
+/// The estimated error over its limit, of the worst cloth.
+double FrameLoop::motion_of(std::uint32_t slot) {
+    const std::vector<double> differences = solver_.differences(*pool_, slot);
+    double worst = motion_error_ = 0;
+    for (std::size_t cloth = 0; cloth < differences.size(); ++cloth) {
+        const double error = motion_error(model_, differences[cloth], control_->segment().frame_count);
+        if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, error / motion_limit(model_, cloth));
+        motion_error_ = std::max(motion_error_, error);
+    }
+    return worst;
+}
+
+/// The facts of the last frame that was run: the segment's last, unless one before it failed.
+FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked) {
+    const Segment& segment = control_->segment();
+    const Finished& finished = segment.probes ? withhold_ : asked.finished;
+    Judged judged;
+    attempt_statistics_.clear();
+    attempt_self_records_.clear();
+    for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
+        const bool last = k + 1 == segment.frame_count;
+        const std::uint32_t slot = take_slot(finished);
+        Run run{frame + k, segment.substeps, {}, {}, k == 0};
+        if (k == 0) run.before = first && !segment.probes ? AttemptStep::keep : AttemptStep::restore;
+        if (last && segment.probes) run.after = AttemptStep::compare;
+        submit_run(slot, run);
+        deliver(next_slot_, finished);  // the frame before, while this one is simulated
+        judged = take_judged(slot, run.substeps);
+        attempt_statistics_.push_back(judged.statistics);
+        attempt_self_records_.push_back(judged.self_record);
+        const double implausible =
+            std::max(watch_.excess(frame + k, judged.statistics), solver_.self_list_use(judged.self_record));
+        judgement.plausible = judgement.plausible && implausible <= 1;
+        judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
+        if (judgement.stretch > 1 && !control_->at_top()) return judged;
+        if (!segment.probes) return judged;
+        if (last) judgement.motion = motion_of(slot);
+        submit_output(frame + k, judged, frame + k > asked.last || asked.wanted(frame + k), withhold_);
+    }
+    return judged;
+}
+
+/// A frame that is the one before it.
+void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
+    simulated_ = frame + 1;
+    submit_output(frame, {attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}}, asked.wanted(frame),
+                  asked.finished);
+}
+
+void FrameLoop::drop_withheld() {
+    deliver_all([](const FinishedFrame&) {});
+    withheld_.clear();
+}
+
+bool FrameLoop::lengthen_lists() {
+    if (solver_.self_list_use(fullest_) <= 1 || !solver_.grow_lists(fullest_)) return false;
+    if (control_->segment().probes) drop_withheld();
+    begin_anew();
+    return true;
+}
+
+void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
+    if (sleep_.asleep(frame)) return sleep_through(frame, asked);
+    const Segment& begun = control_->begin(probe_room(model_, frame), drive_.eventful(frame));
+    if (begun.probes) drive_.probed(frame, begun.frame_count);
+    if (begun.probes) deliver_all(asked.finished);  // then only what is withheld is in flight
+    FrameEffort effort{.attempts = 0};
+    Judged judged;
+    for (bool first = true;;) {
+        Judgement judgement;
+        fullest_ = {};
+        if (control_->segment().probes) run_coarse(frame, first, judgement);
+        judged = run_fine(frame, first, judgement, asked);
+        first = lengthen_lists();  // what was kept is gone
+        if (first) continue;
+        ++effort.attempts;
+        const SubstepControl::Verdict verdict = control_->judge(judgement);
+        if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);
+        effort.within_limits = verdict != SubstepControl::Verdict::give_up || !judgement.plausible;
+        effort.predictable = verdict != SubstepControl::Verdict::unpredictable;
+        if (verdict != SubstepControl::Verdict::again) break;
+        if (control_->segment().probes) drop_withheld();
+    }
+    effort.substeps = control_->segment().substeps;
+    if (control_->segment().probes) effort.motion_error = motion_error_;
+    judged.effort = effort;
+    keep_segment(frame, std::move(judged), asked);
+}
+
+/// `single`: the frame, unless the segment is a probe; its effort is the segment's.
+void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& asked) {
+    const Segment& segment = control_->segment();
+    for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, segment.substeps);
+    for (std::size_t k = 0; k < attempt_self_records_.size(); ++k)
+        note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
+    state_substeps_ = segment.substeps;
+    simulated_ = frame + segment.frame_count;
+    if (!segment.probes)
+        return submit_output(frame, std::move(single), frame > asked.last || asked.wanted(frame), asked.finished);
+    deliver_all(withhold_);
+    for (FrameCopy& copy : withheld_) copy.effort() = single.effort;
+}
+
+void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {
+    control_->keep_anyway();
+    // What is not finite, or not plausible, is told of when it is handed out.
+    if (!options_.keep_promises || !std::isfinite(judgement.stretch) || !judgement.plausible) return;
+    if (!control_->segment().probes) deliver_all(asked.finished);
+    const bool stretch = judgement.stretch > 1;
+    const std::string impossible = impossible_pins(model_, frame + control_->segment().frame_count - 1);
+    const char* criterion = stretch ? "stretch error" : "estimated error of the motion";
+    const double times = stretch ? judgement.stretch : judgement.motion;
+    const std::string text = fmt::format(
+        "the tolerance is missed: from frame {} on the {} is {:.3g} times its limit even with {} substeps of method "
+        "{}, the most that method auto tries{}{}",
+        frame, criterion, times, control_->segment().substeps, model_.method().name, impossible.empty() ? "" : "; ",
+        impossible);
+    throw ToleranceMissed(text, FrameFailure{FrameFailure::Kind::tolerance, text, frame,
+                                             fmt::format("{} over its limit", criterion), times, 1});
+}
+
+void FrameLoop::submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished) {
+    const bool cutting = cutters_active_in(frame);
+    if (!wanted && !cutting) return;
+    const std::uint32_t slot = take_slot(finished);
+    submit(slot, frame, !wanted ? FrameKind::search_cut : cutting ? FrameKind::output_cut : FrameKind::output, wanted);
+    if (judged.effort.substeps > 0) in_flight_[slot]->substeps = judged.effort.substeps;  // a probe is not kept yet
+    in_flight_[slot]->judged = std::move(judged);
+    if (cutting) take_cuts_of(slot, frame, finished);
+}
+
+void FrameLoop::release_withheld(std::uint32_t frame, bool wanted, const Finished& finished) {
+    if (withheld_.empty() || withheld_.front().frame().frame != frame) return;
+    const FrameCopy copy = std::move(withheld_.front());
+    withheld_.pop_front();
+    if (wanted) finished(copy.frame());
+}
+
+}  // namespace drape

@@ -1,0 +1,341 @@
+#include "simulation/frame_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "solver/cut_pass.h"
+#include "solver/readback_pass.h"
+
+namespace drape {
+
+FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options)
+    : device_(device),
+      model_(model),
+      options_(options),
+      solver_(device, model_, options.schedule),
+      watch_(model),
+      sleep_(model),
+      drive_(model),
+      state_substeps_(model.scene.solver.substeps),
+      slots_(device) {
+    if (model_.closed_loop())
+        control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
+                         probe_length(model_));
+    if (model_.self_contact) {
+        self_contact_.emplace();
+        for (const StartCrossing& each : model_.self_contact->crossed)
+            if (each.first != each.second)
+                self_contact_->crossed.emplace_back(each.first, each.second);
+            else
+                self_contact_->first_unproved = 0;
+        if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
+            self_contact_->last_crossed = 0;
+    }
+    build_graphs();
+    allocate_and_record();
+    solver_.upload(*pool_);
+}
+
+std::vector<FrameKind> FrameLoop::kinds() const {
+    using enum FrameKind;
+    std::vector<FrameKind> all{initial, simulate, simulate_and_output};
+    const bool cuts = !model_.scene.cutters.empty(), closed = model_.closed_loop();
+    if (cuts) all.push_back(initial_cut);
+    if (cuts && !closed) all.insert(all.end(), {simulate_cut, simulate_and_output_cut});
+    if (closed) all.push_back(output);
+    if (cuts && closed) all.insert(all.end(), {output_cut, search_cut});
+    return all;
+}
+
+void FrameLoop::build_graphs() {
+    frames_ = {};
+    if (options_.draw) raster_.fit(device_, model_.scene, options_, solver_.topologies());
+    for (const FrameKind kind : kinds()) frames_[static_cast<std::size_t>(kind)] = build(kind, model_);
+}
+
+void FrameLoop::allocate_and_record() {
+    rungs_.clear();
+    build_attempts();
+    std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
+    for (const FrameKind kind : kinds()) {
+        const Frame& frame = frames_[static_cast<std::size_t>(kind)];
+        plans.emplace_back(&frame.graph, &frame.plan);
+    }
+    for (const AttemptStep step : attempt_steps()) {
+        const Frame& frame = attempts_[static_cast<std::size_t>(step)];
+        plans.emplace_back(&frame.graph, &frame.plan);
+    }
+    pool_.reset();
+    pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
+    record();
+}
+
+void FrameLoop::record() {
+    for (const FrameKind kind : kinds()) {
+        // What a closed loop simulates is recorded by its rungs.
+        if (model_.closed_loop() && contents(kind).simulates) continue;
+        Frame& frame = frames_[static_cast<std::size_t>(kind)];
+        frame.recorded = recording(frame);
+    }
+    for (const AttemptStep step : attempt_steps())
+        if (Frame& frame = attempts_[static_cast<std::size_t>(step)]; !frame.recorded)
+            frame.recorded = recording(frame);
+}
+
+std::unique_ptr<graph::RecordedPlan> FrameLoop::recording(const Frame& frame) const {
+    return std::make_unique<graph::RecordedPlan>(frame.graph, frame.plan, *pool_, options_.timestamps,
+                                                 options_.barrier_filter);
+}
+
+bool FrameLoop::cutters_active_in(std::uint32_t frame) const {
+    const double fps = model_.scene.time.fps;
+    return cutters_active(model_.scene.cutters, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+}
+
+void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
+    struct Hit {
+        std::size_t cloth;
+        CutFindings findings;
+        CutImages before;
+    };
+    std::vector<Hit> hits;  // all are fetched before any resource changes
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const ClothModel& model = model_.cloths[cloth];
+        std::uint32_t crossed = 0;
+        std::memcpy(&crossed, pool_->buffer(cut_count_name(model), slot).mapped().data(), sizeof crossed);
+        if (crossed > 0) hits.push_back({cloth, read_findings(*pool_, model), solver_.cut_images(cloth)});
+    }
+    bool new_resources = false;
+    for (const Hit& hit : hits) {
+        CutTopology& topology = solver_.topologies()[hit.cloth];
+        new_resources = new_resources || !topology.masked();
+        const CutCounts counts = topology.apply(hit.findings);
+        new_resources = new_resources || (options_.draw && draws_outgrown(hit.before, topology));
+        if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, topology);
+    }
+    if (new_resources) return rebuild_resources(solver_.download_state(*pool_));
+    for (const Hit& hit : hits) solver_.upload_cut(*pool_, hit.cloth, hit.before);
+    if (hits.empty() || !options_.draw) return;
+    build_graphs();  // how much is drawn is part of the recording
+    record();
+}
+
+void FrameLoop::rebuild_resources(const SimulationState& state) {
+    for (Frame& frame : frames_) frame.recorded.reset();
+    rungs_.clear();
+    attempts_ = {};
+    build_graphs();
+    allocate_and_record();
+    solver_.upload(*pool_);
+    solver_.upload_state(*pool_, state);
+}
+
+FrameNeeds FrameLoop::needs(FrameKind kind) const {
+    const FrameContents& has = contents(kind);
+    // A closed loop judges what it simulates, and hands that out.
+    const bool judged =
+        model_.closed_loop() && (has.simulates || kind == FrameKind::output || kind == FrameKind::output_cut);
+    return {.drawing = has.hands_out && (options_.draw || options_.normals),
+            .statistics = judged ? has.simulates : has.hands_out && options_.statistics};
+}
+
+FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
+    Frame frame;
+    const FrameContents& has = contents(kind);
+    const FrameNeeds wanted = needs(kind);
+    solver_.declare(frame.graph, wanted, run);
+    if (has.simulates) solver_.add_simulation(frame.graph);
+    if (has.searches_cuts) {
+        solver_.add_cuts(frame.graph);
+    } else {
+        frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
+                                                                    : "no cutter is active in this kind of frame");
+    }
+    if (has.hands_out && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
+    if (has.hands_out && options_.draw)
+        raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
+    else if (!options_.draw && !options_.draws_beside)
+        frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
+                         "no picture is wanted");
+    if (has.hands_out && options_.normals)
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::normal], "normal");
+    if (has.hands_out && options_.positions) {
+        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::position], "position");
+    } else if (!options_.positions) {
+        frame.graph.skip("position readback", "no position export is wanted");
+    }
+    if (has.hands_out && options_.velocities)
+        for (ClothState state : solver_.cloths()) {
+            add_readback(frame.graph, state, state[Field::displacement], "displacement");
+            add_readback(frame.graph, state, state[Field::end_excess], "excess displacement");
+        }
+    if (wanted.statistics)
+        solver_.add_statistics(frame.graph);
+    else if (!options_.statistics)
+        frame.graph.skip("statistics", "nobody asked for them");
+    frame.plan = graph::make_plan(frame.graph);
+    return frame;
+}
+
+void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output) {
+    // The initial frame simulates nothing, but its statistics need to know where the colliders are.
+    const double fps = model_.scene.time.fps;
+    const FrameContents& has = contents(kind);
+    if (has.simulates || needs(kind).statistics) solver_.write_inputs(*pool_, slot, frame);
+    if (has.searches_cuts) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+    if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
+    std::vector<VkCommandBuffer> commands;
+    if (has.simulates && model_.self_contact)
+        commands.push_back(attempts_[static_cast<std::size_t>(AttemptStep::keep)].recorded->commands(slot));
+    commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
+    slots_.submit(slot, commands);
+    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
+    if (has.simulates && options_.meanwhile) options_.meanwhile();
+}
+
+void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record) {
+    if (!self_contact_) return;
+    if (const double use = solver_.self_list_use(record); use > 1)
+        throw vulkan::VulkanError(fmt::format(
+            "cloth meets {} in more places than a buffer of the device can list: frame {} has {:.3g} times as many "
+            "pairs of triangles and edges near each other; more substeps or a smaller "
+            "self_collision.thickness make them fewer",
+            model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
+    self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
+    self_contact_->truncated += record.truncated;
+    if (record.crossing_count > 0 && self_contact_->last_crossed) self_contact_->last_crossed = frame;
+    if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
+}
+
+void FrameLoop::begin_anew() {
+    const std::uint32_t slot = next_slot_;
+    slots_.submit(slot, {attempts_[static_cast<std::size_t>(AttemptStep::restore)].recorded->commands(slot)});
+    slots_.wait(slot);
+    rebuild_resources(solver_.download_state(*pool_));
+}
+
+void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
+    deliver(next_slot_, finished);  // the frame before, while this one is simulated
+    for (;;) {
+        slots_.wait(slot);
+        const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
+        // Lists that cannot grow are told of when the frame is delivered.
+        if (solver_.self_list_use(record) <= 1 || !solver_.grow_lists(record)) return;
+        begin_anew();
+        const InFlight again = *in_flight_[slot];
+        submit(slot, again.frame, again.kind, again.output);
+    }
+}
+
+void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
+    slots_.wait(slot);
+    if (!in_flight_[slot]) return;
+    const InFlight done = std::move(*in_flight_[slot]);
+    in_flight_[slot].reset();
+    FinishedFrame result;
+    result.frame = done.frame;
+    result.effort.substeps = done.frame == 0 ? 0 : model_.scene.solver.substeps;
+    if (done.judged) {
+        result.statistics = done.judged->statistics;
+        result.effort = done.judged->effort;
+        result.timings = done.judged->timings;
+    }
+    for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
+        result.timings.push_back({std::move(timing.name), timing.milliseconds});
+    if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_record(*pool_, slot));
+    if (done.output && options_.draw) {
+        const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
+        raster_->finish(bytes.first(raster_->readback_byte_count()));
+        result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
+    }
+    if (done.output && options_.positions) result.positions = arrays(slot, "position");
+    if (done.output && options_.velocities) result.velocities = velocities(slot, done.substeps);
+    if (done.output && options_.normals) result.normals = arrays(slot, "normal");
+    if (done.output && !done.judged && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
+    if (done.output) finished(result);
+}
+
+std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::string_view what) const {
+    std::vector<std::span<const float>> views;
+    for (const ClothModel& cloth : model_.cloths) {
+        const std::span<std::byte> bytes = pool_->buffer(readback_name(cloth, what), slot).mapped();
+        views.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
+    }
+    return views;
+}
+
+/// What the statistics take for the velocity (end_velocity.h), over the substep.
+std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
+    const auto moved = arrays(slot, "displacement"), excess = arrays(slot, "excess displacement");
+    const double substeps_per_second = model_.scene.time.fps * substeps;
+    velocities_.resize(moved.size());
+    for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {
+        velocities_[cloth].assign(moved[cloth].size(), 0.0f);
+        for (std::size_t i = 0; i < moved[cloth].size(); ++i)
+            if (i % 4 != 3)  // w of a displacement counts something else
+                velocities_[cloth][i] =
+                    static_cast<float>((static_cast<double>(moved[cloth][i]) + static_cast<double>(excess[cloth][i])) *
+                                       substeps_per_second);
+    }
+    return {velocities_.begin(), velocities_.end()};
+}
+
+void FrameLoop::deliver_all(const Finished& finished) {
+    for (std::uint32_t slot = 0; slot < vulkan::frame_slot_count; ++slot)
+        deliver((next_slot_ + slot) % vulkan::frame_slot_count, finished);
+}
+
+std::uint32_t FrameLoop::take_slot(const Finished& finished) {
+    const std::uint32_t slot = next_slot_;
+    deliver(slot, finished);
+    next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
+    return slot;
+}
+
+void FrameLoop::take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished) {
+    // A cut acts from the next frame on, always: so that frame waits for this one's findings.
+    deliver(next_slot_, finished);
+    deliver(slot, finished);
+    take_cuts(slot, frame);
+}
+
+FrameKind FrameLoop::kind_of(std::uint32_t frame, bool wanted, bool cutting) {
+    using enum FrameKind;
+    if (frame == 0) return cutting ? initial_cut : initial;
+    if (wanted) return cutting ? simulate_and_output_cut : simulate_and_output;
+    return cutting ? simulate_cut : simulate;
+}
+
+bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& finished,
+                    const std::function<bool()>& stop) {
+    bool complete = true;
+    for (; next_frame_ <= last; ++next_frame_) {
+        const std::uint32_t frame = next_frame_;
+        const bool output = wanted(frame);
+        const bool cutting = cutters_active_in(frame);
+        if (frame == 0 && !output && !cutting) continue;  // the initial state is already there
+        if (stop && stop()) {
+            complete = false;
+            break;
+        }
+        if (control_ && frame > 0) {
+            if (frame >= simulated_) simulate_segment(frame, {last, wanted, finished});
+            release_withheld(frame, output, finished);
+            continue;
+        }
+        const std::uint32_t slot = take_slot(finished);
+        submit(slot, frame, kind_of(frame, output, cutting), output);
+        if (model_.self_contact && frame > 0) fit_lists(slot, finished);
+        if (cutting) take_cuts_of(slot, frame, finished);
+    }
+    deliver_all(finished);
+    return complete;
+}
+
+std::vector<std::uint32_t> FrameLoop::whole_triangles(std::size_t cloth) const {
+    return solver_.topologies()[cloth].whole_triangles();
+}
+
+}  // namespace drape

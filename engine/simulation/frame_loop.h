@@ -1,0 +1,233 @@
+// The frames of a scene on the device: graphs for each kind of frame, two frames in flight, results handed out
+// in order. With method `auto` the loop is closed: every frame is judged, and done again where it fails. The host never
+// reads positions to simulate; it reads them only where an export asks for them.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cloth/drive.h"
+#include "cloth/frame_judgement.h"
+#include "cloth/schedule.h"
+#include "cloth/sleep.h"
+#include "cloth/substep_control.h"
+#include "cloth/watch.h"
+#include "drape/simulation.h"
+#include "graph/executor.h"
+#include "picture/cloth_raster.h"
+#include "picture/frame_copy.h"
+
+namespace drape {
+
+/// A cut found at the end of a frame; it acts from the next frame on.
+struct CutEvent {
+    std::uint32_t frame;
+    std::size_t cloth;
+    CutCounts counts;
+};
+
+struct FrameLoopOptions : PictureOptions {
+    bool draw = true;           ///< colour images are wanted
+    bool draws_beside = false;  ///< they are, but another device makes them (pictures.h)
+    bool velocities = false;    ///< arrays of velocities are wanted; needs statistics
+    bool normals = false;       ///< arrays of normals are wanted
+    bool statistics = false;    ///< statistics of every frame handed out are wanted
+    Schedule schedule = Schedule::automatic;
+    bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
+    /// Told of every cut, with the cloth's topology after it.
+    std::function<void(const CutEvent&, const CutTopology&)> on_cut;
+    std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
+    graph::BarrierFilter barrier_filter;  ///< canary tests only
+};
+
+/// What is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated; those in
+/// which a cutter is active are searched for cuts. A closed loop simulates until a frame is good and hands it out
+/// after.
+enum class FrameKind {
+    initial,
+    simulate,
+    simulate_and_output,
+    output,
+    initial_cut,
+    simulate_cut,
+    simulate_and_output_cut,
+    output_cut,
+    search_cut
+};
+struct FrameContents {
+    bool simulates, hands_out, searches_cuts;
+};
+inline constexpr std::array<FrameContents, 9> frame_contents{{{false, true, false},
+                                                              {true, false, false},
+                                                              {true, true, false},
+                                                              {false, true, false},
+                                                              {false, true, true},
+                                                              {true, false, true},
+                                                              {true, true, true},
+                                                              {false, true, true},
+                                                              {false, false, true}}};
+constexpr const FrameContents& contents(FrameKind kind) { return frame_contents[static_cast<std::size_t>(kind)]; }
+
+class FrameLoop {
+  public:
+    /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
+    /// budget, before anything is allocated), records them, and uploads the initial state. `device` and `model` must
+    /// outlive the loop.
+    FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
+    FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
+
+    /// Frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked
+    /// before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
+    bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+             const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
+
+    /// 0 in the beginning.
+    std::uint32_t next_frame() const { return next_frame_; }
+    /// Every frame that was simulated was handed out.
+    bool can_save() const { return withheld_.empty() && (!control_ || next_frame_ >= simulated_); }
+    /// What next_frame() starts from; only then.
+    SimulationState save() const;
+    /// Takes over what another loop of the same model saved. Throws Error when it is not that.
+    void restore(const SimulationState& state);
+    /// What cuts have made of each cloth so far.
+    const std::vector<CutTopology>& topologies() const { return solver_.topologies(); }
+    /// Three particles per triangle that no cut has split so far.
+    std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
+
+    /// Over the frames simulated so far; nothing: no cloth meets itself or another.
+    const std::optional<SelfContactReport>& self_contact() const { return self_contact_; }
+
+    const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
+    const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
+    const graph::ResourcePool& pool() const { return *pool_; }
+    /// In use.
+    Schedule schedule() const { return solver_.schedule(); }
+
+  private:
+    struct Frame {
+        graph::Graph graph;
+        graph::Plan plan;
+        std::unique_ptr<graph::RecordedPlan> recorded;
+    };
+    /// What is handed out with a frame of a closed loop, known before it is drawn.
+    struct Judged {
+        std::vector<ClothStatistics> statistics;
+        FrameEffort effort;
+        std::vector<StageTime> timings;
+        glsl::SelfRecord self_record = {};
+    };
+    struct InFlight {
+        std::uint32_t frame = 0;
+        FrameKind kind = FrameKind::initial;
+        bool output = false;
+        std::uint32_t substeps = 0;  ///< that the state's history is of
+        std::optional<Judged> judged;
+    };
+    /// A closed loop's frame at one number of substeps.
+    struct Rung {
+        std::unique_ptr<SimulationModel> model;
+        Frame frame;
+    };
+    using Finished = std::function<void(const FinishedFrame&)>;
+
+    /// Those that this scene and these options ever need.
+    std::vector<FrameKind> kinds() const;
+    FrameNeeds needs(FrameKind kind) const;
+    bool cutters_active_in(std::uint32_t frame) const;
+    void build_graphs();
+    void allocate_and_record();
+    void record();
+    void take_cuts(std::uint32_t slot, std::uint32_t frame);
+    void rebuild_resources(const SimulationState& state);
+    // loop_state.cpp
+    template <class Archive>
+    void transfer(Archive& archive);
+    void restore_cuts(const SimulationState& state);
+    /// Whether what was read of a state is what a loop of this scene can come to: the next frame divides by it.
+    bool can_be() const;
+    Frame build(FrameKind kind, const SimulationModel& run);
+    std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
+    static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
+    void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
+    /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
+    void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
+    /// A named method's frame whose lists of contact were too short is done again with longer ones.
+    void fit_lists(std::uint32_t slot, const Finished& finished);
+    /// Back to what the frame or segment started from, with new resources. Nothing may be in flight.
+    void begin_anew();
+    void deliver(std::uint32_t slot, const Finished& finished);
+    std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
+    std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
+    void deliver_all(const Finished& finished);
+    /// The slot that is next, free.
+    std::uint32_t take_slot(const Finished& finished);
+    void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
+
+    // closed_loop.cpp
+    /// Those that the loop takes: all, or where only lists may be too short, keep and restore.
+    std::span<const AttemptStep> attempt_steps() const;
+    void build_attempts();
+    Rung& rung(std::uint32_t substeps);
+    struct Asked {
+        std::uint32_t last;
+        const std::function<bool(std::uint32_t)>& wanted;
+        const Finished& finished;
+    };
+    struct Run {
+        std::uint32_t frame, substeps;
+        std::optional<AttemptStep> before, after;  ///< the frame
+        bool begins;                               ///< a run of the segment: its step may change
+    };
+    /// Simulates the frames from `frame` on that are judged together until the control keeps them, or throws
+    /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
+    void simulate_segment(std::uint32_t frame, const Asked& asked);
+    void sleep_through(std::uint32_t frame, const Asked& asked);
+    /// Whether the segment's lists of contact were too short and now are longer, at its start.
+    bool lengthen_lists();
+    void drop_withheld();
+    void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
+    Judged run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked);
+    double motion_of(std::uint32_t slot);
+    void submit_run(std::uint32_t slot, const Run& run);
+    Judged take_judged(std::uint32_t slot, std::uint32_t substeps);
+    void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
+    void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
+    void give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked);
+    void release_withheld(std::uint32_t frame, bool wanted, const Finished& finished);
+
+    const vulkan::Device& device_;
+    const SimulationModel& model_;
+    FrameLoopOptions options_;
+    ClothSolver solver_;
+    ClothRaster raster_;
+    std::array<Frame, frame_contents.size()> frames_;
+    std::array<Frame, attempt_step_count> attempts_;
+    std::map<std::uint32_t, Rung> rungs_;  ///< by substeps
+    std::optional<SubstepControl> control_;
+    Watch watch_;
+    Sleep sleep_;
+    Drive drive_;
+    /// Of the frames of the last attempt, in order.
+    std::vector<std::vector<ClothStatistics>> attempt_statistics_;
+    std::vector<glsl::SelfRecord> attempt_self_records_;  ///< likewise
+    glsl::SelfRecord fullest_{};                          ///< most entries of every list in the last attempt
+    std::optional<SelfContactReport> self_contact_;
+    std::uint32_t state_substeps_;    ///< that the state's history is of
+    std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
+    double motion_error_ = 0;         ///< of the last probe
+    std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet
+    Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
+    std::unique_ptr<graph::ResourcePool> pool_;
+    vulkan::FrameSlots slots_;  ///< goes first: it waits for what is in flight
+    std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
+    std::uint32_t next_frame_ = 0, next_slot_ = 0;
+    std::vector<std::vector<float>> velocities_;  ///< of the frame that is handed out
+};
+
+}  // namespace drape

@@ -1,0 +1,127 @@
+// What a frame loop keeps from frame to frame, as the parts of a checkpoint: the state fields of every cloth by the
+// table (cloth/cloth_state.h), its cuts, and what the loop knows (engine/docs/checkpoint.md). What follows from the
+// scene and the frame alone, such as the bounds of the watch, is computed again.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/byte_stream.h"
+#include "cloth/directions.h"
+#include "cloth/texels.h"
+#include "scene/frame_limit.h"
+#include "simulation/frame_loop.h"
+
+namespace drape {
+
+namespace {
+
+constexpr const char* loop_part = "loop";
+constexpr std::string_view field_prefix = "field/";
+
+std::string cuts_part(const ClothModel& cloth) { return "cuts/" + cloth.name; }
+
+template <class Archive, class Strain>
+void transfer_strain(Archive& archive, Strain& strain) {
+    archive(strain.spring_count, strain.rms, strain.largest, strain.smallest);
+}
+
+/// The last frame's, which a sleeping one repeats.
+template <class Archive>
+void transfer_statistics(Archive& archive, ClothStatistics& s) {
+    transfer_strain(archive, s.stretch);
+    transfer_strain(archive, s.shear);
+    archive(s.stretch_error_rms, s.stretch_error_max, s.kinetic_energy, s.potential_energy, s.elastic_energy, s.mass,
+            s.center_of_mass[0], s.center_of_mass[1], s.center_of_mass[2], s.penetration, s.largest_distance,
+            s.largest_speed, s.iteration_count, s.non_finite_count, s.first_non_finite, s.farthest, s.fastest,
+            s.deepest, s.most_stretched);
+}
+
+[[noreturn]] void refuse(const std::string& why) { throw Error("the saved state is not of this scene: " + why); }
+
+/// Per particle and direction (cloth/directions.h) the fraction of its spring where it was cut, -1: not cut.
+std::vector<std::byte> cut_bytes(const CutTopology& topology) {
+    ByteWriter writer;
+    const std::size_t count = topology.cloth().grid.particle_count();
+    for (std::size_t particle = 0; particle < count; ++particle)
+        for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
+            writer(topology.cut_fraction(particle, direction));
+    return writer.take();
+}
+
+}  // namespace
+
+template <class Archive>
+void FrameLoop::transfer(Archive& archive) {
+    archive(next_frame_, state_substeps_, simulated_, motion_error_);
+    if (self_contact_)
+        archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
+                self_contact_->last_crossed);
+    if (control_ && !control_->transfer(archive)) refuse("no such substeps");
+    if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
+    if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");
+    bool has_statistics = !attempt_statistics_.empty();
+    archive(has_statistics);
+    if (!has_statistics) return attempt_statistics_.clear();
+    if (attempt_statistics_.empty()) attempt_statistics_.emplace_back(model_.cloths.size());
+    for (ClothStatistics& statistics : attempt_statistics_.back()) transfer_statistics(archive, statistics);
+}
+
+SimulationState FrameLoop::save() const {
+    SimulationState state;
+    for (auto& [name, bytes] : solver_.download_state(*pool_))
+        state[std::string(field_prefix) + name] = std::move(bytes);
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const CutTopology& topology = solver_.topologies()[cloth];
+        if (!model_.scene.cutters.empty() && topology.masked())
+            state[cuts_part(model_.cloths[cloth])] = cut_bytes(topology);
+    }
+    ByteWriter writer;
+    const_cast<FrameLoop*>(this)->transfer(writer);  // a writer changes nothing
+    state[loop_part] = writer.take();
+    return state;
+}
+
+bool FrameLoop::can_be() const {
+    // A loop may run beyond its scene's frames, but not beyond any scene's.
+    const std::uint32_t most = std::max(scene_frame_limit, model_.scene.time.frame_count);
+    if (std::max(next_frame_, simulated_) > most) return false;
+    const bool as_it_begins = state_substeps_ == model_.scene.solver.substeps;
+    if (!as_it_begins &&
+        !(control_ && std::ranges::count(substep_rungs(row_of(model_.scene.solver.method)), state_substeps_) == 1))
+        return false;
+    // The frame that a sleeping one repeats.
+    return !sleep_.remembers() || !attempt_statistics_.empty();
+}
+
+void FrameLoop::restore_cuts(const SimulationState& state) {
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const auto part = state.find(cuts_part(model_.cloths[cloth]));
+        if (part == state.end()) continue;
+        CutTopology& topology = solver_.topologies()[cloth];
+        CutFindings findings;
+        findings.fractions.resize(model_.cloths[cloth].grid.particle_count());
+        if (part->second.size() != findings.fractions.size() * sizeof(glsl::vec4)) refuse(part->first);
+        std::memcpy(findings.fractions.data(), part->second.data(), part->second.size());
+        topology.apply(findings);  // what is cut and what that splits does not depend on the order of the cuts
+    }
+}
+
+void FrameLoop::restore(const SimulationState& state) {
+    const auto loop = state.find(loop_part);
+    if (loop == state.end()) refuse("it has no part 'loop'");
+    ByteReader reader(loop->second);
+    transfer(reader);
+    if (reader.left() > 0 || !can_save() || !can_be()) refuse("its part 'loop' is of something else");
+    restore_cuts(state);
+    SimulationState fields;
+    for (const auto& [name, bytes] : state)
+        if (name.starts_with(field_prefix)) fields[name.substr(field_prefix.size())] = bytes;
+    for (const auto& [name, bytes] : solver_.download_state(*pool_)) {
+        const auto found = fields.find(name);
+        if (found == fields.end() || found->second.size() != bytes.size()) refuse(fmt::format("field '{}'", name));
+    }
+    rebuild_resources(fields);
+}
+
+}  // namespace drape

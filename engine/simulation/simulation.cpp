@@ -1,0 +1,358 @@
+#include "drape/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <set>
+
+#include "base/byte_stream.h"
+#include "cloth/cloth_statistics.h"
+#include "cloth/together.h"
+#include "graph/copy_bandwidth.h"
+#include "graph/dump.h"
+#include "picture/frame_copy.h"
+#include "picture/pictures.h"
+#include "scene/overlap.h"
+#include "scene/start.h"
+#include "scene/start_crossings.h"
+#include "simulation/frame_checks.h"
+#include "simulation/frame_loop.h"
+#include "solver/device_schedule.h"
+
+namespace drape {
+
+struct Device::Parts {
+    Parts(const std::string& selector, Validation validation)
+        : instance({.validation = validation != Validation::off, .print_messages = validation == Validation::print}),
+          device(instance, selector) {}
+    vulkan::Instance instance;
+    vulkan::Device device;
+    std::unique_ptr<Parts> drawing;  ///< what pictures are drawn by, unless this device does it
+};
+
+Device::Device(const std::string& selector, Validation validation)
+    : parts_(std::make_shared<Parts>(selector, validation)) {}
+
+bool prefers_calling_thread(const SceneDescription& scene) {
+    const bool meets_itself =
+        std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
+    const std::uint64_t most_particles = meets_itself ? 85 * 85 : 72 * 72;
+    const auto is_small = [&](std::size_t cloth, std::size_t count) {
+        const auto [columns, rows] = scene.cloths[cloth].grid;
+        return std::uint64_t{columns} * rows * count <= most_particles;
+    };
+    bool small = true;
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) small = small && is_small(cloth, 1);
+    for (const std::vector<std::size_t>& list : cloths_alike(scene)) small = small && is_small(list[0], list.size());
+    return small;
+}
+
+Device Device::for_scene(const SceneDescription& scene, bool draws, const std::string& selector,
+                         Validation validation) {
+    constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads it when a device is looked for
+    if (std::getenv(variable)) return Device(selector, validation);
+    if (prefers_calling_thread(scene)) setenv(variable, "0", 0);
+    std::optional<Device> device;
+    try {
+        device.emplace(selector, validation);
+    } catch (...) {
+        unsetenv(variable);
+        throw;
+    }
+    unsetenv(variable);
+    if (draws && device_kind(device->info()) == DeviceKind::cpu)
+        device->parts_->drawing = std::make_unique<Parts>(device->info().uuid_text(), validation);
+    return *device;
+}
+
+std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
+const DeviceInfo& Device::info() const { return parts_->device.info(); }
+
+std::uint64_t Device::validation_count() const {
+    const std::uint64_t own = parts_->instance.validation_log().count();
+    return parts_->drawing ? own + parts_->drawing->instance.validation_log().count() : own;
+}
+
+std::uint64_t Device::memory_used() const {
+    const std::uint64_t own = parts_->device.budget().used();
+    return parts_->drawing ? own + parts_->drawing->device.budget().used() : own;
+}
+
+std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
+double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
+
+namespace {
+
+/// By Timings.
+constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, graph::TimestampMode::stages,
+                                                    graph::TimestampMode::passes};
+
+FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOptions& wanted) {
+    FrameLoopOptions options;
+    options.draw = wanted.draw;
+    options.view = wanted.view;
+    options.positions = wanted.positions;
+    options.normals = wanted.normals;
+    options.velocities = wanted.velocities;
+    options.statistics = wanted.statistics || wanted.velocities;
+    options.keep_promises = wanted.keep_promises;
+    options.schedule = wanted.schedule;
+    options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];
+    options.width = scene.image.size[0];
+    options.height = scene.image.size[1];
+    options.samples = scene.image.samples;
+    if (wanted.on_cut)
+        options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
+            const CutCounts& counts = event.counts;
+            on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.crumbs,
+                    topology.whole_triangles()});
+        };
+    return options;
+}
+
+bool is_box_of(const IndexBox& box, const Cloth& cloth) {
+    return box.first[0] <= box.last[0] && box.first[1] <= box.last[1] && box.last[0] < cloth.grid[0] &&
+           box.last[1] < cloth.grid[1];
+}
+
+/// The scene, if it has what everything else takes for granted; one that was read has it.
+const SceneDescription& checked(const SceneDescription& scene) {
+    SceneResult result;
+    const auto expect = [&result](bool fits, const std::string& pointer, const char* what) {
+        if (!fits) result.errors.push_back({"scene", 0, 0, pointer, fmt::format("expected {}", what)});
+    };
+    std::uint64_t particle_count = 0;
+    std::set<std::string_view> names;
+    expect(!scene.cloths.empty(), "/cloths", "a cloth");
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const std::string at = fmt::format("/cloths/{}", i);
+        particle_count += std::uint64_t{cloth.grid[0]} * cloth.grid[1];
+        expect(std::min(cloth.grid[0], cloth.grid[1]) >= 2 && particle_count <= scene_particle_limit, at + "/grid",
+               "at least 2 x 2 particles and no more than a scene may have");
+        expect(names.insert(cloth.name).second && !cloth.name.empty(), at + "/name", "a name no other cloth has");
+        for (const double side : cloth.size) expect(side > 0 && std::isfinite(side), at + "/size", "lengths above 0");
+        expect(cloth.areal_density > 0 && std::isfinite(cloth.areal_density), at + "/areal_density", "a mass above 0");
+        for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
+            expect(is_box_of(cloth.pins[pin].particles, cloth), fmt::format("{}/pins/{}", at, pin),
+                   "particles of the grid");
+        for (std::size_t hole = 0; hole < cloth.holes.size(); ++hole)
+            expect(is_box_of(cloth.holes[hole], cloth), fmt::format("{}/holes/{}", at, hole), "particles of the grid");
+    }
+    expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
+    expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
+    expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
+           "pixels, of 1 or 4 samples");
+    expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
+    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i)
+        expect(leaves_a_cell(scene.cloths[i]), fmt::format("/cloths/{}/holes", i), "holes that leave a cell");
+    if (result.errors.empty() && scene.overlap == Overlap::refuse)
+        for (const StartOverlap& overlap : start_overlaps(scene))
+            expect(false, fmt::format("/cloths/{}", overlap.cloth),
+                   ("a start outside all colliders: " + overlap_text(scene, overlap)).c_str());
+    if (result.errors.empty() && cloths_meet(scene))
+        for (const StartCrossing& crossing : start_crossings(scene))
+            expect(!is_refused(scene, crossing), fmt::format("/cloths/{}", crossing.second),
+                   ("cloths that start apart: " + crossing_text(scene, crossing)).c_str());
+    if (!result.errors.empty()) throw SceneFailure(std::move(result));
+    return scene;
+}
+
+}  // namespace
+
+constexpr const char* watch_part = "watch";
+
+struct Simulation::Parts {
+    Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
+        : device(given),
+          keep_promises(options.keep_promises),
+          model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
+          watch(model),
+          asked(loop_options(scene, options)),
+          loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
+        if (given.parts_->drawing && asked.draw)
+            pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
+    }
+
+    /// Of the loop whose frames `pictures` draws.
+    FrameLoopOptions beside_pictures() {
+        FrameLoopOptions options = asked;
+        options.draw = false;
+        options.draws_beside = options.positions = true;
+        options.meanwhile = [this] {
+            if (give) pictures->go_on(give);
+        };
+        options.on_cut = [this](const CutEvent& event, const CutTopology& topology) {
+            pictures->follow(loop.topologies());
+            if (asked.on_cut) asked.on_cut(event, topology);
+        };
+        return options;
+    }
+
+    struct Planned {
+        const graph::Graph& graph;
+        const graph::Plan& plan;
+    };
+    /// What a frame takes that is handed out: one graph, or two, one per device.
+    std::vector<Planned> output() const {
+        constexpr FrameKind kind = FrameKind::simulate_and_output;
+        std::vector<Planned> all{{loop.graph(kind), loop.plan(kind)}};
+        if (pictures) all.push_back({pictures->graph(), pictures->plan()});
+        return all;
+    }
+
+    Device device;
+    bool keep_promises;
+    SimulationModel model;
+    Watch watch;
+    FrameLoopOptions asked;
+    FrameLoop loop;
+    std::unique_ptr<Pictures> pictures;  ///< where a device of their own draws them
+    Pictures::Finished give;             ///< to the caller, while one runs the simulation
+    FrameCopy kept;
+};
+
+Simulation::Simulation(const SceneDescription& scene, const SimulationOptions& options, const Device& device)
+    : parts_(std::make_unique<Parts>(checked(scene), options, device)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+bool Simulation::step() {
+    const std::uint32_t next = parts_->loop.next_frame();
+    if (next >= parts_->model.scene.time.frame_count) return false;
+    return run(
+        next, [](std::uint32_t) { return true; }, [this](const FinishedFrame& frame) { parts_->kept.keep(frame); });
+}
+
+const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
+
+bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+                     const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+    Pictures* const pictures = parts_->pictures.get();
+    bool giving = false;  // a throw is the caller's own
+    const auto give = [&](const FinishedFrame& frame) {
+        giving = true;
+        finished(frame);
+        giving = false;
+    };
+    struct Given {
+        Pictures::Finished& give;
+        ~Given() { give = nullptr; }
+    } const given{parts_->give};
+    given.give = give;
+    const auto hand_out = [&](const FinishedFrame& frame) {
+        return pictures ? pictures->draw(frame, give) : finished(frame);
+    };
+    const auto checked = [&](const FinishedFrame& frame) {
+        const auto failure = frame_failure(parts_->model, parts_->watch, frame);
+        if (!failure) return hand_out(frame);
+        if (parts_->keep_promises) raise(*failure);
+        FinishedFrame failed = frame;
+        failed.failure = failure;
+        hand_out(failed);
+    };
+    try {
+        const bool complete = parts_->loop.run(last, wanted, checked, stop);
+        if (pictures) pictures->flush(give);
+        return complete;
+    } catch (const FrameError&) {  // those before it are handed out
+        if (pictures && !giving) pictures->flush(give);
+        throw;
+    }
+}
+
+std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame(); }
+bool Simulation::can_save() const { return parts_->loop.can_save(); }
+
+SimulationState Simulation::save() const {
+    SimulationState state = parts_->loop.save();
+    ByteWriter writer;
+    parts_->watch.transfer(writer);
+    state[watch_part] = writer.take();
+    return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+    const auto part = state.find(watch_part);
+    if (part == state.end()) throw Error("the saved state is not of this scene: it has no part 'watch'");
+    ByteReader reader(part->second), again(part->second);
+    if (!Watch(parts_->model).transfer(reader) || reader.left() > 0)
+        throw Error("the saved state is not of this scene: its part 'watch' is of something else");
+    parts_->loop.restore(state);
+    parts_->watch.transfer(again);
+    if (parts_->pictures) parts_->pictures->follow(parts_->loop.topologies());
+}
+
+const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
+
+std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
+    return parts_->loop.whole_triangles(cloth);
+}
+
+SimulationFacts Simulation::facts() const {
+    const SimulationModel& model = parts_->model;
+    const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
+    SimulationFacts facts{.method = std::string(model.method().name),
+                          .schedule = std::string(spelling(schedule_spellings, parts_->loop.schedule())),
+                          .asked_method = std::string(named(model.asked_method).name),
+                          .choice_reason = model.choice.reason,
+                          .tolerance = model.asked_tolerance,
+                          .tolerance_rms = model.stretch_limits().rms,
+                          .tolerance_worst = model.stretch_limits().worst,
+                          .limits_are_kept = model.closed_loop(),
+                          .skipped = {},
+                          .compromises = model.compromises(),
+                          .pass_count = 0,
+                          .barrier_count = 0,
+                          .simulated_pass_count = simulate.passes.size(),
+                          .simulated_barrier_count = graph::barrier_count(simulate)};
+    for (const Parts::Planned& output : parts_->output()) {
+        facts.pass_count += output.plan.passes.size();
+        facts.barrier_count += graph::barrier_count(output.plan);
+        const std::vector<SimulationFacts::Skipped> before = facts.skipped;  // both graphs say what the scene lacks
+        for (const graph::Skipped& skipped : output.plan.skipped)
+            if (std::ranges::find(before, skipped.what, &SimulationFacts::Skipped::what) == before.end())
+                facts.skipped.push_back({skipped.what, skipped.reason});
+    }
+    return facts;
+}
+
+std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+
+std::vector<PassWork> Simulation::work() const {
+    std::vector<PassWork> all;
+    for (const auto& [graph, plan] : parts_->output())
+        for (const graph::PlannedPass& planned : plan.passes) {
+            const graph::Pass& pass = graph.passes()[planned.pass];
+            auto found = std::ranges::find(all, pass.label, &PassWork::name);
+            if (found == all.end()) found = all.insert(all.end(), {pass.label, pass.stage, 0, 0, 0});
+            ++found->count;
+            found->flops += pass.flops;
+            for (const graph::Use& use : pass.uses)
+                found->bytes += graph.resources()[use.handle.resource].byte_count(use.handle);
+        }
+    return all;
+}
+
+std::vector<ResourceMemory> Simulation::memory() const {
+    std::vector<ResourceMemory> all;
+    for (const auto& [graph, plan] : parts_->output())
+        for (std::size_t index = 0; index < graph.resources().size(); ++index) {
+            const graph::Resource& resource = graph.resources()[index];
+            if (plan.lifespans[index].used())
+                all.push_back({resource.name, resource.byte_count() * graph::copy_count(resource)});
+        }
+    std::ranges::stable_sort(all, std::ranges::greater(), &ResourceMemory::bytes);
+    return all;
+}
+
+std::string Simulation::describe_plan(const std::string& format) const {
+    std::string text;
+    for (const auto& [graph, plan] : parts_->output()) text += graph::dump(graph, plan, format);
+    return text;
+}
+
+}  // namespace drape

@@ -1,0 +1,141 @@
+#include "solver/attempt_pass.h"
+
+#include "cloth/frame_judgement.h"
+#include "vulkan/api.h"
+
+namespace drape {
+
+namespace {
+
+graph::ImageDeclaration declaration_of(const graph::Graph& graph, graph::Handle image) {
+    return graph.resources()[image.resource].seen(image);
+}
+
+/// Another image like the one of a field.
+graph::Handle copy_of(graph::Graph& graph, const ClothState& state, Field field, const char* what) {
+    const graph::ImageDeclaration image = declaration_of(graph, state[field]);
+    return graph.image({image.name + what, image.format, image.width, image.height, VK_SAMPLE_COUNT_1_BIT,
+                        graph::Lifetime::persistent});
+}
+
+struct Copy {
+    graph::Handle from, to;
+    std::uint32_t width, height;
+};
+
+void add_copies(graph::Graph& graph, const ClothState& state, const char* name, std::vector<Copy>& copies) {
+    // The execute function is made before set-up runs, so it holds the place where the handles will be.
+    const auto recorded = std::make_shared<std::vector<Copy>>();
+    graph.add_pass(
+        state.pass_name(name, "judge"),
+        [&](graph::PassSetup& setup) {
+            for (Copy& copy : copies) {
+                setup.read(copy.from, graph::Access::transfer_read);
+                copy.to = setup.write(copy.to, graph::Access::transfer_write);
+            }
+            *recorded = copies;
+        },
+        [recorded](graph::PassContext& context) {
+            for (const Copy& copy : *recorded) {
+                const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+                const VkImageCopy region{layers, {}, layers, {}, {copy.width, copy.height, 1}};
+                vkCmdCopyImage(context.commands(), context.image(copy.from).handle(), VK_IMAGE_LAYOUT_GENERAL,
+                               context.image(copy.to).handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+            }
+        });
+}
+
+Copy copy_between(const graph::Graph& graph, graph::Handle from, graph::Handle to) {
+    const graph::ImageDeclaration image = declaration_of(graph, from);
+    return {from, to, image.width, image.height};
+}
+
+void add_state_copies(graph::Graph& graph, ClothState& state, bool back) {
+    std::vector<Copy> copies;
+    std::vector<Field> fields;
+    for (const FieldRow& row : cloth_fields()) {
+        if (row.life != FieldLife::state || !state[row.field].valid()) continue;
+        const graph::Handle kept = copy_of(graph, state, row.field, " kept"), live = state[row.field];
+        copies.push_back(back ? copy_between(graph, kept, live) : copy_between(graph, live, kept));
+        fields.push_back(row.field);
+    }
+    add_copies(graph, state, back ? "restore" : "keep", copies);
+    if (!back) return;
+    for (std::size_t i = 0; i < fields.size(); ++i) state[fields[i]] = copies[i].to;
+}
+
+constexpr const char* coarse_run = " of the coarse run";
+
+void add_remember(graph::Graph& graph, ClothState& state) {
+    const graph::Handle position = state[Field::position];
+    std::vector<Copy> copies{copy_between(graph, position, copy_of(graph, state, Field::position, coarse_run))};
+    add_copies(graph, state, "remember", copies);
+}
+
+void add_change_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
+                     std::size_t cloth) {
+    const bool second_order = state.model->plan.second_order;
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("change_step.comp", {{"second_order", second_order}}));
+    graph.add_pass(
+        state.pass_name("change step", "judge"),
+        [&](graph::PassSetup& setup) {
+            update(setup, state[Field::displacement], "displacement");
+            const auto write = [&](Field field, const char* variable) {
+                state[field] = setup.write(state[field], graph::Access::compute_write, variable);
+            };
+            write(Field::displacement_remainder, "displacement_remainder");
+            update(setup, state[Field::end_excess], "end_excess");
+            setup.read(inputs.attempt, graph::Access::compute_read, "attempt");
+            if (!second_order) return;
+            write(Field::displacement_before, "displacement_before");
+            write(Field::velocity_excess, "velocity_excess");
+        },
+        [&pipeline,
+         push = glsl::ChangeStepPush{state.model->grid.size(), static_cast<int>(cloth)}](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
+                             static_cast<std::uint32_t>(push.grid.y));
+        });
+}
+
+void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
+    const Grid& grid = state.model->grid;
+    const graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
+        difference_readback_name(*state.model), difference_count(grid), graph::Lifetime::host_output);
+    constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
+    const vulkan::ComputePipeline& pipeline = pipelines.get("difference.comp");
+    const graph::Handle coarse = copy_of(graph, state, Field::position, coarse_run);
+    graph.add_pass(
+        state.pass_name("compare", "judge"),
+        [&](graph::PassSetup& setup) {
+            setup.read(state[Field::position], graph::Access::compute_read, "position");
+            setup.read(coarse, graph::Access::compute_read, "coarse_position");
+            static_cast<void>(setup.write(partials, graph::Access::compute_write, "partials"));
+        },
+        [&pipeline, push = glsl::GridPush{grid.size()},
+         height = (grid.rows() + rows - 1) / rows](graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height);
+        });
+}
+
+}  // namespace
+
+std::string difference_readback_name(const ClothModel& cloth) { return cloth.name + "/differences on the host"; }
+
+void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
+                 std::size_t cloth, AttemptStep step) {
+    switch (step) {
+        case AttemptStep::keep:
+            return add_state_copies(graph, state, false);
+        case AttemptStep::restore:
+            return add_state_copies(graph, state, true);
+        case AttemptStep::change_step:
+            return add_change_step(graph, pipelines, state, inputs, cloth);
+        case AttemptStep::remember:
+            return add_remember(graph, state);
+        case AttemptStep::compare:
+            return add_compare(graph, pipelines, state);
+    }
+}
+
+}  // namespace drape

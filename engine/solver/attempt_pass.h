@@ -1,0 +1,24 @@
+// What surrounds the attempts at a frame in a closed loop: keeping the state that the frame starts from, going back to
+// it, giving it substeps of another length, remembering where a run with half the substeps ended, comparing with it.
+#pragma once
+
+#include "solver/pass_kit.h"
+
+namespace drape {
+
+enum class AttemptStep : std::uint8_t {
+    keep,         ///< reads the state, writes its copy
+    restore,      ///< the way back
+    change_step,  ///< reads `attempt`; reads and writes displacement, end excess and history
+    remember,     ///< reads position, writes its copy
+    compare,      ///< reads both, writes a record per workgroup for the host
+};
+inline constexpr std::size_t attempt_step_count = 5;
+
+inline constexpr const char* attempt_name = "attempt";
+std::string difference_readback_name(const ClothModel& cloth);
+
+void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
+                 std::size_t cloth, AttemptStep step);
+
+}  // namespace drape

@@ -1,0 +1,68 @@
+#include "solver/cut_pass.h"
+
+#include <memory>
+
+#include "vulkan/api.h"
+
+namespace drape {
+
+using graph::Access;
+
+std::string cut_count_name(const ClothModel& cloth) { return cloth.name + "/cut count"; }
+std::string cut_flags_name(const ClothModel& cloth) { return cloth.name + "/cut flags"; }
+std::string cut_fractions_name(const ClothModel& cloth) { return cloth.name + "/cut fractions"; }
+
+graph::Handle declare_cutters(graph::Graph& graph, std::size_t cutter_count) {
+    return graph.buffer<glsl::CutterTriangle>(cutters_name, cutter_count * glsl::cutter_triangle_count,
+                                              graph::Lifetime::host_input);
+}
+
+void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle cutters,
+             std::size_t cutter_count) {
+    const ClothModel& model = *state.model;
+    const Grid& grid = model.grid;
+    const graph::Handle flags = graph.image({cut_flags_name(model), VK_FORMAT_R32_UINT, 2 * (grid.columns() - 1),
+                                             grid.rows() - 1, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
+    const graph::Handle fractions =
+        graph.image({cut_fractions_name(model), VK_FORMAT_R32G32B32A32_SFLOAT, grid.columns(), grid.rows(),
+                     VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
+    graph::Handle count = graph.buffer<glsl::uint>(cut_count_name(model), 1, graph::Lifetime::host_output);
+    const auto cleared = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
+    graph.add_pass(
+        state.pass_name("cut count clear", "cut"),
+        [&](graph::PassSetup& setup) { *cleared = count = setup.write(count, Access::transfer_write); },
+        [cleared](graph::PassContext& context) {
+            vkCmdFillBuffer(context.commands(), context.buffer(*cleared).handle(), 0, VK_WHOLE_SIZE, 0);
+        });
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(vulkan::variant_name("cut.comp", {{"masked", state.masked()}}));
+    graph.add_pass(
+        state.pass_name("cut", "cut"),
+        [&](graph::PassSetup& setup) {
+            setup.read(state[Field::position], Access::compute_read, "position");
+            (void)setup.write(flags, Access::compute_write, "cut_flags");
+            (void)setup.write(fractions, Access::compute_write, "cut_fractions");
+            setup.read(cutters, Access::compute_read, "cutters");
+            update_in_place(setup, count, "count");
+            if (!state.masked()) return;
+            setup.read(state[Field::spring_share], Access::compute_read, "spring_share_image");
+            setup.read(state[Field::cells], Access::compute_read, "cells");
+        },
+        [&pipeline, push = glsl::CutPush{grid.size(), static_cast<int>(cutter_count) * glsl::cutter_triangle_count, 0}](
+            graph::PassContext& context) {
+            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
+                             static_cast<std::uint32_t>(push.grid.y));
+        });
+}
+
+CutFindings read_findings(const graph::ResourcePool& pool, const ClothModel& cloth) {
+    CutFindings findings{std::vector<std::uint32_t>(cloth.grid.cells().size() * 2),
+                         std::vector<glsl::vec4>(cloth.grid.particle_count())};
+    vulkan::download(pool.device(), pool.image(cut_flags_name(cloth)),
+                     std::as_writable_bytes(std::span(findings.triangle_flags)));
+    vulkan::download(pool.device(), pool.image(cut_fractions_name(cloth)),
+                     std::as_writable_bytes(std::span(findings.fractions)));
+    return findings;
+}
+
+}  // namespace drape

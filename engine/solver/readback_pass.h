@@ -1,0 +1,14 @@
+// Images of the state to the host, for exports and checks; never on the simulation's way.
+#pragma once
+
+#include "solver/pass_kit.h"
+
+namespace drape {
+
+/// Name of the host_output buffer that `add_readback` fills: particles x 16 bytes.
+std::string readback_name(const ClothModel& cloth, std::string_view what);
+
+/// Copies an image of four floats per particle, the cloth's `what`, into a host_output buffer.
+void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, std::string_view what);
+
+}  // namespace drape
