@@ -169,7 +169,7 @@ void PassContext::push(const vulkan::Pipeline& pipeline, const glsl::StructLayou
     const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), layout);
     if (!difference.empty()) refuse(pipeline, "push constants", difference);
     if (!layout) return;
-    // What C++ adds at the end is no part of the pipeline's range.
+    // The bytes that C++ adds at the end are no part of the pipeline's range.
     vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
                        pipeline.push_constants()->size, bytes.data());
 }
