@@ -60,7 +60,7 @@ class Watch {
     }
 
   private:
-    static constexpr std::size_t frames_in_a_row = 6;     ///< one may be a snap
+    static constexpr std::size_t frames_in_a_row = 6;     ///< a single one may be a snap
     static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
     /// The things that move a cloth, from the start to the end of a frame.
     struct Drive {

@@ -97,7 +97,6 @@ struct Resource {
     std::uint64_t byte_count(Handle handle) const;
 };
 
-/// One declared use.
 struct Use {
     Handle handle;  ///< the version read, or the version this write makes
     Access access;

@@ -105,7 +105,7 @@ std::uint64_t requested_particle_count(const SceneNode& grid, const Cloth& cloth
             const Json::Value& written = *grid.element(axis).value();
             if (written.isUInt()) requested = written.asUInt();
         }
-        count *= requested;  // two factors below 2^32: no overflow
+        count *= requested;  // two factors below 2^32 do not overflow
     }
     return count;
 }

@@ -29,7 +29,6 @@ ShapeGeometry shape_geometry(const ColliderShape& shape);
 /// translation is added. A plane's world normal is `rotate(pose.rotation, normal)`.
 ColliderPose collider_pose(const Collider& collider, double time);
 
-/// Returns rotation * v.
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v);
 
 }  // namespace drape
