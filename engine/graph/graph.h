@@ -85,8 +85,8 @@ struct Handle {
 struct Resource {
     std::string name;
     bool is_image = false;
-    ImageDeclaration image;    ///< when is_image
-    BufferDeclaration buffer;  ///< otherwise
+    ImageDeclaration image;    ///< set for an image
+    BufferDeclaration buffer;  ///< set for a buffer
     Lifetime lifetime = Lifetime::transient;
     std::uint32_t version = 0;  ///< the newest
     /// Returns the bytes of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.

@@ -42,7 +42,7 @@ struct ReflectedDescriptor {
     VkFormat format = VK_FORMAT_UNDEFINED;   ///< images, texel buffers
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
     std::uint32_t stride = 0;                ///< bytes of an element of that array
-    std::optional<ReflectedStruct> element;  ///< when that array's elements are structs
+    std::optional<ReflectedStruct> element;  ///< set when that array's elements are structs
     VkShaderStageFlags stages = 0;           ///< the stages that use it
     bool operator==(const ReflectedDescriptor&) const = default;
 };
