@@ -100,7 +100,7 @@ struct Resource {
 struct Use {
     Handle handle;  ///< the version read, or the version this write makes
     Access access;
-    std::string variable;  ///< it is bound to this of the compute shader; empty: to none
+    std::string variable;  ///< the compute shader's variable that it is bound to; empty: none
 };
 
 std::string_view lifetime_name(Lifetime lifetime);  ///< "persistent"
