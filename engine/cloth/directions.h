@@ -29,7 +29,6 @@ inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
 }};
 
-/// It holds a number per row.
 template <class T>
 using PerDirection = std::array<T, spring_directions.size()>;
 
@@ -44,7 +43,6 @@ struct SpringPass {
     bool empty() const { return pair_count.x == 0 || pair_count.y == 0; }
 };
 
-/// Returns one parity of a direction on a grid of columns x rows particles.
 SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
 
 /// Returns the eight passes in the order of relaxation: rows, columns, diagonals; even before odd. Empty ones (an odd

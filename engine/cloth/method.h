@@ -97,7 +97,6 @@ std::vector<std::byte> bytes_of(const MethodPlan& plan);
 
 /// Returns phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
 double damping_mean(double damping, double substep_length);
-/// Returns the constants of Verlet's prediction of the displacement.
 glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings);
 /// Returns the displacement before the start that makes damped ballistic flight of that prediction exact.
 glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings);

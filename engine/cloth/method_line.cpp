@@ -56,7 +56,6 @@ double euler_compliance(double constant, const ClothGeometry& cloth, const Metho
 /// Springs that there are not, in lines that only bend, pull on nothing with this.
 constexpr double slack_compliance = 1e20;
 
-/// Returns the constants of all lines of one direction.
 glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth, const MethodSettings& settings) {
     const glsl::ivec2 grid = cloth.grid.size(), step = spring_directions[direction].offset;
     const bool is_row = step.y == 0;

@@ -14,7 +14,6 @@ namespace drape {
 
 namespace {
 
-/// A substep does this to one cloth.
 struct SubstepWork {
     double dispatches, particle_ns;
 };

@@ -13,7 +13,6 @@ namespace drape {
 
 namespace {
 
-/// The nearest particle of one pin.
 struct Nearest {
     std::int32_t particle = -1;
     double distance = std::numeric_limits<double>::infinity();  ///< m

@@ -140,7 +140,6 @@ double Watch::drive_speed(std::size_t cloth, double from, double to) const {
     return (pins + 2 * colliders) / (to - from);
 }
 
-/// Returns the drive of the frame after `frame`.
 Watch::Drive Watch::next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const {
     const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
     const double begin = static_cast<double>(frame) * parts_of_a_frame;

@@ -126,7 +126,6 @@ class PassContext {
     const ResourcePool& pool_;
 };
 
-/// One timed bracket of one frame.
 struct Timing {
     std::string name;  ///< name of the stage or label of the pass
     double milliseconds = 0;

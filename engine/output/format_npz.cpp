@@ -12,7 +12,6 @@ namespace drape {
 
 namespace {
 
-/// An array that has values for every particle of every frame.
 struct ParticleArray {
     std::string_view name;
     NpyValues values = {};

@@ -97,7 +97,6 @@ class Video : public FrameWriter {
         : kind_(kind), width_(run.width), height_(run.height), sink_(std::move(sink)) {
         sink_(bytes_of(kind.header(run)));
     }
-    /// Writes into a file.
     Video(const VideoKind& kind, const WrittenRun& run, std::unique_ptr<AtomicFile> file)
         : Video(kind, run, [into = file.get()](std::span<const std::byte> bytes) { into->append(bytes); }) {
         file_ = std::move(file);

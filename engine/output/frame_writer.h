@@ -103,7 +103,6 @@ std::unique_ptr<FrameWriter> open_writer(OutputFolder& folder, const WrittenRun&
 }
 
 std::span<const OutputFormat* const> output_formats();
-/// Returns null when no format has that name.
 const OutputFormat* find_output_format(std::string_view name);
 /// Returns whether --export takes it: all but the pictures themselves; `drawn`: also those made of pictures.
 bool exported(const OutputFormat& format, bool drawn);

@@ -11,7 +11,6 @@ struct WrittenMesh {
     std::span<const std::int16_t> contacts;
 };
 
-/// Makes a text of the mesh of a cloth, with its `faces`.
 using MeshText = std::string (*)(const WrittenCloth& cloth, const WrittenMesh& mesh);
 
 /// Returns a Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all

@@ -12,7 +12,6 @@
 
 namespace drape {
 
-/// Converts sRGB 0..1 to linear.
 glsl::vec4 linear_color(const Vec3& srgb);
 
 /// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/collider_types.h).

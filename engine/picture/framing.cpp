@@ -32,7 +32,6 @@ struct Bounds {
     }
 };
 
-/// Returns the corners of the cloth where it starts.
 std::array<Vec3, 4> corners(const Cloth& cloth) {
     std::array<Vec3, 4> result;
     for (std::uint32_t i = 0; i < 4; ++i)

@@ -8,7 +8,6 @@
 
 namespace drape {
 
-/// Returns a + scale * b.
 inline Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
 }

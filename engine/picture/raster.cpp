@@ -89,7 +89,6 @@ std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) 
     return colors;
 }
 
-/// A view draws cloths by these.
 struct ClothShaders {
     const char *vertex, *fragment;
     bool lit;

@@ -107,7 +107,6 @@ RunFailure broken_run(const std::exception& error) {
     return {status, error.what(), std::nullopt, std::current_exception()};
 }
 
-/// A run goes by these parts.
 struct RunParts {
     const RunRequest& request;
     const MissingFrames& missing;

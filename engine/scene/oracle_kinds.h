@@ -27,7 +27,6 @@ struct OracleKind {
 };
 
 std::span<const OracleKind> oracle_kinds();
-/// Returns null where no check has that name.
 const OracleKind* find_oracle_kind(std::string_view name);
 /// Returns an oracle's keys, `check` first, as an object of the format.
 const Definition& oracle_definition(const OracleKind& kind);

@@ -8,7 +8,6 @@
 
 namespace drape {
 
-/// The published text of a key.
 struct KeyText {
     std::string_view name;
     std::string_view help;

@@ -8,7 +8,6 @@ namespace drape {
 inline constexpr std::uint32_t grid_axis_limit = 16384;
 inline constexpr std::uint32_t most_solver_substeps = 4096;
 
-/// A name that may become a part of a file name.
 Value<std::string> file_name();
 /// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();

@@ -101,7 +101,6 @@ inline double surface_distance(const Collider& collider, double time, const Vec3
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
 }
 
-/// Returns the least distance of a point to all colliders.
 inline double surface_distance(const std::vector<Collider>& colliders, double time, const Vec3& x) {
     double least = 1e300;
     for (const Collider& collider : colliders) least = std::min(least, surface_distance(collider, time, x));

@@ -90,11 +90,10 @@ class FrameLoop {
     std::uint32_t next_frame() const { return next_frame_; }
     /// Returns whether every frame that was simulated was handed out.
     bool can_save() const { return withheld_.empty() && (!control_ || next_frame_ >= simulated_); }
-    /// Returns what next_frame() starts from, where it can be saved.
+    /// Returns what next_frame() starts from; call it only while can_save().
     SimulationState save() const;
     /// Takes over what another loop of the same model saved. Throws Error when it is not that.
     void restore(const SimulationState& state);
-    /// Returns what cuts have made of each cloth so far.
     const std::vector<CutTopology>& topologies() const { return solver_.topologies(); }
     /// Returns three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
@@ -212,10 +211,10 @@ class FrameLoop {
     Watch watch_;
     Sleep sleep_;
     Drive drive_;
-    /// The frames of the last attempt have these statistics, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
-    std::vector<glsl::SelfRecord> attempt_self_records_;  ///< the records of the same frames
-    glsl::SelfRecord fullest_{};                          ///< most entries of every list in the last attempt
+    std::vector<glsl::SelfRecord>
+        attempt_self_records_;    ///< per frame of the last attempt, in order, like the statistics
+    glsl::SelfRecord fullest_{};  ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
     std::uint32_t state_substeps_;    ///< substeps of the state's history
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated

@@ -68,7 +68,7 @@ class FrameWatch {
 
 Finding limit(const char* name, const char* what, const Worst& worst, double allowed, const char* unit) {
     if (!worst.known) return {name, true, fmt::format("{}: nothing to measure", what)};
-    // `>` is not asked, because a NaN is no result.
+    // `<=` is false for a NaN, which is no result.
     return {name, worst.value <= allowed,
             fmt::format("{} at most {:.3g}{} ({}), allowed {:.3g}{}", what, worst.value, unit, worst.place(), allowed,
                         unit)};

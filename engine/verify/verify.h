@@ -20,7 +20,6 @@ struct Request {
     std::function<bool()> stop;  ///< asked before each frame
 };
 
-/// One thing that was judged.
 struct Finding {
     std::string check;
     bool met = false;

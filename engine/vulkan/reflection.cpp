@@ -90,7 +90,6 @@ std::string member_difference(const ReflectedStruct& shader, const glsl::StructL
     return {};
 }
 
-/// Parses one module once.
 class Reflector {
   public:
     Reflector(std::span<const std::uint32_t> words, std::string_view module) : module_(module) {

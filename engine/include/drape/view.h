@@ -1,4 +1,3 @@
-// Pictures show one of these views of the cloths.
 #pragma once
 
 #include "drape/scene.h"
