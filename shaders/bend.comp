@@ -17,12 +17,12 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 float share_of(ivec2 owner) {
 #ifdef MASKED
-    return LOAD(spring_share_image, owner)[push.channel];
+    return LOAD(spring_shares, owner)[push.channel];
 #else
     return border_share(owner, push.axis, push.grid);
 #endif

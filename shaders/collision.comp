@@ -21,7 +21,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef HISTORY
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
-layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 #endif
 #ifdef LED
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
@@ -107,8 +107,8 @@ void meet_all(ivec2 texel) {
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     // Most that come here find it done.
-    if (imageLoad(control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
-        imageAtomicMax(control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
+    if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
 #endif
 }
 

@@ -17,7 +17,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  
 layout(set = 0, binding = 3, std430) readonly buffer Cutters { CutterTriangle cutters[]; };
 layout(set = 0, binding = 4, std430) buffer Count { uint count[]; };  // springs crossed
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 6, r32ui) uniform readonly uimage2D cells;
 #endif
 
@@ -54,7 +54,7 @@ void main() {
         }
     }
 #ifdef MASKED
-    vec4 share = imageLoad(spring_share_image, texel);
+    vec4 share = imageLoad(spring_shares, texel);
     if (share.x == 0.0f) found.x = not_crossed;
     if (share.y == 0.0f) found.y = not_crossed;
     if (share.z == 0.0f) found.z = not_crossed;

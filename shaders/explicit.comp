@@ -20,7 +20,7 @@ layout(constant_id = 0) const bool advance = false;  // the positions still lack
 layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
 #ifdef MASKED
-layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 struct Particle {
@@ -37,7 +37,7 @@ Particle particle_at(ivec2 texel) {
     Particle particle =
         Particle(texel, LOAD(position_in, texel).xyz, LOAD(displacement_in, texel).xyz, vec4(0.0f));
 #ifdef MASKED
-    particle.shares = LOAD(spring_share_image, texel);
+    particle.shares = LOAD(spring_shares, texel);
 #endif
     return particle;
 }
@@ -140,7 +140,7 @@ void main() {
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
 #ifdef MASKED
-    center.shares = LOAD(spring_share_image, texel);
+    center.shares = LOAD(spring_shares, texel);
 #endif
     vec3 pull = empty_sum();
     pull = gather(pull, center, neighbour(0));

@@ -31,7 +31,7 @@ VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
 VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef MASKED
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 layout(constant_id = 0) const bool has_shear = false;
@@ -91,7 +91,7 @@ void store_row(RowBand band, int y, Particle row[columns]) {
 /// Of the springs that a particle owns, by direction: 1 or 0 outside the grid, half along its borders.
 vec4 shares_of(int x, int y) {
 #ifdef MASKED
-    vec4 shares = LOAD(spring_share_image, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
+    vec4 shares = LOAD(spring_shares, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
 #else
     vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
                        border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);

@@ -25,7 +25,7 @@ VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
 VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef MASKED
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 layout(constant_id = 0) const bool has_shear = false;
@@ -61,7 +61,7 @@ void show(Particle particle) {
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
-    return LOAD(spring_share_image, owner)[channel];
+    return LOAD(spring_shares, owner)[channel];
 #else
     return border_share(owner, offset, push.grid);
 #endif

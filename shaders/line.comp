@@ -29,22 +29,22 @@ TRIPLE_OUT(2, DisplacementOut, displacement_out);
 // displacement and w the tension that it leaves the spring after it. The second, xy: that spring, eliminated; before, x: of
 // particle p of a line that bends. An invocation reads what it wrote itself. Buffers take both as pairs of floats: on the
 // default device every store is a loop over the lanes of its own, whose rounds cost by the element.
-layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D scratch_in;
+layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D line_scratch_in;
 #ifdef BUFFERED
 struct TwoTexels {
     u64vec3 pairs;
     uint64_t unused;
 };
-layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels scratch_out[]; };
+layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels line_scratch_out[]; };
 #else
-coherent VECTOR_OUT(4, ScratchOut, scratch_out);
+coherent VECTOR_OUT(4, ScratchOut, line_scratch_out);
 #endif
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
-layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_shares;
 #endif
-layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
 layout(constant_id = 0) const bool first_iteration = true;  // both systems; later iterations repeat the second alone
 
 #include "include/line_particles.h"
@@ -60,9 +60,9 @@ int place(Line line, int p) {
 /// The scratch image is addressed as if it had only one row.
 ivec2 scratch_texel(int texel) { return ivec2(texel & (line_scratch_width - 1), texel / line_scratch_width); }
 
-vec4 load_first(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p))); }
+vec4 load_first(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p))); }
 
-vec2 load_second(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
+vec2 load_second(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
 
 #ifdef BUFFERED
 uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
@@ -70,19 +70,19 @@ uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint
 
 void store_first(Line line, int p, vec4 first) {
 #ifdef BUFFERED
-    scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
+    line_scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
 #else
-    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
 #endif
 }
 
 void store_scratch(Line line, int p, vec4 first, vec2 second) {
 #ifdef BUFFERED
-    scratch_out[place(line, p)].pairs =
+    line_scratch_out[place(line, p)].pairs =
         u64vec3(pair(first.x, first.y), pair(first.z, first.w), pair(second.x, second.y));
 #else
-    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
-    imageStore(scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
 #endif
 }
 
@@ -284,5 +284,5 @@ void main() {
     if (first_iteration) eliminate_particles(line);
     float largest = eliminate_springs(line);
     substitute_springs(line);
-    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
 }

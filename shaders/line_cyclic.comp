@@ -20,9 +20,9 @@ TRIPLE_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(4, TensionOut, tension_out);
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 #endif
-layout(set = 0, binding = 6, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 6, r32ui) uniform uimage2D line_control;
 layout(constant_id = 2) const bool first_iteration = true;
 
 #include "include/line_particles.h"
@@ -71,7 +71,7 @@ void report(bool is_wrong) {
     if (is_wrong) atomicOr(wrong[gl_LocalInvocationID.y], 1u);
     barrier();
     if (group_place == 0 && wrong[gl_LocalInvocationID.y] != 0u)
-        imageAtomicAdd(control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+        imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// Sweeps over boxes around lone pins (include/nested_sweeps.h), an invocation per line of a box, a barrier after every
+// Sweeps over boxes around lone pins (include/nested_boxes.h), an invocation per line of a box, a barrier after every
 // direction. Loops end at their bottom (include/every.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,10 +12,10 @@
 #include "include/verlet.h"
 
 layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
-#include "include/nested_sweeps.h"
+#include "include/nested_boxes.h"
 // Of the spring of a direction that a particle owns: xy eliminated, z its tension before the sweep, as it is stored.
-layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D rows_in;
-coherent TRIPLE_OUT(5, RowsOut, rows_out);
+layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D nested_rows_in;
+coherent TRIPLE_OUT(5, NestedRowsOut, nested_rows_out);
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // normal of the spring that a line's end lacks
 
@@ -32,7 +32,7 @@ void eliminate_between(NestedLine line, inout SpringWalk walk, vec3 normal_befor
     walk.eliminated = eliminate_spring(walk.eliminated, normal_before, walk.spring, walk.normal_after,
                                        walk.first.position.w, walk.second.position.w, share_of(line, walk.first),
                                        line.compression, line.compliance, tension_in_use(stored, line.per_followed));
-    STORE_TRIPLE(rows_out, walk.first.at, vec3(walk.eliminated, stored), 0.0f);
+    STORE_TRIPLE(nested_rows_out, walk.first.at, vec3(walk.eliminated, stored), 0.0f);
 }
 
 /// A spring with one before it.
@@ -71,7 +71,7 @@ void move(MoveWalk walk, vec3 normal, float change) {
 void move_next(NestedLine line, inout MoveWalk walk) {
     NestedParticle second = next_particle(line, walk.first, line.step);
     LineSpring spring = spring_between(line, walk.first, second);
-    vec4 row = imageLoad(rows_in, walk.first.at);
+    vec4 row = imageLoad(nested_rows_in, walk.first.at);
     float change = substitute_spring(row.xy, walk.change_before);
     move(walk, spring.normal, change);
     float share = share_of(line, walk.first);

@@ -1,4 +1,4 @@
-// Sweeps over boxes around lone pins (include/nested_sweeps.h), an invocation per particle of a line of a box, the lines
+// Sweeps over boxes around lone pins (include/nested_boxes.h), an invocation per particle of a line of a box, the lines
 // solved by cyclic reduction, as many at a time as the workgroup holds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +12,7 @@
 #include "include/verlet.h"
 
 layout(local_size_x = cyclic_most_particles) in;
-#include "include/nested_sweeps.h"
+#include "include/nested_boxes.h"
 #include "include/cyclic_group.h"
 
 /// The line that an invocation belongs to, one of those from `line.index` on.

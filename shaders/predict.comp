@@ -21,7 +21,7 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_befo
 TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
 TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
-layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
+layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control;
 
 bool second_order;  // read where nothing has branched yet (docs/devices.md)
 
@@ -56,6 +56,6 @@ void predict(ivec2 texel) {
 }
 
 void main() {
-    second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     FOR_STRIP(texel, push.grid, predict(texel))
 }

@@ -75,7 +75,7 @@ void list(ivec2 first, uint near) {
         ivec4 pair = self_close_pair(bit - column * self_close_pairs);
         ivec2 texel = cloth.first + first + ivec2(column, 0);
         ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
-        if (near != 0u && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
+        if (near != 0u && place < uint(push.cell_capacity)) cells[place] = ivec2(place_of(a), place_of(b));
         ++place;
         near &= max(near, 1u) - 1u;
         if (near == 0u) break;

@@ -46,7 +46,7 @@ void main() {
                     self_boxes_meet(box, box_at(place), push, most);
         ++visits;
         if (visits > self_visit_limit) {
-            atomicAdd(record[0].block_count, uint(push.cell_room));
+            atomicAdd(record[0].block_count, uint(push.cell_capacity));
             level = push.top;
             open = false;
             entered = false;
@@ -56,7 +56,7 @@ void main() {
         if (cloth_count > 1) found = found && meets(owner, box, node, box_at(place));
         if (found) {
             uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
-            if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
+            if (at < uint(push.cell_capacity)) blocks[at] = ivec2(index, place - begin);
         }
         if (open && level > 1) {
             --level;

@@ -63,7 +63,7 @@ void judge(ivec2 pair) {
     for (;;) {
         int k = max(findLSB(found), 0);
         int a = index_of(one.at + ivec2((k >> 2) & 1, k >> 3)), b = index_of(other.at + ivec2(k & 1, (k >> 1) & 1));
-        if (found != 0u && place < uint(push.cell_room)) candidates[place] = ivec2(min(a, b), max(a, b));
+        if (found != 0u && place < uint(push.cell_capacity)) candidates[place] = ivec2(min(a, b), max(a, b));
         ++place;
         found &= max(found, 1u) - 1u;
         if (found == 0u) break;
@@ -71,7 +71,7 @@ void judge(ivec2 pair) {
 }
 
 void main() {
-    int count = self_listed(record[0].block_count, push.cell_room);
+    int count = self_listed(record[0].block_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(blocks[i]))
     dispatch(self_size_near, reached);
 }

@@ -78,10 +78,10 @@ void push_apart(bool edges, uvec4 pair) {
 }
 
 void main() {
-    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
-    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_capacity);
+    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_capacity);
     FOR_EVERY(i, points, push_apart(false, pairs[i]))
-    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_room - 1 - i]))
+    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_capacity - 1 - i]))
     dispatch(self_size_push + push.round, pushes ? uint(push.grid.x * push.grid.y) : 0u);
     if (push.round + 1 < self_iterations)
         dispatch(self_size_contact + push.round + 1, pushes ? uint(max(points, edges)) : 0u);

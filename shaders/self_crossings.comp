@@ -43,6 +43,6 @@ void judge(int entry) {
 }
 
 void main() {
-    int count = self_listed(record[0].cell_count, push.cell_room);
+    int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
 }

@@ -17,13 +17,13 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 VECTOR_KEPT(2, Positions, positions);          // of the sheet, where other cloths' stay
 VECTOR_KEPT(3, Displacements, displacements);  // likewise
 #ifdef MASKED
-layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D existing;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
 #endif
 
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
 #ifdef MASKED
-    return (imageLoad(existing, cell).x & uint(which)) != 0u;
+    return (imageLoad(cells, cell).x & uint(which)) != 0u;
 #else
     return true;
 #endif

@@ -98,7 +98,7 @@ void list_points(int entry, uint bits) {
     if (count > 0u) place = place_after(atomicAdd(record[0].near_point_count, count), count);
     for (int k = 0; k < self_first_edge_pair; ++k) {
         bool listed = (bits & (1u << k)) != 0u;
-        if (listed && place < uint(push.near_room)) near[place] = self_near_entry(entry, k);
+        if (listed && place < uint(push.near_capacity)) near[place] = self_near_entry(entry, k);
         place += listed ? 1u : 0u;
     }
 }
@@ -108,8 +108,8 @@ void list_edges(int entry, uint bits) {
     if (count > 0u) place = place_after(atomicAdd(record[0].near_edge_count, count), count);
     for (;;) {
         int k = findLSB(bits);
-        if (k >= 0 && place < uint(push.near_room))
-            near[uint(push.near_room) - 1u - place] = self_near_entry(entry, k);
+        if (k >= 0 && place < uint(push.near_capacity))
+            near[uint(push.near_capacity) - 1u - place] = self_near_entry(entry, k);
         ++place;
         bits &= max(bits, 1u) - 1u;
         if (bits == 0u) break;
@@ -138,7 +138,7 @@ void judge(int entry) {
 
 void main() {
     carried = record[0].carried.xyz;
-    int count = self_listed(record[0].cell_count, push.cell_room);
+    int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
     dispatch(self_size_pairs, reached);
 }

@@ -19,7 +19,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before_in;  /
 layout(set = 0, binding = 6, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
 #ifdef HISTORY
 VECTOR_KEPT(4, DisplacementBefore, displacement_before);
-layout(set = 0, binding = 5, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 5, r32ui) uniform uimage2D line_control;
 #endif
 
 int place_of(ivec2 laid) { return laid.y * push.columns + laid.x; }
@@ -34,8 +34,8 @@ void take(ivec2 texel) {
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     // Most that come here find it done.
-    if (imageLoad(control, ivec2(control_hold, 0)).x < line_hold_contact)
-        imageAtomicMax(control, ivec2(control_hold, 0), line_hold_contact);
+    if (imageLoad(line_control, ivec2(control_hold, 0)).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, 0), line_hold_contact);
 #endif
 }
 

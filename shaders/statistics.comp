@@ -21,21 +21,21 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
-layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
+layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_share;
 #endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Of each cloth, xyz: positions are summed relative to this point, m; w: thickness, m.
-layout(set = 0, binding = 12, rgba32f) uniform readonly image2D reference;
+layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
 
-vec4 reference_of_cloth() { return imageLoad(reference, ivec2(0, gl_WorkGroupID.z)); }
+vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, gl_WorkGroupID.z)); }
 
 /// Held particles have a mass too; their w does not tell it.
-float mass_share(ivec2 texel) {
+float mass_share_of(ivec2 texel) {
 #ifdef MASKED
-    return LOAD(mass_image, texel).x;
+    return LOAD(mass_share, texel).x;
 #else
     return border_mass_share(texel, push.grid);
 #endif
@@ -50,7 +50,7 @@ struct Neighbours {
 /// Of the springs that a particle owns; what lies outside the grid is of no use.
 vec4 shares_of(ivec2 texel) {
 #ifdef MASKED
-    vec4 shares = LOAD(spring_share_image, texel);
+    vec4 shares = LOAD(spring_shares, texel);
 #else
     vec4 shares = vec4(border_share(texel, ivec2(1, 0), push.grid), border_share(texel, ivec2(0, 1), push.grid), 1.0f,
                        1.0f);
@@ -69,7 +69,7 @@ StatisticsRecord with_spring(StatisticsRecord record, vec3 first, vec3 second, i
 StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     vec3 at = around.here.xyz;
     precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
-    StatisticsRecord record = particle_statistics(at, velocity, mass_share(texel), reference_of_cloth().xyz,
+    StatisticsRecord record = particle_statistics(at, velocity, mass_share_of(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
     vec4 shares = shares_of(texel);
     record = with_spring(record, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);

@@ -16,7 +16,7 @@ layout(push_constant) uniform Push { StrainPush push; };
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
 #ifdef MASKED
-layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_shares;
 #endif
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
@@ -30,7 +30,7 @@ float with_spring(float strain, ivec2 first, int direction) {
     float rest_length = push.springs[direction];
     if (!(rest_length > 0.0)) return strain;
 #ifdef MASKED
-    if (!(imageLoad(spring_share_image, first)[direction] > 0.0)) return strain;
+    if (!(imageLoad(spring_shares, first)[direction] > 0.0)) return strain;
 #endif
     float current = distance(imageLoad(position, first).xyz, imageLoad(position, second).xyz);
     float found = (current - rest_length) / rest_length;

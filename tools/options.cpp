@@ -229,18 +229,20 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
     command.add_flag_callback(
         "--no-skip", [&scene] { scene.skip = false; },
         "Do the work that is skipped because it changes no bit of the result");
-    std::string words;
-    for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
     add_option(
-        command, "--schedule", words.c_str(),
-        "How passes run on the device: `buffers` stores through buffers of the images' memory, `streams` takes "
-        "several explicit steps, or all springs of an iteration, at once besides, `tiles` does in shared memory, "
-        "all to the same bits; `cyclic` gives every particle of a line an invocation, with "
-        "other rounding; default: by the device and the method",
-        [&scene, words](const std::string& text) {
-            const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
-            if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
-            scene.schedule = found->value;
+        command, "--kernels", "plain|auto|NAME,...",
+        "The shaders that do a step's work: `plain` runs one pass per step, `auto` (the default) takes faster ones "
+        "that "
+        "suit the device and the scene, to the same bits but for cyclic reduction; `drape graph` names them and says "
+        "why each is used or not",
+        [&scene](const std::string& text) {
+            const auto kernels = Kernels::parse(text);
+            if (!kernels) {
+                std::string names = "auto";
+                for (const KernelName& row : kernel_names) names += ", " + std::string(row.name);
+                return fmt::format("expected names of kernels ({}), got '{}'", names, text);
+            }
+            scene.kernels = *kernels;
             return std::string();
         });
 }

@@ -52,7 +52,7 @@ void add_format_option(CLI::App& command, const std::string& help, std::vector<s
 void add_device_option(CLI::App& command, std::string& device);
 /// --validate
 void add_validate_option(CLI::App& command, bool& validate);
-/// SCENE, --set, --device, --validate, --no-skip, --schedule
+/// SCENE, --set, --device, --validate, --no-skip, --kernels
 void add_scene_options(CLI::App& command, SceneRequest& scene);
 /// --size, --samples, --view, --view-range
 void add_image_options(CLI::App& command, SceneRequest& scene);

@@ -1,8 +1,6 @@
-// A frame's steps where lines are solved by cyclic reduction (shaders/line_cyclic.comp): an invocation per particle
-// instead of one per line, for devices that have many. The same systems, with other rounding. Pure.
+// Which lines can be solved by cyclic reduction (shaders/line_cyclic.comp): an invocation per particle instead of one
+// per line, for devices that have many. The same systems, with other rounding. Pure.
 #pragma once
-
-#include <vector>
 
 #include "cloth/simulation_model.h"
 
@@ -11,11 +9,8 @@ namespace drape {
 /// Whether the lines of a step may be: they do not bend, and a workgroup holds them (cyclic_most_particles).
 bool can_reduce(const glsl::LinePush& push);
 
-/// Likewise the lines in the boxes of nested sweeps.
+/// Likewise the lines in the boxes of nested boxes.
 bool can_reduce(const glsl::NestedPush& push, const MethodPlan& plan);
-
-/// The steps of a frame (schedule.h), the lines and nested sweeps that can be marked as reduced.
-std::vector<Step> cyclic_steps(const SimulationModel& model);
 
 /// Shared memory of a workgroup of so many invocations.
 std::uint32_t cyclic_shared_bytes(std::uint32_t invocations);

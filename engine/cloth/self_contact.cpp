@@ -128,8 +128,8 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
     const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits
-    room = {places * self_room_per_particle.pairs, places * self_room_per_particle.near,
-            places * self_room_per_particle.cells};
+    capacity = {places * capacity_per_particle.pairs, places * capacity_per_particle.near,
+                places * capacity_per_particle.cells};
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
     push.cloth = cloths.front();
@@ -150,20 +150,20 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
     return {cloths[cloth].grid, cloths[cloth].first, push.grid.x};
 }
 
-double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record) {
+double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
     const auto use = [](std::uint32_t most, std::uint32_t entries) { return static_cast<double>(most) / entries; };
-    return std::max(
-        {use(record.most_pairs, room.pairs), use(record.most_near, room.near), use(record.most_cells, room.cells)});
+    return std::max({use(record.most_pairs, capacity.pairs), use(record.most_near, capacity.near),
+                     use(record.most_cells, capacity.cells)});
 }
 
-SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record) {
+ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
     const auto more = [](std::uint32_t most, std::uint32_t entries) {
         const std::uint64_t wanted = std::max(std::uint64_t{entries} * 2, std::uint64_t{most} + most / 4);
         return most <= entries ? entries
-                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_self_entries));
+                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_contact_entries));
     };
-    return {more(record.most_pairs, room.pairs), more(record.most_near, room.near),
-            more(record.most_cells, room.cells)};
+    return {more(record.most_pairs, capacity.pairs), more(record.most_near, capacity.near),
+            more(record.most_cells, capacity.cells)};
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

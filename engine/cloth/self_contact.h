@@ -13,16 +13,16 @@ namespace drape {
 
 /// Entries that the lists have room for: pairs, pairs whose boxes are near each other, pairs of cells. What a frame
 /// makes does not depend on it, as long as it suffices.
-struct SelfRoom {
+struct ContactCapacity {
     std::uint32_t pairs = 0, near = 0, cells = 0;
-    bool operator==(const SelfRoom&) const = default;
+    bool operator==(const ContactCapacity&) const = default;
 };
 
 /// Per particle, in the beginning: crumpled cloth takes 10, 30 and 50.
-inline constexpr SelfRoom self_room_per_particle{32, 64, 64};
+inline constexpr ContactCapacity capacity_per_particle{32, 64, 64};
 /// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
 /// signed integers.
-inline constexpr std::uint32_t most_self_entries = (1u << 28) - 1;
+inline constexpr std::uint32_t most_contact_entries = (1u << 28) - 1;
 /// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
 /// the lower nodes of its tree of boxes are of one cloth each.
 inline constexpr int self_sheet_step = 8;
@@ -34,11 +34,11 @@ struct SelfContact {
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};            ///< level, last, first, round and the lists' room are set per step
-    SelfRoom room;                           ///< to begin with
-    std::vector<glsl::SelfCloth> cloths;     ///< where each lies on the sheet
-    glsl::ivec2 largest{};                   ///< columns and rows that none of them has more of
-    std::vector<glsl::uint> meetings;        ///< by cloth and cloth: self_meets and those beside it
+    glsl::SelfContactPush push{};         ///< level, last, first, round and the capacity of the lists are set per step
+    ContactCapacity capacity;             ///< to begin with
+    std::vector<glsl::SelfCloth> cloths;  ///< where each lies on the sheet
+    glsl::ivec2 largest{};                ///< columns and rows that none of them has more of
+    std::vector<glsl::uint> meetings;     ///< by cloth and cloth: self_meets and those beside it
     std::vector<glsl::SelfCrossed> to_part;  ///< those that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< those that start through each other, or through themselves
     std::vector<int> owners() const;         ///< by place on the sheet: its cloth, or -1
@@ -47,10 +47,10 @@ struct SelfContact {
 };
 
 /// How full the fullest of the lists came in a frame; above 1 something found no room in it.
-double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record);
+double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record);
 /// At least twice as much where a list found none; of a list that is filled from another one that was too short not
 /// everything is known yet.
-SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record);
+ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::SelfRecord& record);
 
 /// Boxes of the tree over a sheet: of one level, of all.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);

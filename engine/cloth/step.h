@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "drape/kernels.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/self_contact_types.h"
@@ -27,15 +28,17 @@ enum class StepKind {
     pin,
     bend,
     twist,
-    twist_sweep,
+    all_twist,
     spring,
-    sweep,
+    all_springs,
     line,
     nested,
     tether,
     box_edges,
     collide,
-    check,
+    residual,
+    decide,
+    advance,
     self_gather,
     self_gather_again,
     self_common,
@@ -53,17 +56,17 @@ enum class StepKind {
     self_pairs,
     self_contact,
     self_push,
-    self_room,
+    self_limit,
     self_move,
     self_return,
-    advance
 };
+inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
 
 /// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
 /// set per iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::TwistSweepPush, glsl::SpringPush, glsl::SweepPush,
+                 glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
@@ -86,19 +89,17 @@ struct Step {
     bool last = false;
     /// Explicit steps: how many substeps it takes at once, from `substep` on.
     std::uint32_t count = 1;
-    /// Runs only when the check before it found the tolerance not met: decided on the device.
+    /// Runs only when the decision before it was that the tolerance is not met: the device decides.
     bool conditional = false;
     /// Contact, a second `box_edges`: goes on from what `box_edges` left.
     bool after_edges = false;
     /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back. Sweeps of springs
     /// that carry tension: writes it to the spare images, from where the next one brings it back.
     bool turns = false;
-    /// Lines, nested sweeps: by cyclic reduction (cloth/cyclic_lines.h).
-    bool reduced = false;
+    /// The kernel of its row that does it (cloth/kernel_steps.h).
+    Kernel kernel = Kernel::plain;
     /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
-    /// Explicit steps, one or some at once: down the rows (cloth/streams.h), where no wind blows.
-    bool streams = false;
 
     /// Throws std::bad_variant_access when the step has others.
     template <class Push>

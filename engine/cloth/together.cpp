@@ -22,9 +22,16 @@ bool alike(const Cloth& one, const Cloth& other) {
     return same == one;
 }
 
+/// Kernels whose shaders find a cloth's place by the workgroup's z (shaders/include/together.h).
+bool knows_places(Kernel kernel) {
+    return kernel == Kernel::plain || kernel == Kernel::explicit_stream || kernel == Kernel::spring_stream ||
+           kernel == Kernel::twist_stream;
+}
+
 /// Whether all of a step's data are its constants, the images of the state and, of pins, lists that can be joined.
-bool in_images(StepKind kind) {
-    switch (kind) {
+bool in_images(const Step& step) {
+    if (!knows_places(step.kernel)) return false;
+    switch (step.kind) {
         case StepKind::wind:
         case StepKind::pin:
         case StepKind::control:
@@ -33,9 +40,9 @@ bool in_images(StepKind kind) {
         case StepKind::explicit_step:
         case StepKind::bend:
         case StepKind::twist:
-        case StepKind::twist_sweep:
+        case StepKind::all_twist:
         case StepKind::spring:
-        case StepKind::sweep:
+        case StepKind::all_springs:
         case StepKind::line:
         case StepKind::box_edges:
         case StepKind::collide:
@@ -57,11 +64,11 @@ bool same_constants(const StepConstants& one, const StepConstants& other) {
 bool same_place(const Step& one, const Step& other) {
     return one.kind == other.kind && one.substep == other.substep && one.iteration == other.iteration &&
            one.last == other.last && one.count == other.count && one.conditional == other.conditional &&
-           one.after_edges == other.after_edges && one.turns == other.turns;
+           one.after_edges == other.after_edges && one.turns == other.turns && one.kernel == other.kernel;
 }
 
 bool same_step(const Step& one, const Step& other) {
-    return in_images(one.kind) && !one.conditional && same_place(one, other) &&
+    return in_images(one) && !one.conditional && same_place(one, other) &&
            same_constants(one.constants, other.constants);
 }
 

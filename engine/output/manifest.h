@@ -50,8 +50,8 @@ struct Manifest {
         double strain_range = 0;    // of a heat map: strain at its end; 0: no heat map
     };
     struct Solver {
-        std::string method;    // in use
-        std::string schedule;  // in use
+        std::string method;   // in use
+        std::string kernels;  // in use
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
         bool tethers = false;

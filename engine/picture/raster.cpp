@@ -205,11 +205,13 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
 void RasterPass::make_compute_pipelines() {
     encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
                                                                    {"sampled", samples_ > 1 && !resolves_}}),
-                              {{"has_floor", has_floor_ ? 1u : 0u}, {"strip_length", compute_.strip_length()}});
+                              [this](std::string_view name) {
+                                  return name == "has_floor" ? (has_floor_ ? 1u : 0u) : compute_.strip_length();
+                              });
     if (!casts_shadow()) return;
     constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
     const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
-    shadow_rows_ = &compute_.get("shadow_rows.comp", {{"texels_each", texels_each}});
+    shadow_rows_ = &compute_.get("shadow_rows.comp", [=](std::string_view) { return texels_each; });
     shadow_rows_invocations_ = side * side / texels_each;
 }
 
@@ -310,7 +312,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.shadow_map, Access::compute_read, "shadow_map");
             targets.shadow_rows = setup.write(targets.shadow_rows, Access::compute_write, "shadow_rows");
         },
-        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, shadow_rows_invocations_, 1); });
+        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, {}, shadow_rows_invocations_, 1); });
 }
 
 void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {

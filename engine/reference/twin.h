@@ -10,8 +10,7 @@
 #include "cloth/cloth_state.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/schedule.h"
-#include "drape/schedule.h"
+#include "cloth/frame_steps.h"
 
 namespace drape {
 
@@ -48,7 +47,8 @@ struct TwinCloth {
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    bool iterates = true;               ///< what the last check found: conditional steps run
+    glsl::ResidualRecord residual{};    ///< of the last residual step
+    bool iterates = true;               ///< the last decision: conditional steps run
     std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
 };
 
@@ -77,10 +77,10 @@ struct TwinContact {
 
 class Twin {
   public:
-    /// `schedule`: of them all only `cyclic` has bits of its own.
-    explicit Twin(const SimulationModel& model, Schedule schedule = Schedule::images);
+    /// Only the kernels of cyclic reduction have bits of their own; all others are those of the plain ones.
+    explicit Twin(const SimulationModel& model, const Kernels& kernels = {});
 
-    /// Simulates from frame-1 to `frame`, step by step of the schedule.
+    /// Simulates from frame-1 to `frame`, step by step.
     void run_frame(std::uint32_t frame);
     /// Goes on with other substeps: those of `run`, the same scene's, which must outlive this.
     void change_step(const SimulationModel& run);
@@ -98,33 +98,41 @@ class Twin {
     CutTopology& topology(std::size_t index) { return cloths_[index].topology; }
 
   private:
-    void run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs);
-    void release(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
-                 std::uint32_t substep);
-    void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
-    void force(TwinCloth& state, const Step& step);
-    void explicit_step(TwinCloth& state, const Step& step);
-    void control(TwinCloth& state, const Step& step);
-    void predict(TwinCloth& state, const Step& step);
-    void line(const ClothModel& model, TwinCloth& state, const Step& step);
-    void nested(const ClothModel& model, TwinCloth& state, const Step& step);
-    void tether(TwinCloth& state);
-    void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
-             std::uint32_t substep);
-    void spring(const ClothModel& model, TwinCloth& state, const Step& step);
-    void bend(TwinCloth& state, const Step& step);
-    void twist(TwinCloth& state, const Step& step);
-    void box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
-    void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
-    void check(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_gather(TwinCloth& state, const Step& step);
-    void self_return(const ClothModel& model, TwinCloth& state, const Step& step);
+    /// A step of one cloth: what the functions of the steps get.
+    struct Place {
+        const ClothModel& model;
+        TwinCloth& state;
+        const Step& step;
+        const FrameInputs& inputs;
+        const std::vector<glsl::PinMotion>& motions;
+    };
+    /// By StepKind, but for contact's steps of all cloths at once.
+    static void (Twin::*function_of(StepKind kind))(const Place&);
+    void release(const Place& at);
+    void wind(const Place& at);
+    void control(const Place& at);
+    void predict(const Place& at);
+    void force(const Place& at);
+    void explicit_step(const Place& at);
+    void pin(const Place& at);
+    void bend(const Place& at);
+    void twist(const Place& at);
+    void spring(const Place& at);
+    void line(const Place& at);
+    void nested(const Place& at);
+    void tether(const Place& at);
+    void box_edges(const Place& at);
+    void collide(const Place& at);
+    void residual(const Place& at);
+    void decide(const Place& at);
+    void advance(const Place& at);
+    void self_gather(const Place& at);
+    void self_return(const Place& at);
     /// A step of all cloths at once.
     void run_contact(const Step& step);
-    void advance(const ClothModel& model, TwinCloth& state);
 
     const SimulationModel* model_;
-    Schedule schedule_;
+    Kernels kernels_;
     std::vector<TwinCloth> cloths_;
     std::optional<TwinContact> contact_;
 };

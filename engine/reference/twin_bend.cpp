@@ -7,7 +7,8 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::bend(TwinCloth& state, const Step& step) {
+void Twin::bend(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<BendPush>();
     const CutTopology& topology = state.topology;
     const auto share = [&](ivec2 owner) {
@@ -37,7 +38,8 @@ void Twin::bend(TwinCloth& state, const Step& step) {
         }
 }
 
-void Twin::twist(TwinCloth& state, const Step& step) {
+void Twin::twist(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<TwistPush>();
     const CutTopology& topology = state.topology;
     const std::vector<vec4>& shares = topology.spring_shares();

@@ -1,4 +1,4 @@
-// The twin of the check between iterations: the same records in the same order.
+// The twin of what decides whether another iteration follows: the same records in the same order.
 #include <array>
 
 #include "cloth/texels.h"
@@ -59,9 +59,12 @@ ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
 
 }  // namespace
 
-void Twin::check(const ClothModel& model, TwinCloth& state, const Step& step) {
+void Twin::residual(const Place& where) { where.state.residual = drape::residual(where.model, where.state); }
+
+void Twin::decide(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_->scene.solver.substeps;
-    state.iterates = needs_iteration(residual(model, state), model_->iteration_limit());
+    state.iterates = needs_iteration(state.residual, model_->iteration_limit());
     if (state.iterates) ++state.iteration_count;
 }
 

@@ -45,7 +45,8 @@ struct BoxEdges {
 
 }  // namespace
 
-void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+void Twin::box_edges(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const BoxEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement, model.box_edges()};
     const std::vector<drape::Collider>& colliders = model_->scene.colliders;
     const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
@@ -68,7 +69,8 @@ void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInput
         }
 }
 
-void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+void Twin::collide(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const CollisionPush& push = model.collision;
     const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {

@@ -82,7 +82,8 @@ struct Before {
 
 }  // namespace
 
-void Twin::explicit_step(TwinCloth& state, const Step& step) {
+void Twin::explicit_step(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<ExplicitPush>();
     const bool advance = step.substep > 0;
     const Before before{state, push, advance};

@@ -10,14 +10,16 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::control(TwinCloth& state, const Step& step) {
+void Twin::control(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     auto& texels = state.integers(Field::line_control);
     const LineControl next = next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]},
                                           step.push<LineControlPush>().most_wrong);
     texels = {next.order, next.wrong_lines, next.hold};
 }
 
-void Twin::predict(TwinCloth& state, const Step& step) {
+void Twin::predict(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
@@ -206,8 +208,10 @@ std::vector<float> reduced_changes(const LineView& line, const std::vector<LineS
 
 }  // namespace
 
-void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
+void Twin::line(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<LinePush>();
+    const bool by_reduction = step.kernel == Kernel::line_cyclic;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
@@ -215,14 +219,14 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     for (int k = 0; k < push.line_count; ++k) {
         LineView line(model, push, state, k);
         if (step.iteration == 0)
-            filter(line, compliance, followed, step.reduced, is_bdf2 ? push.bend_bdf2 : push.bend);
+            filter(line, compliance, followed, by_reduction, is_bdf2 ? push.bend_bdf2 : push.bend);
         else
             for (std::size_t e = 0; e < line.spring_count(); ++e)
                 line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
         float largest = 0;
-        const std::vector<float> change = step.reduced ? reduced_changes(line, springs, compliance, largest)
+        const std::vector<float> change = by_reduction ? reduced_changes(line, springs, compliance, largest)
                                                        : solve(line, springs, compliance, largest);
         if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
         const vec3 none{0, 0, 0};

@@ -1,4 +1,4 @@
-// The twin's nested sweeps around lone pins.
+// The twin's nested boxes around lone pins.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/reduced_system.h"
@@ -84,7 +84,7 @@ struct NestedLine {
     }
 };
 
-void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
+void solve_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
                      int direction, bool is_bdf2, bool by_reduction) {
     if (!(component(push.rest_length, direction) > 0.0f)) return;
     const ivec2 step = nested_step(direction);
@@ -110,7 +110,8 @@ void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush
 
 }  // namespace
 
-void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
+void Twin::nested(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<NestedPush>();
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const std::vector<ivec4>& table = model.plan.nested_table;
@@ -121,8 +122,8 @@ void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
         for (std::size_t block = 0; block < static_cast<std::size_t>(push.block_count); ++block)
             for (int sweep = 0; sweep < table[block].z; ++sweep)
                 for (int order = 0; order < 4; ++order)
-                    sweep_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
-                                    nested_direction(order), is_bdf2, step.reduced);
+                    solve_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
+                                    nested_direction(order), is_bdf2, step.kernel == Kernel::nested_cyclic);
     }
 }
 

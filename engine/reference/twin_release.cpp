@@ -34,9 +34,9 @@ vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here
 
 }  // namespace
 
-void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
-                   std::uint32_t substep) {
-    const std::size_t first = substep * model.dynamic_pins.size();
+void Twin::release(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
+    const std::size_t first = step.substep * model.dynamic_pins.size();
     const std::vector<vec4> position = state[Field::position];
     for (const PinnedParticle& pin : model.pinned) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
@@ -49,7 +49,8 @@ void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<
             hold = std::max(hold, line_hold_release);
         }
         const vec3 none{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
-        const vec3 pull = model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, substep > 0) : none;
+        const vec3 pull =
+            model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : none;
         const float surplus = release_surplus(motion);
         const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);

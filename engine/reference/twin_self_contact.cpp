@@ -29,7 +29,7 @@ class ContactStep {
     void pairs();
     void contact();
     void push();
-    void room();
+    void limit();
     void move();
 
   private:
@@ -326,7 +326,7 @@ void ContactStep::push() {
     }
 }
 
-void ContactStep::room() {
+void ContactStep::limit() {
     std::vector<float>& shares = contact_.shares;
     if (push_.round == 0) shares.assign(contact_.before.size(), 0);
     std::vector<float> next(shares.size(), 1);
@@ -388,7 +388,8 @@ TwinContact::TwinContact(const SelfContact& contact)
       displacements(owners.size()),
       before(owners.size()) {}
 
-void Twin::self_gather(TwinCloth& state, const Step& step) {
+void Twin::self_gather(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
@@ -399,7 +400,8 @@ void Twin::self_gather(TwinCloth& state, const Step& step) {
     }
 }
 
-void Twin::self_return(const ClothModel& model, TwinCloth& state, const Step& step) {
+void Twin::self_return(const Place& where) {
+    const auto& [model, state, step, inputs, motions] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const std::size_t place = place_of(push, i);
@@ -414,29 +416,18 @@ void Twin::self_return(const ClothModel& model, TwinCloth& state, const Step& st
 }
 
 void Twin::run_contact(const Step& step) {
+    // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent and
+    // self_primitives.
+    static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
+        {StepKind::self_common, &ContactStep::common},       {StepKind::self_boxes, &ContactStep::boxes},
+        {StepKind::self_crossings, &ContactStep::crossings}, {StepKind::self_apart, &ContactStep::apart},
+        {StepKind::self_pairs, &ContactStep::pairs},         {StepKind::self_contact, &ContactStep::contact},
+        {StepKind::self_push, &ContactStep::push},           {StepKind::self_limit, &ContactStep::limit},
+        {StepKind::self_move, &ContactStep::move},
+    };
     ContactStep contact(*contact_, step.push<SelfContactPush>());
-    switch (step.kind) {
-        case StepKind::self_common:
-            return contact.common();
-        case StepKind::self_boxes:
-            return contact.boxes();
-        case StepKind::self_crossings:
-            return contact.crossings();
-        case StepKind::self_apart:
-            return contact.apart();
-        case StepKind::self_pairs:
-            return contact.pairs();
-        case StepKind::self_contact:
-            return contact.contact();
-        case StepKind::self_push:
-            return contact.push();
-        case StepKind::self_room:
-            return contact.room();
-        case StepKind::self_move:
-            return contact.move();
-        default:
-            return;  // it tries all pairs of cells: blocks, cells, near, bent, primitives
-    }
+    for (const auto& [kind, function] : rows)
+        if (kind == step.kind) (contact.*function)();
 }
 
 }  // namespace drape

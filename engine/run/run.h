@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "drape/error.h"
+#include "drape/kernels.h"
 #include "drape/scene_reader.h"
-#include "drape/schedule.h"
 #include "drape/simulation.h"
 #include "drape/view.h"
 #include "output/output_folder.h"
@@ -35,7 +35,7 @@ struct SceneRequest {
     std::string device;     ///< selector; empty: the best there is
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
-    Schedule schedule = Schedule::automatic;
+    Kernels kernels = Kernels::automatic();
 };
 
 struct RunRequest {

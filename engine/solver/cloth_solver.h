@@ -1,4 +1,4 @@
-// Strings the simulation passes of every cloth together by the schedule of the scene's method.
+// The steps of every frame of a scene as passes of a graph, and the state that they work on.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_judgement.h"
-#include "drape/schedule.h"
 #include "solver/attempt_pass.h"
+#include "solver/kernel_choice.h"
 #include "solver/pass_kit.h"
 
 namespace drape {
@@ -27,10 +27,11 @@ bool draws_outgrown(const CutImages& before, const CutTopology& topology);
 class ClothSolver {
   public:
     /// Makes no pipeline yet: `add_*` makes what the graph needs.
-    /// Throws VulkanError when the device has not what the schedule needs.
-    ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule = Schedule::automatic);
-    /// In use.
-    Schedule schedule() const { return schedule_; }
+    /// Throws VulkanError when the device has not what a kernel that is asked for needs.
+    ClothSolver(const vulkan::Device& device, const SimulationModel& model,
+                const Kernels& kernels = Kernels::automatic());
+    /// Those that its steps may use.
+    const Kernels& kernels() const { return kernels_; }
 
     /// What cuts made of each cloth; what changes them acts from the next `declare` or `upload_cut` on.
     std::vector<CutTopology>& topologies() { return topologies_; }
@@ -97,7 +98,7 @@ class ClothSolver {
         return context(cloth, needs, model_);
     }
     FieldContext context(std::size_t cloth, const FrameNeeds& needs, const SimulationModel& run) const {
-        return {run, run.cloths[cloth], topologies_[cloth], needs, self_room_};
+        return {run, run.cloths[cloth], topologies_[cloth], needs};
     }
     /// Cloths that are simulated together: fields that are images lie below each other in one image each, and are known
     /// here. A cloth's own handles to them are slices, and old until `take` renews them.
@@ -126,13 +127,15 @@ class ClothSolver {
     glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
                                              std::size_t cloth) const;
     std::vector<Step> steps() const;
-    void add_step(graph::Graph& graph, ClothState& state, const Step& step);
-    /// One of contact between the cloths.
-    void add_contact_step(graph::Graph& graph, ClothState& state, const Step& planned);
+    /// `state` is null where contact is of all cloths at once.
+    void add_step(graph::Graph& graph, ClothState* state, const Step& step);
+    void declare_contact(graph::Graph& graph);
+    ContactContext contact_context() const { return {*run_->self_contact, contact_.capacity}; }
 
     const SimulationModel& model_;
     const SimulationModel* run_;  ///< of the graph being built
-    Schedule schedule_;
+    Kernels kernels_;
+    std::vector<KernelVerdict> verdicts_;
     std::vector<CutTopology> topologies_;
     Pipelines pipelines_;
     /// Per cloth; the same in the graph of every kind of frame.
@@ -142,7 +145,7 @@ class ClothSolver {
     std::vector<std::size_t> together_of_;  ///< by cloth: index into `together_`, its size: none
     SceneInputs inputs_;
     std::uint64_t most_list_bytes_;
-    SelfRoom self_room_;  ///< of contact's lists, where there is any
+    ContactHandles contact_;
 };
 
 }  // namespace drape

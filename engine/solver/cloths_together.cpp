@@ -10,6 +10,7 @@
 
 #include "cloth/together.h"
 #include "solver/cloth_solver.h"
+#include "solver/kernel_choice.h"
 
 namespace drape {
 
@@ -46,7 +47,7 @@ void ClothSolver::find_together(const vulkan::Device& device) {
         const Grid& grid = model_.cloths[alike.front()].grid;
         // Halves, until they fit.
         std::size_t count = alike.size();
-        while (count > 1 && !buffered_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
+        while (count > 1 && !buffer_store_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
             count = (count + 1) / 2;
         for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
             const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
@@ -70,7 +71,7 @@ void ClothSolver::take(std::size_t cloth) {
     state.away = together.state.away;
     for (const FieldRow& row : cloth_fields()) {
         const graph::Handle whole = together.state[row.field];
-        if (row.lies_together() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
+        if (lies_together(row) && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
     }
 }
 
@@ -80,7 +81,7 @@ void ClothSolver::give(std::size_t cloth) {
     const ClothState& state = cloths_[cloth];
     if (state.away != whole.away) throw std::logic_error("a cloth left those that it is together with");
     for (const FieldRow& row : cloth_fields())
-        if (row.lies_together() && state[row.field].valid())
+        if (lies_together(row) && state[row.field].valid())
             whole[row.field] = {state[row.field].resource, state[row.field].version};
 }
 

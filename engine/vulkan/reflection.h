@@ -73,8 +73,11 @@ std::string push_constant_difference(const std::optional<ReflectedStruct>& shade
 /// The committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
+/// What the committed module of that name says of itself; read once. Throws as `reflect` and `spirv_module` do.
+const ReflectedModule& module_interface(const std::string& name);
+
 /// Name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true}, {"tension", false}}
 /// -> "line_masked.comp". In the order of the shader's pragma.
-std::string variant_name(std::string_view shader, std::initializer_list<std::pair<std::string_view, bool>> variants);
+std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants);
 
 }  // namespace drape::vulkan

@@ -1,5 +1,5 @@
 // Lines of particles as passes read them: what line.comp and line_cyclic.comp do with one differs, not where it lies.
-// Needs the images `position`, `displacement_in`, `tension_in`, `control`, MASKED: `spring_share_image`, the push
+// Needs the images `position`, `displacement_in`, `tension_in`, `line_control`, MASKED: `spring_shares`, the push
 // constants (LinePush) and `first_iteration`: both systems; later iterations repeat the second alone.
 /// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
 /// them anew, lane by lane, in each of its rounds. For the same reason only stores in the loops below branch.
@@ -19,7 +19,7 @@ struct LineParticle {
 };
 
 Line read_line(int index) {
-    bool second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     float share = border_share(line_start(index, push.step), push.step, push.grid);
     float compliance = second_order ? push.compliance_bdf2 : push.compliance;
     float followed = second_order ? push.followed_bdf2 : push.followed;
@@ -30,7 +30,7 @@ Line read_line(int index) {
 
 float share_of(Line line, ivec2 first) {
 #ifdef MASKED
-    float share = LOAD(spring_share_image, first)[line.channel];
+    float share = LOAD(spring_shares, first)[line.channel];
 #else
     float share = line.share;
 #endif

@@ -1,4 +1,4 @@
-// Nested sweeps (docs/solvers.md, "Nested sweeps at lone pins"): the second system of include/line.h alone, along the
+// nested boxes (docs/solvers.md, "nested boxes at lone pins"): the second system of include/line.h alone, along the
 // lines of a box of particles around a held one, again and again.
 #ifndef DRAPE_NESTED_H
 #define DRAPE_NESTED_H

@@ -13,7 +13,7 @@
 
 /// Shares of a pair's distance that stay on each side of its plane, of a free particle and of a held one, which goes
 /// where it is told.
-const float self_room_kept = 0.25f, self_held_kept = 0.025f;
+const float self_gap_kept = 0.25f, self_held_kept = 0.025f;
 /// A correction is at most this share of the thickness: what the list of pairs reckons with.
 const float self_correction_share = 0.24f, self_listed_share = 0.5f;
 /// More than this many nodes visited, about the loops that the default device allows, would be broken off unseen.
@@ -392,7 +392,7 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
                         float least) {
     float doubt = self_largest(least, gap.doubt);
     precise float nearly = doubt * 0.25f;
-    precise float kept = gap.apart * (held ? self_held_kept : self_room_kept);
+    precise float kept = gap.apart * (held ? self_held_kept : self_gap_kept);
     precise float room = (middle - end) * side - kept;
     float allowed = gap.apart > doubt ? self_largest(room, 0.0f) : 0.0f;
     precise float left = 1.0f - share;

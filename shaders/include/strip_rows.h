@@ -1,7 +1,7 @@
-// What sweeps down the rows of a strip of columns share (sweep.comp, twist_sweep.comp): a subgroup has a strip, an
-// invocation `columns` of them, an even number, and a ghost beside those, the first one of the invocation on the right.
-// Neighbouring strips overlap by `strip_halo` columns at either end, which are other strips' to store. Needs the images
-// `position` and `displacement_in`, `displacement_out` and `push.grid`.
+// What sweeps down the rows of a strip of columns share (spring_stream.comp, twist_stream.comp): a subgroup has a
+// strip, an invocation `columns` of them, an even number, and a ghost beside those, the first one of the invocation on
+// the right. Neighbouring strips overlap by `strip_halo` columns at either end, which are other strips' to store. Needs
+// the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
 #include "include/row_bands.h"
 const int ghost = columns;
 

@@ -1,4 +1,4 @@
-// Nested sweeps around lone pins: structs that shaders and C++ share.
+// nested boxes around lone pins: structs that shaders and C++ share.
 #ifndef DRAPE_NESTED_TYPES_H
 #define DRAPE_NESTED_TYPES_H
 
@@ -16,7 +16,7 @@ const int nested_group_width = 32;
 struct NestedPush {
     ivec2 grid;  // columns, rows
     int block_count;
-    int first_pin;     // in the table (NestedSweeps::table), of this dispatch
+    int first_pin;     // in the table (NestedBoxes::table), of this dispatch
     vec4 rest_length;  // m; 0: no springs
     vec4 compliance;
     vec4 compliance_bdf2;

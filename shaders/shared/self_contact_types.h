@@ -38,7 +38,7 @@ const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_siz
           self_size_blocks = self_size_levels + self_most_levels, self_size_cells = self_size_blocks + 1,
           self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + self_iterations,
-          self_size_room = self_size_push + self_iterations, self_size_count = self_size_room + self_rounds;
+          self_size_limit = self_size_push + self_iterations, self_size_count = self_size_limit + self_rounds;
 /// The first of those that begin anew with every substep, not with a search.
 const int self_size_of_substep = self_size_search;
 
@@ -74,20 +74,20 @@ const uint self_meets_not = 0u, self_meets = 1u, self_meets_apart = 2u;
 /// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other,
 /// so that what holds for a grid holds for it, and a column and a row name a particle of the scene.
 struct SelfContactPush {
-    ivec2 grid;       // columns, rows of the sheet
-    float thickness;  // m: the largest that a cloth keeps
-    float recovery;   // m that a substep gives back of a thickness that is all but kept
-    float least;      // m: distances that rounding leaves in doubt
-    float margin;     // m: by how much more than it needs to, and than it foresees, the search for cells looks
-    int pair_room;    // pairs that their list can hold
-    int near_room;    // likewise of pairs of primitives whose boxes are near each other
-    int cell_room;    // likewise of pairs of cells, and of candidates
-    int level;        // boxes: the first that this pass makes
-    int last;         // boxes: the last
-    int top;          // level of the root
-    int first;        // 1: the frame's first substep
-    int round;        // contact, push, room: which
-    int held;         // 1: some particles are always held, so that nothing is carried along with all
+    ivec2 grid;         // columns, rows of the sheet
+    float thickness;    // m: the largest that a cloth keeps
+    float recovery;     // m that a substep gives back of a thickness that is all but kept
+    float least;        // m: distances that rounding leaves in doubt
+    float margin;       // m: by how much more than it needs to, and than it foresees, the search for cells looks
+    int pair_capacity;  // pairs that their list can hold
+    int near_capacity;  // likewise of pairs of primitives whose boxes are near each other
+    int cell_capacity;  // likewise of pairs of cells, and of candidates
+    int level;          // boxes: the first that this pass makes
+    int last;           // boxes: the last
+    int top;            // level of the root
+    int first;          // 1: the frame's first substep
+    int round;          // contact, push, room: which
+    int held;           // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
     vec2 parting;       // m that cloths that started through each other should part by in a substep, and by which more
                         // than in the one before, at most

@@ -29,8 +29,8 @@ struct SpringPush {
     int unused;
 };
 
-/// All passes of an iteration at once (sweep.comp). Vectors over the spring directions.
-struct SweepPush {
+/// All passes of an iteration at once (spring_stream.comp). Vectors over the spring directions.
+struct AllSpringsPush {
     ivec2 grid;
     float compression;  // as SpringPush
     float unused;
@@ -78,8 +78,8 @@ struct TwistPush {
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (t h^2)
 };
 
-/// All colours at once (twist_sweep.comp).
-struct TwistSweepPush {
+/// All colours at once (twist_stream.comp).
+struct AllTwistPush {
     ivec2 grid;
     float compliance;  // as TwistPush
     float compliance_bdf2;

@@ -6,7 +6,7 @@
 
 #include "bench/measure.h"
 #include "bench/problem.h"
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "output/temporary_folder.h"
 #include "reference/closed_forms.h"
 

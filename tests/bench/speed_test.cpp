@@ -101,22 +101,22 @@ TEST(SpeedReport, SkipsSayWhatTheySave) {
     EXPECT_THAT(speed_json(report), HasSubstr("\"skipped\": \"a.json: pictures\""));
 }
 
-TEST(SpeedReport, SchedulesSayWhichIsTakenAndWhichIsTheFastest) {
-    SpeedCase about{.name = "schedule/line/64", .kind = SpeedKind::schedule};
+TEST(SpeedReport, KernelsSayWhichAreTakenAndWhichAreTheFastest) {
+    SpeedCase about{.name = "kernels/line/64", .kind = SpeedKind::kernels};
     const SpeedReport report =
-        report_of({{about, "images", {time_of("frame", 8), time_of("images", 8), time_of("buffers", 4)}}});
+        report_of({{about, "plain", {time_of("frame", 8), time_of("plain", 8), time_of("buffer_store", 4)}}});
     EXPECT_THAT(speed_text(report),
-                testing::ContainsRegex("schedule/line/64 +1.0000 +0.5000 +- +- +- +images +buffers +2.00"));
-    EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"images\""));
+                testing::ContainsRegex("kernels/line/64 +1.0000 +0.5000 +- +- +- +buffer_store +2.00 +plain"));
+    EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"plain\""));
 }
 
-TEST(SpeedCases, OfSchedulesAreThoseOfSheetsAndCloths) {
+TEST(SpeedCases, OfKernelsAreThoseOfSheetsAndCloths) {
     std::set<std::string> names;
-    for (const SpeedCase& each : schedule_cases(true)) {
-        EXPECT_EQ(each.kind, SpeedKind::schedule);
+    for (const SpeedCase& each : kernel_cases(true)) {
+        EXPECT_EQ(each.kind, SpeedKind::kernels);
         EXPECT_TRUE(names.insert(each.name).second) << each.name;
     }
-    for (const char* name : {"schedule/explicit/32", "schedule/relax/256", "schedule/line/32/64 cloths"})
+    for (const char* name : {"kernels/explicit/32", "kernels/relax/256", "kernels/line/32/64 cloths"})
         EXPECT_TRUE(names.contains(name)) << name;
 }
 

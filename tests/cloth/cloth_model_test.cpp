@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
+#include "cloth/frame_steps.h"
+#include "cloth/kernel_steps.h"
 #include "cloth/method_line.h"
-#include "cloth/nested_sweeps.h"
-#include "cloth/schedule.h"
-#include "cloth/streams.h"
+#include "cloth/nested_boxes.h"
 #include "support/method_steps.h"
 #include "support/sheets.h"
 
@@ -83,7 +83,7 @@ TEST(ClothModelTest, ALaterPinOverridesAnEarlierOne) {
     EXPECT_FALSE(model.has_motion);
 }
 
-TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
+TEST(FrameStepsTest, ExplicitFramesAreMicroSteps) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.solver.method = SolverMethod::explicit_steps;
     scene.wind.velocity = {1, 0, 0};
@@ -104,14 +104,15 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
 /// First substeps and counts of a scene's explicit steps with four in flight.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> in_flight(const SceneDescription& scene, std::size_t cloth = 0) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-    for (const Step& step : steps_in_flight(frame_steps(SimulationModel(scene)), [](std::size_t) {
+    for (const Step& step :
+         explicit_steps_together(frame_steps(SimulationModel(scene)), Kernel::explicit_stream, [](std::size_t) {
              return FlightSize{4, 4};
          }))
         if (step.kind == StepKind::explicit_step && step.cloth == cloth) found.emplace_back(step.substep, step.count);
     return found;
 }
 
-TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
+TEST(FrameStepsTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 11, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
@@ -125,7 +126,7 @@ TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
         EXPECT_THAT(in_flight(scene, cloth), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
 }
 
-TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
+TEST(FrameStepsTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 6, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1)));
@@ -142,14 +143,15 @@ TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
 /// Of a scene's sweeps: the iteration of each, and of its predictions: whether they turn.
 std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDescription& scene) {
     std::pair<std::vector<std::uint32_t>, std::vector<bool>> found;
-    for (const Step& step : steps_in_sweeps(SimulationModel(scene), frame_steps(SimulationModel(scene)))) {
-        if (step.kind == StepKind::sweep) found.first.push_back(step.iteration);
+    for (const Step& step :
+         springs_together(SimulationModel(scene), Kernel::spring_stream, frame_steps(SimulationModel(scene)))) {
+        if (step.kind == StepKind::all_springs) found.first.push_back(step.iteration);
         if (step.kind == StepKind::force) found.second.push_back(step.turns);
     }
     return found;
 }
 
-TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
+TEST(FrameStepsTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
     scene.cloths[0].stiffness = {false, 50, 5, 0};
     EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)));
@@ -165,38 +167,38 @@ TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true))) << "the device decides on others";
 }
 
-TEST(ScheduleTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
+TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
     scene.cloths[0].stiffness = {false, 50, 5, 1e-4};
     for (const auto& [method, turns] : {std::pair{SolverMethod::line, true}, std::pair{SolverMethod::relax, false}}) {
         scene.solver.method = method;
         const SimulationModel model(scene);
         ASSERT_EQ(count(frame_steps(model), StepKind::twist), 2 * 4);
-        const std::vector<Step> steps = streamed_steps(model);
+        const std::vector<Step> steps = kernel_steps(model, stream_kernels);
         EXPECT_EQ(count(steps, StepKind::twist), 0);
-        EXPECT_EQ(count(steps, StepKind::twist_sweep), 2);
+        EXPECT_EQ(count(steps, StepKind::all_twist), 2);
         const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].plan)[0];
         for (const Step& step : steps) {
             const bool predicts = step.kind == StepKind::force || step.kind == StepKind::predict;
             EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second sweep";
-            if (step.kind != StepKind::twist_sweep) continue;
-            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance, plain.compliance);
-            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance_bdf2, plain.compliance_bdf2);
+            if (step.kind != StepKind::all_twist) continue;
+            EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance, plain.compliance);
+            EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance_bdf2, plain.compliance_bdf2);
         }
     }
 }
 
-TEST(ScheduleTest, ASweepKnowsTheDirectionsThatThereAre) {
+TEST(FrameStepsTest, ASweepKnowsTheDirectionsThatThereAre) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 1, 1);
     scene.cloths[0].stiffness = {false, 50, 0, 0};
-    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
-    ASSERT_EQ(count(steps, StepKind::sweep), 1);
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), stream_kernels);
+    ASSERT_EQ(count(steps, StepKind::all_springs), 1);
     EXPECT_EQ(count(steps, StepKind::spring), 0);
-    const auto sweep = std::ranges::find(steps, StepKind::sweep, &Step::kind);
-    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::SweepPush>(), d), d < 2) << d;
+    const auto sweep = std::ranges::find(steps, StepKind::all_springs, &Step::kind);
+    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::AllSpringsPush>(), d), d < 2) << d;
 }
 
-TEST(ScheduleTest, LineFramesPredictInSecondOrderWithCollidersToo) {
+TEST(FrameStepsTest, LineFramesPredictInSecondOrderWithCollidersToo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 2);
     scene.solver.method = SolverMethod::line;
     const auto kinds = [&] {
@@ -265,14 +267,14 @@ TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
     EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, false, false}));
 }
 
-TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
+TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
     SceneDescription scene = test::sheet(65, 65, 1, 1, 4);
     scene.solver.method = SolverMethod::line;
     Cloth& cloth = scene.cloths[0];
     const auto nested = [&] { return test::pushes<glsl::NestedPush>(ClothModel(scene, 0).plan); };
     cloth.pins = {test::pin_top(cloth)};
     EXPECT_TRUE(nested().empty());
-    EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested sweeps"));
+    EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested boxes"));
     // Two corners whose boxes share no particle; between them one that shares some with the first, so it waits.
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(64, 0, 64, 0), test::pin_box(30, 0, 30, 0)};
     ASSERT_EQ(nested().size(), 2u);
@@ -295,7 +297,7 @@ TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
     EXPECT_TRUE(nested().empty());
 }
 
-TEST(ClothModelTest, NestedSweepsEndBeforeTheDeviceBreaksOff) {
+TEST(ClothModelTest, NestedBoxesEndBeforeTheDeviceBreaksOff) {
     // So large that no block around the pin in its middle is cut short by an edge.
     SceneDescription scene = test::sheet(270, 4200, 1, 1, 1);
     scene.solver.method = SolverMethod::line;
@@ -306,7 +308,7 @@ TEST(ClothModelTest, NestedSweepsEndBeforeTheDeviceBreaksOff) {
     EXPECT_LT(nested_rounds(model.plan, nested[0], {135, 2100}, glsl::nested_group_width), most_loop_rounds);
 }
 
-TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
+TEST(FrameStepsTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};
     scene.colliders.push_back({Sphere{}});
@@ -326,7 +328,7 @@ TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     EXPECT_EQ(count(frame_steps(once), StepKind::collide), 3);
 }
 
-TEST(ScheduleTest, AllClothsTakeASubstepBeforeTheNextBegins) {
+TEST(FrameStepsTest, AllClothsTakeASubstepBeforeTheNextBegins) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3);
     scene.cloths.push_back(scene.cloths[0]);
     scene.cloths[1].name = "other";

@@ -78,7 +78,7 @@ TEST(ClothState, AFieldIsThereOnlyWhereItIsNeeded) {
     std::vector<Field> needed;
     for (const FieldRow& row : cloth_fields())
         if (row.needed({model, model.cloths[0], topology})) needed.push_back(row.field);
-    // The spare is needed by one schedule only; by others the graph leaves it out.
+    // Some kernels alone need the spare; where none of them is used the graph leaves it out.
     EXPECT_EQ(needed, (std::vector{Field::position, Field::displacement, Field::position_remainder,
                                    Field::displacement_remainder, Field::displacement_spare}));
 }

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "reference/cut_twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "cloth/substep_control.h"
 #include "support/sheets.h"
 

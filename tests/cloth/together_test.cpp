@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cloth/schedule.h"
-#include "cloth/streams.h"
+#include "cloth/frame_steps.h"
+#include "cloth/kernel_steps.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -113,9 +113,10 @@ TEST(TogetherTest, ExplicitStepsInFlightOfSomeLeaveTheOthersAlone) {
     scene.cloths[1].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
     const Lists lists = cloths_alike(scene);
     ASSERT_EQ(lists.size(), 1u);
-    const std::vector<Step> steps = steps_in_flight(frame_steps(SimulationModel(scene)), [](std::size_t) {
-        return FlightSize{4, 4};
-    });
+    const std::vector<Step> steps =
+        explicit_steps_together(frame_steps(SimulationModel(scene)), Kernel::explicit_stream, [](std::size_t) {
+            return FlightSize{4, 4};
+        });
     const std::vector<Step> merged = steps_together(steps, lists);
     const auto substeps_of = [](std::size_t cloth, const std::vector<Step>& all) {
         std::vector<std::uint32_t> substeps;

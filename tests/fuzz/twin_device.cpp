@@ -74,9 +74,9 @@ bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceR
 }
 
 /// Every field of the state.
-void compare_states(const SimulationModel& model, Schedule schedule) {
+void compare_states(const SimulationModel& model, const Kernels& kernels) {
     Twin twin(model);
-    test::DeviceRun device(gpu().device, model, {}, schedule);
+    test::DeviceRun device(gpu().device, model, {}, kernels);
     for (std::uint32_t frame = 1; frame < model.scene.time.frame_count; ++frame) {
         twin.run_frame(frame);
         device.run_frame(frame);
@@ -88,12 +88,12 @@ void compare_states(const SimulationModel& model, Schedule schedule) {
 }
 
 /// Positions, with what the cutters cut.
-void compare_cut(const SceneDescription& scene, Schedule schedule) {
+void compare_cut(const SceneDescription& scene, const Kernels& kernels) {
     test::TwinWithCuts twin(scene);
     FrameLoopOptions options;
     options.draw = false;
     options.positions = true;
-    options.schedule = schedule;
+    options.kernels = kernels;
     FrameLoop loop(gpu().device, twin.model(), options);
     bool finite = true;
     const auto compare_frame = [&](const FinishedFrame& frame) {
@@ -139,12 +139,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const SceneResult result = read_scene_text(text, "small scene");
     if (!result.scene) return 0;
     const SimulationModel model(*result.scene);
-    const std::vector<Schedule> schedules = test::schedules(gpu().device, model);
-    const Schedule schedule = schedules[dice.below(static_cast<std::uint32_t>(schedules.size()))];
+    const std::vector<Kernels> sets = test::kernel_sets(gpu().device, model);
+    const Kernels& kernels = sets[dice.below(static_cast<std::uint32_t>(sets.size()))];
     if (result.scene->cutters.empty())
-        compare_states(model, schedule);
+        compare_states(model, kernels);
     else
-        compare_cut(*result.scene, schedule);
+        compare_cut(*result.scene, kernels);
     check_messages();
     return 0;
 }

@@ -43,11 +43,11 @@ struct Seen {
     std::uint64_t most_cells = 0;               // that the list had room for in the end
 };
 
-/// Elements of a resource of the first cloth, 0 of one that there is not.
-std::uint64_t count_of(const graph::Graph& graph, const SimulationModel& model, Field field) {
-    const FieldRow& row = row_of(field);
+/// The elements of one of contact's fields, 0 where there is none.
+std::uint64_t count_of(const graph::Graph& graph, ContactField field) {
+    const ContactRow& row = contact_fields()[static_cast<std::size_t>(field)];
     for (const graph::Resource& resource : graph.resources())
-        if (resource.name == resource_name(model.cloths[0], row)) return resource.byte_count() / row.element.size;
+        if (resource.name == resource_name(row)) return resource.byte_count() / row.element.size;
     return 0;
 }
 
@@ -73,7 +73,7 @@ Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) 
             for (const std::span<const float> cloth : frame.positions)
                 all.insert(all.end(), cloth.begin(), cloth.end());
         });
-    seen.most_cells = count_of(loop.graph(FrameKind::simulate), model, Field::self_cells);
+    seen.most_cells = count_of(loop.graph(FrameKind::simulate), ContactField::cells);
     return seen;
 }
 
@@ -165,7 +165,7 @@ SceneDescription pile(std::uint32_t substeps) {
 }
 
 void expect_growth(const SceneDescription& scene, const Seen& seen) {
-    EXPECT_GT(seen.most_cells, SimulationModel(scene).self_contact->room.cells);
+    EXPECT_GT(seen.most_cells, SimulationModel(scene).self_contact->capacity.cells);
 }
 
 /// Their lists are made longer and the frame is done again, which nobody but the device notices: the twin has no lists.

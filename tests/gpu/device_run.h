@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "graph/executor.h"
 #include "solver/cloth_solver.h"
 
@@ -24,7 +24,7 @@ std::vector<T> texels_of(std::span<const std::byte> bytes) {
 class DeviceRun {
   public:
     DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {},
-              Schedule schedule = Schedule::automatic, const FrameNeeds& needs = {.drawing = true});
+              const Kernels& kernels = Kernels::automatic(), const FrameNeeds& needs = {.drawing = true});
 
     /// Simulates from frame-1 to `frame` and waits.
     void run_frame(std::uint32_t frame);
@@ -52,8 +52,8 @@ class DeviceRun {
     vulkan::FrameSlots slots_;
 };
 
-/// Schedules that the device has for a model's cloths.
-std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationModel& model);
+/// The sets of kernels with the plain ones' bits that the device has for a model's cloths.
+std::vector<Kernels> kernel_sets(const vulkan::Device& device, const SimulationModel& model);
 
 /// Whether two lists of texels are the same bits; on failure `where` names the first difference.
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where);

@@ -451,9 +451,9 @@ TEST_F(Raster, ResolvedSamplesMakeTheSamePicture) {
 }
 
 TEST_F(Raster, SaysWhyThereIsNoShadow) {
-    std::vector<graph::Skipped> skipped;
+    std::vector<graph::Remark> skipped;
     const auto shadow_reason = [&]() -> std::string {
-        for (const graph::Skipped& entry : skipped)
+        for (const graph::Remark& entry : skipped)
             if (entry.what == "shadow") return entry.reason;
         return "drawn";
     };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 
 namespace drape::test {
 

@@ -484,7 +484,7 @@ TEST(StatisticsTest, NobodyAsksNothingRuns) {
     const FrameLoop loop(test::gpu().device, model, options);
     EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0].name)));
     const auto& skipped = loop.plan(FrameKind::simulate_and_output).skipped;
-    EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Skipped& s) { return s.what == "statistics"; }));
+    EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Remark& s) { return s.what == "statistics"; }));
     options.statistics = true;
     const FrameLoop asked(test::gpu().device, model, options);
     const auto statistics_passes = [&](FrameKind kind) {

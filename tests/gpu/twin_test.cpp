@@ -163,7 +163,7 @@ TEST(CanaryTest, AMissingBarrierBetweenSpringPassesIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("spring column odd") == std::string::npos;
         },
-        Schedule::buffers);
+        Kernels{Kernel::buffer_store});
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

@@ -94,7 +94,7 @@ constexpr const char* golden = R"json({
     "choice": "the laws expect it",
     "iterations": 8,
     "method": "line",
-    "schedule": "buffers",
+    "kernels": "buffer_store",
     "stretch_error_rms": 0.0075,
     "substeps": 20,
     "tethers": true,

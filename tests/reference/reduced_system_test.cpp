@@ -140,7 +140,7 @@ TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
     scene.cloths[0].placement.v = {0, 0, 1};
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(48, 0, 48, 0)};
     const SimulationModel model(scene);
-    Twin walked(model), reduced(model, Schedule::cyclic);
+    Twin walked(model), reduced(model, cyclic_kernels);
     double distance = 0;
     for (std::uint32_t frame = 1; frame <= 12; ++frame) {
         walked.run_frame(frame);

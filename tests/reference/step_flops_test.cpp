@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "support/sheets.h"
 
 namespace drape::counting {
