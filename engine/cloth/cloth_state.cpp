@@ -63,12 +63,13 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Through either view, as the schedule says.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-const std::vector<FieldRow>& rows() {
+/// The rows up to the cells.
+std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
     static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
-                      &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
-    static const std::vector<FieldRow> table{
+                      &integer = layout_of<glsl::uint>();
+    return {
         {Field::position, "position", stored, vector, state, always, particles,
          [](Context c) { return bytes_of_list(c.cloth.position); }},
         {Field::displacement, "displacement", stored, vector, state, always, particles,
@@ -98,6 +99,16 @@ const std::vector<FieldRow>& rows() {
          [](Context c) { return bytes_of_list(c.topology.spring_shares()); }},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
+    };
+}
+
+/// The rows from the tensions on.
+std::vector<FieldRow> other_rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    static const auto &scalar = layout_of<float>(), &integer = layout_of<glsl::uint>(),
+                      &sizes = layout_of<glsl::uvec4>();
+    return {
         {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
         {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},
@@ -126,12 +137,18 @@ const std::vector<FieldRow>& rows() {
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
          [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
     };
-    return table;
 }
 
 }  // namespace
 
-std::span<const FieldRow> cloth_fields() { return rows(); }
+std::span<const FieldRow> cloth_fields() {
+    static const std::vector<FieldRow> table = [] {
+        std::vector<FieldRow> all = motion_rows();
+        for (const FieldRow& row : other_rows()) all.push_back(row);
+        return all;
+    }();
+    return table;
+}
 
 std::optional<Field> field_called(std::string_view variable) {
     static const auto fields = fields_by_variable(cloth_fields());

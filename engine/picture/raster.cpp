@@ -361,7 +361,7 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
         if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
         if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
-        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_share_image", cloth.spring_shares});
+        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_shares", cloth.spring_shares});
         context.bind(pipeline, bound);
         if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
         if (!scale_) context.push(pipeline, cloth_push(cloth));

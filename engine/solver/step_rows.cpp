@@ -44,7 +44,8 @@ bool stores_stretch_tension(Place p) {
     return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
            p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
 }
-const std::vector<VariantRow> stored{{"buffered", buffered}}, cut{{"masked", masked}, {"buffered", buffered}};
+const std::vector<VariantRow> stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
+    cut{{"masked", masked}, {"buffered", buffered}};
 
 std::string spring_label(Place p) {
     const auto& push = p.step.push<glsl::SpringPush>();
@@ -128,11 +129,9 @@ std::string box_edges_alias(Place p, std::string_view name, bool written) {
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
 }
 
-/// The rows by StepKind, but for contact's.
-std::vector<StepRow> cloth_step_rows() {
+/// The rows of what predicts, bends and holds pins.
+std::vector<StepRow> motion_rows() {
     using enum Kernel;
-    const std::vector<VariantRow> masked_only{{"masked", masked}},
-        springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}};
     return {
         {StepKind::release,
          "pin release",
@@ -179,6 +178,15 @@ std::vector<StepRow> cloth_step_rows() {
          {{twist_stream, "twist_stream.comp", {{"masked", masked}, {"second_order", second_order}}, over_twist_stream}},
          nullptr,
          turns_displacement},
+    };
+}
+
+/// The rows of springs.
+std::vector<StepRow> spring_rows() {
+    using enum Kernel;
+    const std::vector<VariantRow> springs{
+        {"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}};
+    return {
         {StepKind::spring,
          spring_label,
          {{Kernel::plain,
@@ -209,6 +217,12 @@ std::vector<StepRow> cloth_step_rows() {
            {{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
            over_nested_pins},
           {nested_cyclic, "nested_cyclic.comp", {{"masked", masked}, {"sheared", shears}}, over_nested_pins}}},
+    };
+}
+
+/// The rows of what ends an iteration or a substep.
+std::vector<StepRow> ending_rows() {
+    return {
         {StepKind::tether, "tethers", {{Kernel::plain, "tether.comp", stored, over_strips}}, grid_push},
         {StepKind::box_edges,
          box_edges_label,
@@ -244,8 +258,9 @@ std::vector<StepRow> cloth_step_rows() {
 }
 
 std::vector<StepRow> all_rows() {
-    std::vector<StepRow> rows = cloth_step_rows();
-    for (StepRow& row : contact_step_rows()) rows.push_back(std::move(row));
+    std::vector<StepRow> rows;
+    for (const auto& some : {motion_rows(), spring_rows(), ending_rows(), contact_step_rows()})
+        rows.insert(rows.end(), some.begin(), some.end());
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].kind != static_cast<StepKind>(k)) throw std::logic_error("rows of steps are not by StepKind");
     return rows;

@@ -52,7 +52,7 @@ struct BufferView : ::testing::Test {
                 to = setup.write(to, Access::compute_write, "target");
             },
             [&pipeline, from, shared, written = to.resource](PassContext& context) {
-                if (!pipeline.push_constants()) return context.dispatch(pipeline, image_width, image_height);
+                if (!pipeline.push_constants()) return context.dispatch(pipeline, {}, image_width, image_height);
                 // The handle that the pass declared: a write makes the next version.
                 const Handle view = shared.resource == written ? Handle{shared.resource, shared.version + 1} : shared;
                 const RowsPush push{{image_width, image_height}, static_cast<std::int32_t>(context.row_pitch(view))};

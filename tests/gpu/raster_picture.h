@@ -101,7 +101,7 @@ struct Shot {
     std::uint32_t samples = 1;
     double time = 0;
     RasterOptions options{.shadow = false};
-    std::vector<graph::Skipped>* skipped = nullptr;
+    std::vector<graph::Remark>* skipped = nullptr;
     const vulkan::Device* device = &test::gpu().device;
 };
 
