@@ -116,11 +116,11 @@ TEST(SceneFormat, DocumentHasEveryKeyAndItsDefault) {
         ASSERT_NE(begin, std::string::npos) << object->name;
         const std::string section = document.substr(begin, document.find("\n## ", begin + 1) - begin);
         for (const KeyText& key : object->keys) {
-            const std::size_t row = section.find(fmt::format("\n| `{}` | ", key.name));
+            const std::size_t row = section.find(fmt::format("\n- `{}`: ", key.name));
             ASSERT_NE(row, std::string::npos) << key.name;
-            const std::string line = section.substr(row + 1, section.find('\n', row + 1) - row - 1);
-            const std::string value = key.default_value.empty() ? "" : "| `" + key.default_value + "` |";
-            EXPECT_NE(line.find(value), std::string::npos) << line;
+            const std::string item = section.substr(row + 1, section.find("\n- ", row + 1) - row - 1);
+            EXPECT_NE(item.find(key.default_value.empty() ? "" : "`" + key.default_value + "`"), std::string::npos)
+                << item;
         }
     }
 }

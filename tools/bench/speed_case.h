@@ -40,7 +40,7 @@ std::vector<SpeedCase> kernel_cases(bool is_short);
 /// Sheets of 1 m held by an edge, swinging from level; spheres above them, which they do not touch.
 SceneDescription scene_of(const SpeedCase& speed_case);
 
-/// An exact or adaptive skip (README, --no-skip): a shipped scene with and without it.
+/// An exact or adaptive skip (--no-skip): a shipped scene with and without it.
 struct SkipCase {
     std::string name, scene;  ///< "skip/pictures"; "flag.json"
     std::string saved;        ///< what is skipped
