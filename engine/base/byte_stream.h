@@ -1,5 +1,5 @@
-// Values one after another as bytes, little-endian, and back: what checkpoints keep of objects. A function that hands
-// its members to an archive, `archive(a, b, ...)`, serves for both ways.
+// Writes values one after another as little-endian bytes and reads them back, as checkpoints keep objects. A function
+// that hands its members to an archive, `archive(a, b, ...)`, serves both ways.
 #pragma once
 
 #include <bit>
@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
-/// std::vector, std::deque, std::string
+/// std::vector, std::deque and std::string are sequences.
 template <class T>
 concept Sequence = requires(T sequence) {
     sequence.push_back(sequence.front());
@@ -59,7 +59,7 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-/// Throws Error where there are fewer bytes than asked for.
+/// Throws Error where fewer bytes are left than asked for.
 class ByteReader {
   public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

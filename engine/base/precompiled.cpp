@@ -1,1 +1,1 @@
-// Nothing: the library that this file makes carries the precompiled headers of all rooms.
+// This file is empty: the library that it makes carries the precompiled headers of all rooms.

@@ -9,20 +9,20 @@ namespace drape {
 
 namespace {
 
-/// What one sweep over the three colours adds to the compliance of a smoothly bent cloth: an element is relaxed before
-/// its neighbours, whose corrections take 6, 3 and 0 lambda of its own away again; 3 on average. Measured on the
-/// cantilever: 2.2 at 16 elements, 2.7 at 32.
+/// One sweep over the three colours adds this to the compliance of a smoothly bent cloth: an element is relaxed before
+/// its neighbours, whose corrections take 6, 3 and 0 lambda of its own away again; 3 on average. The cantilever
+/// measured 2.2 at 16 elements, 2.7 at 32.
 constexpr double bend_sweep_compliance = 3;
-/// Likewise of one sweep over the four colours of a smoothly twisted cloth: later neighbours take 4, 0, 4 and 0 lambda
-/// away; 2 on average, half of a cell's own inverse mass as the 3 is half of an element's. Measured
-/// on a saddle: 2.2 at m/(t h^2) = 30, 2.4 at 10.
+/// One sweep over the four colours adds this for a smoothly twisted cloth: later neighbours take 4, 0, 4 and 0 lambda
+/// away; 2 on average, half of a cell's own inverse mass as the 3 is half of an element's. A saddle measured 2.2 at
+/// m/(t h^2) = 30, 2.4 at 10.
 constexpr double twist_sweep_compliance = 2;
 
 double wanted_compliance(double constant, const ClothGeometry& cloth, const MethodSettings& settings) {
     return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
 }
 
-/// The compliance of an element that is softened to `share` of its constant, less what the sweep adds.
+/// Returns the compliance of an element that is softened to `share` of its constant, less what the sweep adds.
 float sweep_compliance(double wanted, double share, double sweep) {
     return static_cast<float>(std::max(wanted / share - sweep, 1e-20));
 }
@@ -49,7 +49,7 @@ void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, 
     double share = std::min(1.0, twist / twist_sweep_compliance);
     for (const double constant : cloth.stiffness_constant.bend)
         if (constant > 0) share = std::min(share, wanted_compliance(constant, cloth, settings) / bend_sweep_compliance);
-    // All elements are softened alike, so that the cloth stays as stiff in every direction.
+    // All elements are softened alike, so that the cloth stays equally stiff in every direction.
     for (const BendPass& pass : bend_passes(cloth.grid.size())) {
         const auto axis = static_cast<std::size_t>(pass.axis);
         const double constant = cloth.stiffness_constant.bend[axis];

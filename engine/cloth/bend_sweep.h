@@ -1,21 +1,21 @@
-// Bending relaxed in one sweep per substep: for every method that iterates over springs or lines.
+// Methods that iterate over springs or lines relax bending in one sweep per substep.
 #pragma once
 
 #include "cloth/method.h"
 
 namespace drape {
 
-/// Adds the elements of both axes, then the cells' twist, to the steps taken once: relaxation. What a sweep cannot
+/// Adds the elements of both axes, then the cells' twist, to the steps taken once, for relaxation. What a sweep cannot
 /// follow is softened, and said.
 void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan);
 
-/// What a step multiplies the compliance m/(t h^2) of a backward Euler step by.
+/// A step multiplies the compliance m/(t h^2) of a backward Euler step by these.
 struct StepFactors {
-    double bdf2;   ///< a BDF2 step
-    double least;  ///< that of the steps whose stiffness counts as followed
+    double bdf2;   ///< for a BDF2 step
+    double least;  ///< for those steps whose stiffness counts as followed
 };
 
-/// Adds the cells' twist alone: the lines bend by themselves.
+/// Adds the cells' twist alone, because the lines bend by themselves.
 void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
                      MethodPlan& plan);
 

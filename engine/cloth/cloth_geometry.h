@@ -1,5 +1,5 @@
-// One cloth of a scene as numbers that no solver method and no cut changes: its grid, masses, wanted stiffness, the
-// flat state that it starts in, its pins and tethers. Pure.
+// No solver method and no cut changes these numbers of a cloth: its grid, masses, wanted stiffness, the flat state that
+// it starts in, its pins and tethers.
 #pragma once
 
 #include <array>
@@ -29,14 +29,14 @@ struct DynamicPin {
 };
 
 struct ClothGeometry {
-    /// `keeps_masks`: masks of a whole cloth are images too.
+    /// `keeps_masks` makes the masks of a whole cloth images too.
     ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks);
 
     std::string name;
     Grid grid;
     bool starts_masked;  ///< holes: spring shares and cells are images from the start
     Placement placement;
-    double start_strain;                    ///< largest magnitude, of a spring along a row or column
+    double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column
     double spacing[2];                      ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
     double damping;                         ///< 1/s
@@ -44,9 +44,9 @@ struct ClothGeometry {
     bool rigid;                             ///< stretch and shear springs are inextensible
     float compression;                      ///< share of their stiffness where they are pushed together
     double bend;                            ///< N m
-    StiffnessConstants stiffness_constant;  ///< what the scene asks for
+    StiffnessConstants stiffness_constant;  ///< wanted by the scene
 
-    // One per particle, row by row.
+    // These have one element per particle, row by row.
     std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
     std::vector<float> free_weight;    ///< w without pins
     std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
@@ -57,7 +57,7 @@ struct ClothGeometry {
     bool shows_crumbs;  ///< small pieces that are cut off are drawn
     std::vector<SkippedWork> skipped;
 
-    /// The flat cloth's diagonal, m.
+    /// Returns the flat cloth's diagonal, m.
     float reach() const;
 
   private:

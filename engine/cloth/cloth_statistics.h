@@ -1,5 +1,5 @@
 // The device (solver/statistics_pass.h) and the twin (reference/statistics.h) reduce a cloth's state to a record; here
-// its numbers get their units. Pure.
+// its numbers get their units.
 #pragma once
 
 #include "cloth/simulation_model.h"
@@ -8,13 +8,13 @@
 
 namespace drape {
 
-/// What a state of this cloth is reduced with; colliders are those of the frame's last substep.
+/// Returns what a state of this cloth is reduced with; colliders are those of the frame's last substep.
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth);
 
-/// xyz: positions are summed relative to this point, m; w: thickness, m.
+/// Returns in xyz the point that positions are summed relative to, m, in w the thickness, m.
 glsl::vec4 statistics_reference(const ClothModel& cloth);
 
-/// Mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
+/// Returns the mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
 std::vector<float> mass_shares(const ClothModel& cloth);
 
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,

@@ -10,7 +10,7 @@ namespace drape {
 
 namespace {
 
-/// Which corners of a cell hang together: a union-find of four.
+/// A union-find of four tells which corners of a cell hang together.
 class Corners {
   public:
     void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
@@ -48,7 +48,7 @@ float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) con
 float CutTopology::edge_cut(std::uint32_t from, std::uint32_t to) const {
     // Mesh edges are row, column and down-left springs, owned by the particle of lower index.
     const std::uint32_t owner = std::min(from, to), step = std::max(from, to) - owner;
-    const bool in_row = step == 1 && owner % columns_ + 1 < columns_;  // of two columns down-left is one on, too
+    const bool in_row = step == 1 && owner % columns_ + 1 < columns_;  // in two columns down-left is one on, too
     const std::size_t direction = in_row ? 0 : step == columns_ ? 1 : 3;
     const float fraction = component(cuts_[owner], direction);
     return fraction < 0 ? -1 : owner == from ? fraction : 1 - fraction;
@@ -147,7 +147,7 @@ void CutTopology::rebuild_drawing() {
     for (const Triangle& cut : split) add_parts(cut);
     crumb_count_ = 0;
     left_out_area_ = 0;
-    if (!split.empty()) find_crumbs();  // what is cut off has split triangles around it
+    if (!split.empty()) find_crumbs();  // a piece that is cut off has split triangles around it
 }
 
 void CutTopology::add_parts(const Triangle& cut) {
@@ -221,7 +221,7 @@ std::uint32_t CutTopology::add_vertex(std::uint32_t anchor, std::array<double, 2
         vertex.weights.y = static_cast<float>(rest_v / (below ? cloth_->spacing[1] : -cloth_->spacing[1]));
         rest_v = 0;
     }
-    // What no own neighbour spans keeps its direction of the rest pose (the piece may be a single particle).
+    // Directions that no own neighbour spans stay those of the rest pose (the piece may be a single particle).
     const auto component = [&](std::size_t k) {
         return static_cast<float>(rest_u * cloth_->placement.u[k] + rest_v * cloth_->placement.v[k]);
     };
@@ -292,7 +292,7 @@ void CutTopology::find_crumbs() {
     std::vector<double> areas(piece.size());
     for (std::size_t k = 0; k < indices_.size(); k += 3) areas[piece_of(k)] += rest_area_of(k);
     const double largest = *std::ranges::max_element(areas);
-    // A hair less: four triangles cut along their edges are no crumb, however their sum was rounded.
+    // The bound is a hair less: four triangles cut along their edges are no crumb, however their sum was rounded.
     const double least = (1 - 1e-9) * crumb_triangles * cloth_->spacing[0] * cloth_->spacing[1] / 2;
     std::vector<bool> crumb = beside_cuts(piece);
     for (std::size_t k = 0; k < piece.size(); ++k) crumb[k] = crumb[k] && areas[k] < std::min(least, largest);

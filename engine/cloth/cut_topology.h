@@ -1,5 +1,5 @@
-// What cuts change of a cloth, and nothing else changes: which springs, triangles and tethers there are, and how the
-// cut triangles are drawn. Pure; the device finds the crossings, this keeps both sides consistent.
+// Cuts change these things of a cloth, and nothing else: which springs, triangles and tethers there are, and how the
+// cut triangles are drawn. The device finds the crossings, this keeps both sides consistent.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// What the cut pass found at the end of a frame.
+/// The cut pass found this at the end of a frame.
 struct CutFindings {
     std::vector<std::uint32_t> triangle_flags;  ///< 2 per cell, row by row: upper, lower; 1 = intersects a cutter
     std::vector<glsl::vec4> fractions;          ///< per particle: fraction along each owned spring, -1 = not crossed
@@ -21,16 +21,16 @@ struct CutFindings {
 struct CutCounts {
     std::uint32_t springs = 0;    ///< cut now
     std::uint32_t triangles = 0;  ///< split now: gone from the whole ones
-    std::uint32_t crumbs = 0;     ///< there are now
+    std::uint32_t crumbs = 0;     ///< now there are so many
     bool any() const { return springs > 0; }
 };
 
-/// A piece that was cut off and is smaller than so many triangles of the grid is a crumb; a cloth's largest is none.
+/// A piece that was cut off and has less than so many triangles of the grid is a crumb; a cloth's largest is none.
 constexpr double crumb_triangles = 4;
 
 class CutTopology {
   public:
-    /// Uncut. `cloth` must outlive it.
+    /// Makes the topology of uncut cloth. `cloth` must outlive it.
     explicit CutTopology(const ClothGeometry& cloth);
 
     /// Cuts the springs that were crossed (their shares become 0), and the cell's other diagonal where its corners no
@@ -42,33 +42,33 @@ class CutTopology {
     bool cut_spring(std::size_t particle, std::size_t direction, float fraction);
 
     const ClothGeometry& cloth() const { return *cloth_; }
-    /// Whether spring shares and cells need images.
+    /// Returns whether spring shares and cells need images.
     bool masked() const { return !spring_shares_.empty(); }
-    /// Share of the stiffness per direction, by first particle; empty unless masked.
+    /// Returns the share of the stiffness per direction, by first particle; empty unless masked.
     const std::vector<glsl::vec4>& spring_shares() const { return spring_shares_; }
-    /// The cells that are there now.
+    /// Returns the cells that are there now.
     const Grid& grid() const { return grid_; }
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }
 
-    /// Three indices per triangle: each triangle of the uncut grid at its own place (its first index three times
-    /// once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`. What
-    /// crumbs have is left out, likewise, unless the scene shows them.
+    /// Returns three indices per triangle: each triangle of the uncut grid at its own place (its first index three
+    /// times once it is split), then the parts of split triangles. Indices from particle_count on are `vertices()`.
+    /// Triangles of crumbs are left out too, unless the scene shows them.
     const std::vector<std::uint32_t>& indices() const { return indices_; }
     const std::vector<glsl::CutVertex>& vertices() const { return vertices_; }
-    /// Drawn whole triangles alone, as exported: particle indices.
+    /// Returns the drawn whole triangles alone, as exported: particle indices.
     std::vector<std::uint32_t> whole_triangles() const;
-    /// Area at rest, m^2, of whole triangles and parts, crumbs and all; cutting does not change it.
+    /// Returns the area at rest, m^2, of whole triangles and parts, crumbs and all; cutting does not change it.
     double rest_area() const;
     std::uint32_t crumb_count() const { return crumb_count_; }
-    /// For each particle the number of one particle of its piece, the same for all that springs hold together.
+    /// Returns for each particle the number of one particle of its piece, the same for all that springs hold together.
     std::vector<std::size_t> pieces() const;
-    /// Fraction along an owned spring where it was cut; -1 when it was not.
+    /// Returns the fraction along an owned spring where it was cut; -1 when it was not.
     float cut_fraction(std::size_t particle, std::size_t direction) const;
 
   private:
     struct Triangle {
         std::array<std::uint32_t, 3> corner;
-        std::array<float, 3> cut;  ///< of the edge from corner k to k+1: fraction from corner k, -1 = whole
+        std::array<float, 3> cut;  ///< fraction from corner k where the edge from corner k to k+1 is cut, -1 = whole
         int cut_count() const { return (cut[0] >= 0) + (cut[1] >= 0) + (cut[2] >= 0); }
     };
 
@@ -81,7 +81,7 @@ class CutTopology {
     void rebuild_drawing();
     double rest_area_of(std::size_t drawn) const;
     std::vector<bool> beside_cuts(const std::vector<std::size_t>& piece) const;
-    /// Counts them, and leaves them out of what is drawn where they are not to be seen.
+    /// Counts crumbs, and leaves them out of what is drawn where they are not to be seen.
     void find_crumbs();
     void add_parts(const Triangle& triangle);
     void add_isolated_corners(const Triangle& triangle);
@@ -99,15 +99,15 @@ class CutTopology {
     std::vector<glsl::CutVertex> vertices_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_vertices_;  ///< (anchor, other) -> vertex
     std::uint32_t crumb_count_ = 0;
-    double left_out_area_ = 0;             ///< of crumbs, at rest
-    std::size_t grid_triangle_count_ = 0;  ///< of `indices_` that have a place of their own
+    double left_out_area_ = 0;             ///< m^2 of crumbs, at rest
+    std::size_t grid_triangle_count_ = 0;  ///< triangles in `indices_` that have a place of their own
 };
 
-/// Cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), room for
+/// Returns cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), room for
 /// cutter_triangle_count per cutter, those that cut first; the others have a.w = 0. At frame 0 both times are 0.
 std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cutters, double frame_start,
                                                    double frame_end);
-/// Whether any cutter is active between the two times.
+/// Returns whether any cutter is active between the two times.
 bool cutters_active(const std::vector<Cutter>& cutters, double frame_start, double frame_end);
 
 }  // namespace drape

@@ -6,7 +6,7 @@ namespace drape {
 
 SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid) {
     const SpringDirection& row = spring_directions[static_cast<std::size_t>(direction)];
-    // Springs along each axis before the parity split.
+    // Along each axis there are so many springs before the parity split.
     const int columns = grid.x - std::abs(row.offset.x);
     const int rows = grid.y - std::abs(row.offset.y);
     const auto half = [parity](int count) { return (count - parity + 1) / 2; };

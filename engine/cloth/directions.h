@@ -1,6 +1,6 @@
-// The spring directions as a table, and the parity passes that relax them (docs/physics.md 2: constraints are
-// coloured, not particles); the same for bending elements and twisting cells. What else a new direction meets:
-// engine/README.md, "How to add".
+// This table has the spring directions, and parity passes relax them (docs/physics.md 2: constraints are coloured, not
+// particles); bending elements and twisting cells have the same. engine/README.md, "How to add", tells what else a new
+// direction meets.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SpringDirection {
     SpringFamily family;
 };
 
-/// Row index = channel of the spring shares.
+/// The row index is the channel of the spring shares.
 inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"row", {1, 0}, 0, SpringFamily::stretch},
     {"column", {0, 1}, 1, SpringFamily::stretch},
@@ -29,14 +29,14 @@ inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
 }};
 
-/// A number per row.
+/// There is a number per row.
 template <class T>
 using PerDirection = std::array<T, spring_directions.size()>;
 
 /// The first rows are the stretch springs.
 inline constexpr std::size_t stretch_direction_count = 2;
 
-/// One dispatch of the plain schedule: every second spring of one direction.
+/// One dispatch takes every second spring of one direction.
 struct SpringPass {
     int direction;           ///< row of spring_directions = channel
     int parity;              ///< 0 even, 1 odd
@@ -44,15 +44,15 @@ struct SpringPass {
     bool empty() const { return pair_count.x == 0 || pair_count.y == 0; }
 };
 
-/// Both parities of a direction on a grid of columns x rows particles.
+/// Returns one parity of a direction on a grid of columns x rows particles.
 SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
 
-/// The eight passes in the order of relaxation: rows, columns, diagonals; even before odd. Empty ones (an odd
-/// pass of a two-column grid) included.
+/// Returns the eight passes in the order of relaxation: rows, columns, diagonals; even before odd. Empty ones (an odd
+/// pass of a two-column grid) are included.
 std::vector<SpringPass> spring_passes(glsl::ivec2 grid);
 
-/// Axes along which three neighbouring particles form a bending element. Row index = channel of the spring shares
-/// whose springs the element lies on.
+/// Three neighbouring particles along such an axis form a bending element. The row index is the channel of the spring
+/// shares whose springs the element lies on.
 struct BendAxis {
     std::string_view name;
     glsl::ivec2 offset;  ///< from an element's middle to its third particle
@@ -60,7 +60,7 @@ struct BendAxis {
 inline constexpr std::array<BendAxis, 2> bend_axes{{{"row", {1, 0}}, {"column", {0, 1}}}};
 inline constexpr int bend_colour_count = 3;
 
-/// One dispatch of the plain schedule: every third bending element of one axis.
+/// One dispatch takes every third bending element of one axis.
 struct BendPass {
     int axis;                   ///< row of bend_axes
     int colour;                 ///< 0 .. 2
@@ -70,17 +70,17 @@ struct BendPass {
 
 BendPass bend_pass(int axis, int colour, glsl::ivec2 grid);
 
-/// The six passes in the order of relaxation, empty ones included.
+/// Returns the six passes in the order of relaxation, empty ones included.
 std::vector<BendPass> bend_passes(glsl::ivec2 grid);
 
-/// One dispatch of the plain schedule: the twist of every second cell along both axes.
+/// One dispatch takes the twist of every second cell along both axes.
 struct TwistPass {
     glsl::ivec2 first;          ///< its first cell: 0 or 1 along columns, rows
     glsl::ivec2 element_count;  ///< cells along columns, rows; either may be 0
     bool empty() const { return element_count.x == 0 || element_count.y == 0; }
 };
 
-/// The four passes in the order of relaxation, empty ones included.
+/// Returns the four passes in the order of relaxation, empty ones included.
 std::vector<TwistPass> twist_passes(glsl::ivec2 grid);
 
 }  // namespace drape

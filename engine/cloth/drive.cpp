@@ -15,12 +15,12 @@ namespace drape {
 
 namespace {
 
-/// Instants of a frame that are looked at.
+/// So many instants of a frame are looked at.
 constexpr int parts = 4;
-/// Over the drive of the last probe. Fewer substeps are taken where their errors stay below 0.6 of the limits.
+/// It is over that of the last probe. Fewer substeps are taken where their errors stay below 0.6 of the limits.
 constexpr double considerable = 1.7;
 
-/// m/s^2, of the points at `reach` along the axes from a centre that moves by `at`(time) -> (rotation, centre).
+/// Returns m/s^2 of the points at `reach` along the axes from a centre that moves by `at`(time) -> (rotation, centre).
 template <class Motion>
 double acceleration(const Motion& at, double reach, double time, double step) {
     const auto before = at(time - step), now = at(time), after = at(time + step);
@@ -63,7 +63,7 @@ double of_colliders(const SceneDescription& scene, const ClothModel& cloth, doub
 
 std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
-    const double step = 0.5 / (scene.time.fps * parts);  // so that differences stay within the frame
+    const double step = 0.5 / (scene.time.fps * parts);  // keeps differences within the frame
     std::vector<double> drive(model.cloths.size(), 0);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         for (int part = 0; part < parts; ++part) {

@@ -1,4 +1,4 @@
-// What drives cloths, as far as the scene tells ahead: where it rises, the motion is probed. Pure.
+// A scene tells ahead what drives its cloths: where that rises, the motion is probed.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace drape {
 
-/// Per cloth, the most of a frame, m/s^2: gravity, the wind's pull (hang.h), and what pins and colliders that move are
-/// accelerated by. A pin that has let go drives nothing.
+/// Returns per cloth the most of a frame, m/s^2: gravity, the wind's pull (hang.h), and what pins and colliders that
+/// move are accelerated by. A pin that has let go drives nothing.
 std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame);
 
 class Drive {
   public:
-    /// `model`: of a closed loop; must outlive this.
+    /// `model` is that of a closed loop, and must outlive this.
     explicit Drive(const SimulationModel& model) : model_(model) {}
 
-    /// Whether something happens in the frame that the last probe tells nothing of: a pin lets go, or a cloth is driven
-    /// by so much more than it was there that what was found easy need not be.
+    /// Returns whether something happens in the frame that the last probe tells nothing of: a pin lets go, or a cloth
+    /// is driven by so much more than it was there that what was found easy need not be.
     bool eventful(std::uint32_t frame) const;
-    /// So many frames from `frame` on are probed.
+    /// Notes that so many frames from `frame` on are probed.
     void probed(std::uint32_t frame, std::uint32_t count);
 
-    /// As SubstepControl's.
+    /// Does what SubstepControl's does.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(probed_);

@@ -65,7 +65,7 @@ bool any_moves(const std::vector<Collider>& colliders) {
     return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });
 }
 
-/// h times its rate of change just before a time, by the backward difference of second order.
+/// Returns h times its rate of change just before a time, by the backward difference of second order.
 RigidTransform pin_velocity(const DynamicPin& pin, double time, double h) {
     constexpr double step = 1.0 / 64;
     const RigidTransform now = pin_transform(pin, time), before = pin_transform(pin, time - step * h),

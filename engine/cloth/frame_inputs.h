@@ -1,5 +1,5 @@
-// What the host tells the device before each frame: wind, collider poses, pin motions, per substep. Computed in
-// double, rounded once. The C++ twin reads the same values. Pure.
+// The host tells the device this before each frame: wind, collider poses, pin motions, per substep. It is computed in
+// double and rounded once. The C++ twin reads the same values.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@
 
 namespace drape {
 
-/// Motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
+/// Returns the motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
 RigidTransform pin_transform(const DynamicPin& pin, double time);
 
-/// Collider records that a frame has room for: those of every list (SimulationModel::kept_colliders) once, or per
-/// substep when any is key-framed.
+/// Returns how many collider records a frame has room for: those of every list (SimulationModel::kept_colliders) once,
+/// or per substep when any is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);
-/// The first of a cloth's in a substep.
+/// Returns the first record of a cloth in a substep.
 int first_collider(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep);
-/// Colliders of each kind and those before it: where the kind ends in the sorted list.
+/// Returns how many colliders are of each kind or one before it: where the kind ends in the sorted list.
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
-/// What the device knows of a collider at the time `now`, and of its motion since `before`, s.
+/// Returns what the device knows of a collider at the time `now`, and of its motion since `before`, s.
 glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {});
 
 struct FrameInputs {
@@ -31,8 +31,8 @@ struct FrameInputs {
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 
-/// Inputs for simulating from frame-1 to `frame` (1 .. frame_count-1). Frame 0 is not simulated; its last substep
-/// ends at time 0, so its colliders are where they start.
+/// Returns inputs for simulating from frame-1 to `frame` (1 .. frame_count-1). Frame 0 is not simulated; its last
+/// substep ends at time 0, so its colliders are where they start.
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame);
 
 }  // namespace drape

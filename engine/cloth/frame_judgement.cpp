@@ -10,8 +10,8 @@ namespace drape {
 
 namespace {
 
-/// Error per second over the distance from the run with half the substeps per second of the probe: an error that falls
-/// with the square of the substep is a third of that distance, one that falls with the substep all of it.
+/// The error per second is this share of the distance from the run with half the probe's substeps per second: an error
+/// that falls with the square of the substep is a third of that distance, one that falls with the substep all of it.
 constexpr double estimate_share = 0.5;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The grid on the CPU: which cells and triangles exist, and the masses and spring stiffnesses that follow
+// The grid on the CPU knows which cells and triangles exist, and the masses and spring stiffnesses that follow
 // (docs/physics.md 1: each cell gives a quarter of its mass to each corner, half a spring to each side, and both its
-// diagonals). Pure.
+// diagonals).
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace drape {
 
-/// Bits of a cell: its upper triangle (i,j) (i+1,j) (i,j+1) and lower one (i+1,j) (i+1,j+1) (i,j+1).
+/// A cell has a bit for its upper triangle (i,j) (i+1,j) (i,j+1) and one for its lower (i+1,j) (i+1,j+1) (i,j+1).
 inline constexpr std::uint32_t upper_triangle = 1, lower_triangle = 2;
 
 class Grid {
   public:
-    /// `holes`: boxes of particle indices whose inner cells are missing.
+    /// `holes` are boxes of particle indices whose inner cells are missing.
     Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> holes = {});
 
     std::uint32_t columns() const { return columns_; }
@@ -26,22 +26,22 @@ class Grid {
     std::size_t particle_count() const { return std::size_t{columns_} * rows_; }
     std::uint32_t particle(std::uint32_t column, std::uint32_t row) const { return row * columns_ + column; }
 
-    /// Bits of cell (column, row); 0 outside the grid.
+    /// Returns the bits of cell (column, row); 0 outside the grid.
     std::uint32_t cell(int column, int row) const;
-    /// (columns-1) x (rows-1), row by row.
+    /// Returns (columns-1) x (rows-1) cells, row by row.
     const std::vector<std::uint32_t>& cells() const { return cells_; }
-    /// Cutting took a triangle: wind, normals and rest pieces do without it; masses and springs are not touched.
+    /// Removes a triangle that was cut: wind, normals and rest pieces do without it; masses and springs stay.
     void remove_triangle(std::size_t cell, std::uint32_t which);
-    /// Whether every cell is whole: then no mask is needed anywhere.
+    /// Returns whether every cell is whole: then no mask is needed anywhere.
     bool whole() const { return whole_; }
 
-    /// Inverse mass relative to an inner particle: 4 / (cells around it); 1 inside, 2 on a border, 4 at a
+    /// Returns the inverse mass relative to an inner particle: 4 / (cells around it); 1 inside, 2 on a border, 4 at a
     /// corner, 0 for a particle without any cell.
     float relative_inverse_mass(std::uint32_t column, std::uint32_t row) const;
-    /// Share of a spring's stiffness (0, 0.5 or 1) per direction of the table, owned by its first particle.
+    /// Returns the share of a spring's stiffness (0, 0.5 or 1) per direction of the table, owned by its first particle.
     glsl::vec4 spring_shares(std::uint32_t column, std::uint32_t row) const;
 
-    /// Three particle indices per existing triangle, cell by cell, upper before lower.
+    /// Returns three particle indices per existing triangle, cell by cell, upper before lower.
     std::vector<std::uint32_t> triangle_indices() const;
 
   private:

@@ -7,11 +7,11 @@ namespace drape {
 
 namespace {
 
-/// Share of the wind's pressure on a plate that stretches a cloth: it turns with the wind. Measured on the flag scene.
+/// This share of the wind's pressure on a plate, measured on the flag scene, stretches a cloth: it turns with the wind.
 constexpr double wind_share = 0.3;
 
-/// Largest straight distance of a particle from the nearest pin, m, on the flat cloth, sampled; half the size without
-/// pins.
+/// Returns the largest straight distance of a particle from the nearest pin, m, on the flat cloth, sampled; half the
+/// size without pins.
 double hanging_length(const Cloth& cloth) {
     const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
     if (cloth.pins.empty()) return 0.5 * std::max(cloth.size[0], cloth.size[1]);
@@ -34,7 +34,7 @@ double hanging_length(const Cloth& cloth) {
     return longest;
 }
 
-/// The axis (0: rows, 1: columns) along which links lead away from a whole edge that is held for good; -1: none is.
+/// Returns the axis (0: rows, 1: columns) along which links lead away from a whole edge held for good; -1: none is.
 int axis_from_held_edge(const Cloth& cloth) {
     for (const Pin& pin : cloth.pins) {
         const IndexBox& box = pin.particles;
@@ -45,7 +45,7 @@ int axis_from_held_edge(const Cloth& cloth) {
     return -1;
 }
 
-/// Whether every pin holds one particle, and no two are neighbours.
+/// Returns whether every pin holds one particle, and no two are neighbours.
 bool held_by_lone_pins(const Cloth& cloth) {
     const auto apart = [](const Pin& a, const Pin& b) {
         for (std::size_t k = 0; k < 2; ++k) {

@@ -1,27 +1,26 @@
-// How a cloth hangs: what the laws of the methods' stretch errors depend on. Pure.
 #pragma once
 
 #include "drape/scene.h"
 
 namespace drape {
 
-/// How a cloth hangs: what its stretch error depends on.
+/// The laws of the methods' stretch errors depend on how a cloth hangs.
 struct Hang {
     double length;        ///< m below the pins
     double spacing;       ///< m, of the finer links
-    double gravity;       ///< m/s^2
+    double gravity;       ///< m, the finer links'
     double acceleration;  ///< m/s^2, gravity and the wind's share
     bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
-    double edge_spacing;  ///< m, of the links that lead away from that edge
+    double edge_spacing;  ///< m, that of the links that lead away from that edge
     bool by_lone_pins;    ///< particles held alone carry it, and nothing stands in its way
     bool calm;            ///< besides, no wind blows
     std::size_t particle_count;
     double longest_line;  ///< particles
 };
 
-/// m/s^2, of wind at a speed (m/s), its pressure on a plate across it. 0 without wind.
+/// Returns m/s^2 of wind at a speed (m/s): its pressure on a plate across it. It is 0 without wind.
 double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
-/// The share of it that stretches a cloth.
+/// Returns the share of it that stretches a cloth.
 double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth);

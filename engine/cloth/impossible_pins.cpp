@@ -17,7 +17,7 @@ struct Held {
     Vec3 rest, now;  ///< m
 };
 
-/// Particles that pins hold at a time.
+/// Returns the particles that pins hold at a time.
 std::vector<Held> held_particles(const ClothModel& cloth, double time) {
     std::vector<bool> is_dynamic(cloth.position.size());
     std::vector<Held> held;
@@ -44,7 +44,7 @@ std::vector<Held> held_particles(const ClothModel& cloth, double time) {
 double square(double value) { return value * value; }
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-// Whether a point, in the shape's own frame about its centre, is inside.
+// These tell whether a point, in the shape's own frame about its centre, is inside.
 bool inside(const Plane& plane, const Vec3& p) { return dot(p, plane.normal) < 0; }
 bool inside(const Sphere& sphere, const Vec3& p) { return dot(p, p) < square(sphere.radius); }
 bool inside(const Box& box, const Vec3& p) {

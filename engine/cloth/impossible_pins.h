@@ -1,4 +1,4 @@
-// What no substep can follow: cloth that is held where colliders or its own rigid springs cannot let it be. Pure.
+// No substep can follow cloth that is held where colliders or its own rigid springs cannot let it be.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace drape {
 
-/// One sentence about the end of a frame: a particle held inside a collider, which pushes its neighbours out, or two
-/// held particles of rigid cloth farther apart than they are at rest by more than the worst spring may be stretched.
-/// Empty: nothing of the kind is known. Deep is a particle's centre inside the shape; of a tapered capsule, inside its
-/// thin core.
+/// Returns one sentence about the end of a frame: a particle held inside a collider, which pushes its neighbours out,
+/// or two held particles of rigid cloth farther apart than they are at rest by more than the worst spring may be
+/// stretched. Empty: nothing of the kind is known. A particle is inside when its centre is in the shape, or in a
+/// tapered capsule's thin core.
 std::string impossible_pins(const SimulationModel& model, std::uint32_t frame);
 
 }  // namespace drape

@@ -1,16 +1,16 @@
-// One explicit micro-step per substep: each particle gathers what its springs and bending elements do.
+// Takes one explicit micro-step per substep: each particle gathers what its springs and bending elements do.
 #pragma once
 
 #include "cloth/method.h"
 
 namespace drape {
 
-/// What the micro-step uses of a cloth's stiffness, k h^2/m of an inner particle: dimensionless.
+/// The micro-step uses this of a cloth's stiffness, k h^2/m of an inner particle: dimensionless.
 struct RelativeStiffness {
     PerDirection<double> spring{};
     std::array<double, 2> bend{};
     double twist = 0;
-    /// Used / wanted: 1 = nothing softened. Along columns, along rows, diagonals, bending.
+    /// Shares are used / wanted, 1 = nothing softened: along columns, along rows, diagonals, bending.
     double columns_share = 1, rows_share = 1, shear_share = 1, bend_share = 1;
     double full_substeps_factor = 1;  ///< times as many substeps would soften nothing
     bool softened() const { return full_substeps_factor > 1; }
@@ -26,7 +26,7 @@ RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const dou
 
 MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& settings);
 
-/// Clamped springs: strain g L/c_s^2 at the top, 1/sqrt 6 of it RMS over rows and columns, c_s^2 = K l^2/h^2 with
+/// Clamped springs have strain g L/c_s^2 at the top, 1/sqrt 6 of it RMS over rows and columns, c_s^2 = K l^2/h^2 with
 /// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (docs/solvers.md, "Explicit micro-step").
 double explicit_substeps(const Hang& hang, double frame, double tolerance);
 

@@ -1,4 +1,4 @@
-// Relaxation of springs, direction by direction and parity by parity: the slides' algorithm outline.
+// Relaxes springs direction by direction and parity by parity, as the 2004 slides outline the algorithm.
 #pragma once
 
 #include "cloth/method.h"
@@ -7,8 +7,8 @@ namespace drape {
 
 MethodPlan plan_relax(const ClothGeometry& cloth, const MethodSettings& settings);
 
-/// RMS over rows and columns of the relaxation's law: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l) (docs/physics.md
-/// 2).
+/// Returns substeps by the relaxation's law, RMS over rows and columns: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l)
+/// (docs/physics.md 2).
 double relax_substeps(const Hang& hang, double frame, double tolerance);
 
 }  // namespace drape

@@ -15,7 +15,7 @@ namespace drape {
 
 namespace {
 
-// From 2.61 micro-steps per link on nothing is softened at wave speed 100 m/s and 60 frames/s.
+// With 2.61 micro-steps per link or more nothing is softened at wave speed 100 m/s and 60 frames/s.
 constexpr double explicit_sweep[] = {0.5, 0.707, 1, 1.414, 2, 2.61, 3.2}, explicit_quick[] = {0.5, 1, 2.61};
 constexpr double line_sweep[] = {4, 8, 12, 16, 20, 30, 40, 80, 160}, line_quick[] = {4, 8, 20};
 constexpr double relax_sweep[] = {1, 2, 5, 10, 20, 40, 80, 160, 320}, relax_quick[] = {5, 20, 80};
@@ -56,8 +56,8 @@ constexpr Method rows[] = {
      {false, relax_sweep, relax_quick}},
 };
 
-/// Displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md 3):
-/// d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
+/// Returns the displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md
+/// 3): d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
 double start_displacement(double velocity, double acceleration, double damping, double h) {
     const double ch = damping * h;
     if (ch < 1e-5) return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
@@ -102,7 +102,7 @@ std::vector<std::byte> bytes_of(const MethodPlan& plan) {
         carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
         following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
-    static_cast<void>(skipped), static_cast<void>(compromises);  // words
+    static_cast<void>(skipped), static_cast<void>(compromises);  // these are words
     return list.bytes;
 }
 

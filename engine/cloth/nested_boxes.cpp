@@ -16,7 +16,7 @@ namespace {
 
 using glsl::ivec2;
 
-/// Sweeps over the box of particles within `radius` columns and rows of a pin.
+/// A block is swept over: the box of particles within `radius` columns and rows of a pin.
 struct NestedBlock {
     ivec2 radius;
     int sweeps;
@@ -25,13 +25,13 @@ struct NestedBlock {
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// Rows on either side of a pin, so that all blocks together stay below most_loop_rounds.
+/// A strip has at most so many rows on either side of a pin, so that all blocks together stay below most_loop_rounds.
 constexpr int longest_strip = 1024;
 
-/// Up to the largest box and back, with the smallest again and again, and once the strip around the pin's column, which
-/// carries far more than the columns beside it, all the way down. Boxes around inner particles have one line less than
-/// a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes along at a time.
-/// None where more substeps are cheaper. How the lists were found: docs/solvers.md.
+/// Returns boxes up to the largest and back, with the smallest again and again, and once the strip around the pin's
+/// column, which carries far more than the columns beside it, all the way down. Boxes around inner particles have one
+/// line less than a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes
+/// along at a time. There are none where more substeps are cheaper. docs/solvers.md tells how the lists were found.
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
     const auto box = [](int radius, int sweeps) { return NestedBlock{{radius, radius}, sweeps}; };
     const NestedBlock strip{{7, std::min(grid.size().y, longest_strip)}, 1};
@@ -46,7 +46,7 @@ std::vector<NestedBlock> nested_blocks(const Grid& grid) {
             box(127, 1), box(7, 8), box(63, 1), box(7, 8), box(31, 2), box(7, 8), box(15, 4), box(7, 8)};
 }
 
-/// Held particles of the cloth without a held neighbour: column, row.
+/// Returns the held particles of the cloth without a held neighbour: column, row.
 std::vector<ivec2> lone_pins(const ClothGeometry& cloth) {
     const ivec2 size = cloth.grid.size();
     const auto held = [&](int column, int row) {
@@ -76,7 +76,7 @@ double visits(const Grid& grid, ivec2 pin, const std::vector<NestedBlock>& block
     return sum;
 }
 
-/// Whether no block of one pin shares a particle with one of another.
+/// Returns whether no block of one pin shares a particle with one of another.
 bool apart(ivec2 pin, ivec2 other, const std::vector<NestedBlock>& blocks) {
     const ivec2 distance{std::abs(pin.x - other.x), std::abs(pin.y - other.y)};
     return std::ranges::all_of(blocks, [&](const NestedBlock& a) {
@@ -86,7 +86,7 @@ bool apart(ivec2 pin, ivec2 other, const std::vector<NestedBlock>& blocks) {
     });
 }
 
-/// Pins in rounds, within which all are apart.
+/// Returns the pins in rounds, within which all are apart.
 std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const std::vector<NestedBlock>& blocks) {
     std::vector<std::vector<ivec2>> rounds;
     for (const ivec2 pin : pins) {
@@ -101,7 +101,7 @@ std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const 
     return rounds;
 }
 
-/// The lines' constants by direction.
+/// Returns the lines' constants by direction.
 glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodPlan& plan) {
     glsl::NestedPush push{};
     push.grid = cloth.grid.size();

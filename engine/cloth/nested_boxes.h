@@ -1,4 +1,4 @@
-// nested boxes of the line method around particles that are held alone (docs/solvers.md).
+// Steps of the line method that solve boxes around particles that are held alone (docs/solvers.md).
 #pragma once
 
 #include "cloth/method.h"
@@ -9,7 +9,7 @@ namespace drape {
 /// the plan; or says why not. Sets its `nested_table`.
 void add_nested_boxes(const ClothGeometry& cloth, MethodPlan& plan);
 
-/// Rounds of loops of an invocation of a workgroup of `width`, which goes along the lines of the blocks around a pin.
+/// Returns the rounds of loops of an invocation of a workgroup of `width`, which follows the lines of a pin's blocks.
 std::uint64_t nested_rounds(const MethodPlan& plan, const glsl::NestedPush& push, glsl::ivec2 pin, int width);
 
 }  // namespace drape

@@ -10,9 +10,9 @@ namespace drape {
 
 namespace {
 
-/// Speed at which cloth counts as still, over motion_limit.
+/// Cloth counts as still below this speed, over motion_limit.
 constexpr double still_share = 0.01;
-constexpr double rounding = 4 * 0x1p-24;  ///< of coordinates, relative
+constexpr double rounding = 4 * 0x1p-24;  ///< relative to coordinates
 
 bool constant(const MotionPath& path, double from, double to) {
     return !path.moves() || to <= path.keys.front().time || from >= path.keys.back().time;
@@ -40,7 +40,7 @@ std::size_t Sleep::remembered() const {
 void Sleep::saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps) {
     double worst = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        // What rounding the displacements of a substep alone may look like.
+        // Rounding the displacements of a substep may look like this speed.
         const double noise = rounding * cloths[cloth].largest_distance * substeps * model_.scene.time.fps;
         const double speed = std::max(cloths[cloth].largest_speed - noise, 0.0);
         worst = std::max(worst, speed / (still_share * motion_limit(model_, cloth)));

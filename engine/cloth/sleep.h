@@ -1,4 +1,4 @@
-// When a closed loop need not simulate: everything lies or hangs still, and nothing that acts on it changes. Pure.
+// A closed loop need not simulate while everything lies or hangs still and nothing that acts on it changes.
 #pragma once
 
 #include <cstdint>
@@ -10,37 +10,37 @@
 
 namespace drape {
 
-/// Whether nothing that the host knows of changes in a frame: no gust, no collider or pin that is moved, no release, no
-/// cutter.
+/// Returns whether nothing that the host knows of changes in a frame: no gust, no collider or pin that is moved, no
+/// release, no cutter.
 bool quiet(const SimulationModel& model, std::uint32_t frame);
 
 class Sleep {
   public:
-    /// `model`: of a closed loop; must outlive this.
+    /// `model` is that of a closed loop, and must outlive this.
     explicit Sleep(const SimulationModel& model) : model_(model) {}
 
-    /// The next frame that was simulated, with so many substeps.
+    /// Sees the next frame that was simulated, with so many substeps.
     void saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps);
 
-    /// Whether the frame is the one before it: for a second no particle was faster than a hundredth of what the motion
-    /// may err per second, nor faster at its end than at its beginning (what is about to topple), rounding apart, and
-    /// the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
+    /// Returns whether the frame is the one before it: for a second no particle was faster than a hundredth of what the
+    /// motion may err per second, nor faster at its end than at its beginning (what is about to topple), rounding
+    /// apart, and the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
     bool asleep(std::uint32_t frame);
 
-    /// As SubstepControl's.
+    /// Does what SubstepControl's does.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(speeds_);
         return speeds_.size() <= remembered();
     }
-    /// Whether it has seen a frame since it last woke.
+    /// Returns whether it has seen a frame since it last woke.
     bool remembers() const { return !speeds_.empty(); }
 
   private:
-    std::size_t remembered() const;  ///< most frames
+    std::size_t remembered() const;  ///< most frames that it remembers
 
     const SimulationModel& model_;
-    std::deque<double> speeds_;  ///< the worst cloth's over its limit, of the last second's frames
+    std::deque<double> speeds_;  ///< the worst cloth's over its limit, for the last second's frames
 };
 
 }  // namespace drape

@@ -14,12 +14,12 @@ namespace drape {
 
 namespace {
 
-/// What a substep does to one cloth.
+/// A substep does this to one cloth.
 struct SubstepWork {
     double dispatches, particle_ns;
 };
 
-/// The method's, and what wind and contact add to a substep of any. Nanoseconds on lavapipe, one core.
+/// Returns the method's work, and what wind and contact add to any. Nanoseconds are those of lavapipe on one core.
 SubstepWork substep_work(const Method& method, const SceneDescription& scene, const Cloth& cloth) {
     constexpr double wind_ns = 64, collider_ns = 27, box_edges_ns = 48;
     SubstepWork work{method.dispatches, method.particle_ns};
@@ -30,9 +30,9 @@ SubstepWork substep_work(const Method& method, const SceneDescription& scene, co
     return work;
 }
 
-/// Milliseconds of one substep of a cloth on a GPU solved along its lines: by cyclic reduction where a workgroup holds
-/// them, else walked. Estimates, no measurement: 0.2 us a round of a reduction, 0.3 us a particle of a walk, two
-/// systems in each of four directions, 3 us a direction of a box of nested boxes.
+/// Returns the milliseconds of one substep of a cloth on a GPU solved along its lines: by cyclic reduction where a
+/// workgroup holds them, else walked. These are estimates, no measurement: 0.2 us a round of a reduction, 0.3 us a
+/// particle of a walk, two systems in each of four directions, 3 us a direction of a box of nested boxes.
 double lines_ms(const Hang& hang) {
     constexpr double systems = 4 * 2, round_ms = 2e-4, walk_ms = 3e-4, nested_ms = 4e-3;
     const bool reduced = hang.longest_line <= glsl::cyclic_most_particles;
@@ -40,8 +40,8 @@ double lines_ms(const Hang& hang) {
     return solves + (hang.by_lone_pins ? hang.longest_line * nested_ms : 0);
 }
 
-/// Milliseconds of one substep of one cloth. CPU: per dispatch and per particle, measured on lavapipe with 2 cores.
-/// GPU: dispatches wait for each other; estimates, no measurement.
+/// Returns the milliseconds of one substep of one cloth. On a CPU they go by dispatch and by particle, measured on
+/// lavapipe with 2 cores. On a GPU dispatches wait for each other: estimates, no measurement.
 double substep_ms(const Hang& hang, DeviceKind device, const SubstepWork& work, bool in_lines) {
     const auto count = static_cast<double>(hang.particle_count);
     if (device == DeviceKind::cpu) return work.dispatches * 0.07 + count * work.particle_ns * 1e-6;
@@ -49,19 +49,19 @@ double substep_ms(const Hang& hang, DeviceKind device, const SubstepWork& work, 
     return work.dispatches * (dispatch_ms + count * pass_particle_ms) + (in_lines ? lines_ms(hang) : 0);
 }
 
-/// Longest substep of a closed loop, over the time sqrt(size / gravity) of a sheet that swings down. Measured: a sheet
-/// of 1 m let go level along one edge is 3.5 mm off after 0.5 s, 13.5 mm with three times that. The motion's error is
+/// No substep of a closed loop is longer, over the time sqrt(size / gravity) of a sheet that swings down. A sheet of 1
+/// m let go level along one edge measured 3.5 mm off after 0.5 s, 13.5 mm with three times that. The motion's error is
 /// estimated from what a tenth of a second adds to it, and here most of it is what earlier errors grew to.
 constexpr double longest_substep = 0.0088;
 
-/// What bounds the substep of a cloth that gravity swings, seconds.
+/// Returns the longest substep of a cloth that gravity swings, s.
 double swing_substep(const SceneDescription& scene, const Cloth& cloth) {
     const double gravity = std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]);
-    return longest_substep * std::sqrt(std::max(cloth.size[0], cloth.size[1]) / gravity);  // without gravity endless
+    return longest_substep * std::sqrt(std::max(cloth.size[0], cloth.size[1]) / gravity);  // infinite without gravity
 }
 
-/// Substeps that follow what the method must follow of the cloth, at least `substeps`. Compliances fall with the square
-/// of the substeps, so one look tells.
+/// Returns the substeps that follow what the method must follow of the cloth, at least `substeps`. Compliances fall
+/// with the square of the substeps, so one look tells.
 std::uint32_t following_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
                                  std::uint32_t substeps) {
     Cloth small = cloth;  // it does not depend on how large the cloth is

@@ -1,5 +1,5 @@
-// What `auto` stands for: the method and the settings that reach a tolerance with the least work, from the laws of each
-// method's stretch error and what its passes cost. Pure.
+// Chooses what `auto` stands for: the method and the settings that reach a tolerance with the least work, from the laws
+// of each method's stretch error and what its passes cost.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace drape {
 
-/// The stretch error that `auto` aims at where the scene states none.
+/// `auto` aims at this stretch error where the scene states none.
 inline constexpr double default_tolerance = 0.01;
-/// The largest stretch error of a single spring.
+/// A single spring may have this stretch error.
 inline constexpr double default_tolerance_worst = 0.1;
-/// The error of the motion per second, over the cloth's longer side.
+/// The motion may err by this per second, over the cloth's longer side.
 inline constexpr double default_motion_share = 0.02;
 
-/// What passes cost. On a CPU every store counts; on a GPU small dispatches cost what the next one waits.
+/// On a CPU every store of a pass counts; on a GPU small dispatches cost what the next one waits.
 enum class DeviceKind { cpu, gpu };
 
 /// One method with the fewest substeps that its law allows.
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
-    std::uint32_t least_substeps;  ///< that follow bending (MethodPlan::following_substeps)
-    double predicted_ms;           ///< per frame, all cloths; for comparing, not for planning
-    bool reaches;                  ///< whether the law promises the tolerance within the limits of the settings
+    std::uint32_t least_substeps;  ///< so many follow bending (MethodPlan::following_substeps)
+    double predicted_ms;           ///< per frame, all cloths; fit to compare, not to plan by
+    bool reaches;                  ///< the law promises the tolerance within the limits of the settings
 };
 
 struct SolverChoice {
@@ -35,10 +35,10 @@ struct SolverChoice {
     std::uint32_t least_substeps;             ///< a closed loop has no fewer
 };
 
-/// The settings that a scene of method `auto` runs with; of any other method, its own.
+/// Returns the settings that a scene of method `auto` runs with; of any other method, its own.
 ///
-/// The laws, for a cloth that hangs L metres and n links of length l below its pins (half its size without pins) under
-/// acceleration g (wind included), with substep h; F = 1.7 for a calm cloth that hangs by an edge, else 5:
+/// The laws hold for a cloth that hangs L metres and n links of length l below its pins (half its size without pins)
+/// under acceleration g (wind included), with substep h; F = 1.7 for a calm cloth that hangs by an edge, else 5:
 ///   relax     error = F 0.59 n g h^2/(2 l)
 ///   explicit  error = F 0.41 g L/c_s^2, c_s the wave speed that the clamped micro-step follows
 ///   line      cheapest at h sqrt(g L)/l = 1.3 when held by an edge, 0.45 or less otherwise; iterations do the rest

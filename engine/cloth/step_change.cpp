@@ -8,13 +8,13 @@ namespace drape {
 namespace {
 
 /// In damped flight d = v h + w (e^(c h) - 1)/c, with v the terminal velocity and w what the velocity at the end has
-/// beside it, so its excess is e = -w (e^(c h) - 1)^2/(2 c). Of substeps W times as long, G = (e^(c W h) - 1)/(e^(c h)
-/// - 1): d' = W (d + e) - e (W + 2 (G - W)/(e^(c h) - 1)), e' = G^2 e, and that of the substep before
-/// e^(c W h) times as much. Without damping all three weights are W^2.
+/// beside it, so its excess is e = -w (e^(c h) - 1)^2/(2 c). Substeps W times as long have G = (e^(c W h) - 1)/(e^(c h)
+/// - 1): d' = W (d + e) - e (W + 2 (G - W)/(e^(c h) - 1)), e' = G^2 e, and that of the substep before is e^(c W h)
+/// times as much. Without damping all three weights are W^2.
 glsl::StepChange step_change(double damping, double substep, double ratio) {
     const double ch = damping * substep, growth = std::expm1(ch);
     const auto rounded = [](double value) { return static_cast<float>(value); };
-    // Beyond, what is left of a velocity would be scaled up without bound.
+    // Beyond that the rest of a velocity would be scaled up without bound.
     if (ch < 1e-6 || ch * std::max(ratio, 1.0) > 1)
         return {rounded(ratio), rounded(ratio * ratio), rounded(ratio * ratio), rounded(ratio * ratio)};
     const double G = std::expm1(ch * ratio) / growth;

@@ -1,4 +1,4 @@
-// What a cloth's state becomes when its substeps get another length (docs/solvers.md, "Steps that change"). Pure.
+// Changes a cloth's state when its substeps get another length (docs/solvers.md, "Steps that change").
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// By cloth, from `before` substeps per frame to `after`.
+/// Returns the changes by cloth, from `before` substeps per frame to `after`.
 std::vector<glsl::StepChange> step_changes(const SimulationModel& model, std::uint32_t before, std::uint32_t after);
 
 }  // namespace drape

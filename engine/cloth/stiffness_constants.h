@@ -1,4 +1,3 @@
-// The constants of a cloth's springs and bending elements (docs/physics.md 1). Pure.
 #pragma once
 
 #include <array>
@@ -9,10 +8,10 @@
 
 namespace drape {
 
-/// Stands for rigid springs where a finite stiffness is needed, N/m: far above what any substep resolves.
+/// Rigid springs have this where a finite stiffness is needed, N/m: far above what any substep resolves.
 inline constexpr double rigid_stiffness = 1e12;
 
-/// Of one cloth, in order of the direction table.
+/// The constants of one cloth's springs and bending elements, in order of the direction table (docs/physics.md 1).
 struct StiffnessConstants {
     PerDirection<double> spring{};       ///< N/m, away from borders
     PerDirection<double> rest_length{};  ///< m
@@ -20,7 +19,7 @@ struct StiffnessConstants {
     double twist = 0;                    ///< N/m: energy of a cell twist/2 |x00 - x10 - x01 + x11|^2
 };
 
-/// On cells of spacing[0] x spacing[1] metres.
+/// Returns those on cells of spacing[0] x spacing[1] metres.
 StiffnessConstants stiffness_constants(const Stiffness& stiffness, const double (&spacing)[2]);
 
 }  // namespace drape

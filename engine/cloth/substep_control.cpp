@@ -10,11 +10,11 @@ namespace {
 constexpr std::uint32_t rungs[] = {2,   4,   6,   8,   12,  16,  24,   32,   48,   64,   96,
                                    128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096};
 
-/// Frames between probes, over their length. A probe costs half as much as its frames: 1 in 1 + 12 is 4 %.
+/// Probes are at most so many times their length apart. A probe costs half as much as its frames: 1 in 1 + 12 is 4 %.
 constexpr std::uint32_t longest_interval = 12;
 /// Fewer substeps are tried where their errors are expected below this share of the limits.
 constexpr double comfort = 0.6;
-/// And without waiting where they are below this share of that.
+/// They are tried without waiting where the errors are below this share of that.
 constexpr double very_easy = 0.2;
 /// Where more substeps do not reduce the motion's error, fewer are used as long as they increase it by less than this.
 constexpr double unpredictable_slack = 6;
@@ -40,7 +40,7 @@ SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std
       lowest_(rung_of(least)),
       rung_(std::max(lowest_, rung_of(proposed))) {}
 
-/// The first rung of at least so many substeps, or the top.
+/// Returns the first rung of at least so many substeps, or the top.
 std::size_t SubstepControl::rung_of(double substeps) const {
     const auto place = std::ranges::find_if(rungs_, [&](std::uint32_t rung) { return rung >= substeps; });
     return std::min(static_cast<std::size_t>(place - rungs_.begin()), rungs_.size() - 1);
@@ -71,7 +71,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     }
     if (top_motion_ > 0) return look_back(judgement);
     if (turn_back(judgement)) return try_again_with(*only_motion_failed_);
-    // What more substeps do not buy, fewer may not cost.
+    // Fewer substeps may not cost what more do not buy.
     if (futile(judgement)) return accept_unpredictable(judgement, below(began_, 2));
     if (at_top()) {
         if (!worth_looking_back(judgement)) return Verdict::give_up;
@@ -82,7 +82,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     return Verdict::again;
 }
 
-/// At the top only the motion fails, and nothing with a quarter of its substeps was tried, to tell whether more help.
+/// Returns whether at the top only the motion fails, and a quarter of its substeps was not tried, to tell if more help.
 bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
     return !hopeless_ && segment_.probes && judgement.stretch <= 1 && std::isfinite(judgement.motion);
 }
@@ -93,8 +93,8 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
     return Verdict::again;
 }
 
-/// Whether more substeps made nonsense of what with fewer only moved too inexactly: what a long step leaves strained in
-/// rigid cloth becomes speed when the step shrinks a hundredfold.
+/// Returns whether more substeps made nonsense of what with fewer only moved too inexactly: the strain that a long step
+/// leaves in rigid cloth becomes speed when the step shrinks a hundredfold.
 bool SubstepControl::turn_back(const Judgement& judgement) {
     const bool only_motion = judgement.plausible && judgement.stretch <= 1 && std::isfinite(judgement.motion);
     if (only_motion) only_motion_failed_ = tried_;
@@ -102,7 +102,7 @@ bool SubstepControl::turn_back(const Judgement& judgement) {
     return turned_back_;
 }
 
-/// Of the attempt with a quarter of the top's substeps.
+/// Judges the attempt with a quarter of the top's substeps.
 SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
     const bool as_good = judgement.stretch <= 1 && judgement.motion < 2 * top_motion_;
     top_motion_ = 0;
@@ -119,19 +119,19 @@ SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& ju
     return Verdict::unpredictable;
 }
 
-/// Whether more substeps have hardly reduced the motion's error of the segment: by less than their square root.
+/// Returns whether more substeps have hardly reduced the segment's error of motion: by less than their square root.
 bool SubstepControl::hardly_fell(const Judgement& judgement) const {
     return judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
-/// Whether four times the substeps or more have not.
+/// Returns whether four times the substeps or more have hardly reduced it.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
     return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
 }
 
-/// From two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than the
-/// second order of free motion.
+/// Learns from two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than
+/// the second order of free motion.
 void SubstepControl::learn_order(const Judgement& judgement) {
     const Tried now{static_cast<double>(segment_.substeps), judgement.motion};
     const double seen = std::log(probed_.motion / now.motion) / std::log(now.substeps / probed_.substeps);
@@ -142,8 +142,8 @@ void SubstepControl::learn_order(const Judgement& judgement) {
     probed_ = now;
 }
 
-/// How many times the substeps a failed attempt asks for. The stretch error falls about with their square, the motion's
-/// as attempts have shown; where it hardly fell, the next one tells whether anything helps (futile).
+/// Returns how many times the substeps a failed attempt asks for. The stretch error falls about with their square, the
+/// motion's as attempts have shown; where it hardly fell, the next one tells whether anything helps (futile).
 double SubstepControl::wanted_factor(const Judgement& judgement) const {
     constexpr double margin = 1.1, most = 4;
     const double motion = judgement.motion / slack_;
@@ -183,8 +183,8 @@ void SubstepControl::succeed(const Judgement& judgement) {
     consider_fewer(judgement);
 }
 
-/// What a probe says of a rung below, over the limits: the motion's error grows with the order that it showed, the
-/// stretch error as it did towards half the substeps.
+/// Returns what a probe says of a rung below, over the limits: the motion's error grows with the order that it showed,
+/// the stretch error as it did towards half the substeps.
 double SubstepControl::expected(const Judgement& judgement, std::size_t rung) const {
     const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
@@ -192,7 +192,7 @@ double SubstepControl::expected(const Judgement& judgement, std::size_t rung) co
     return std::max(judgement.motion / slack_ * std::pow(longer, order_), stretch);
 }
 
-/// Down after a few easy probes, at once where it is very easy: as far as is easy, to a quarter at most.
+/// Goes down after a few easy probes, at once where it is very easy: as far as is easy, to a quarter at most.
 void SubstepControl::consider_fewer(const Judgement& judgement) {
     if (rung_ == lowest_) return;
     const double next = expected(judgement, rung_ - 1);

@@ -1,5 +1,5 @@
-// The closed loop of method `auto`: how many substeps each frame gets, from how its attempts were judged. Laws only
-// propose where it begins. The device's loop and the C++ twin's ask the same object, so they decide the same. Pure.
+// The closed loop of method `auto` decides how many substeps each frame gets, from how its attempts were judged. Laws
+// only propose where it begins. The device's loop and the C++ twin's ask the same object, so they decide the same.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace drape {
 
-/// Substeps per frame to choose from, ascending, even, up to the method's most.
+/// Returns the substeps per frame to choose from, ascending, even, up to the method's most.
 std::span<const std::uint32_t> substep_rungs(const Method& method);
-/// The first of at least so many substeps, or the last.
+/// Returns the first of at least so many substeps, or the last.
 std::uint32_t first_rung(const Method& method, double substeps);
 
-/// An attempt as judged: errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not finite
-/// counts as infinite.
+/// An attempt is judged by its errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not
+/// finite counts as infinite.
 struct Judgement {
     double stretch = 0;         ///< RMS, worst spring or what the watch looks at, whichever is worse
-    double motion = 0;          ///< of a probe
-    double coarse_stretch = 0;  ///< of its run with half the substeps
-    bool plausible = true;      ///< to the watch (cloth/watch.h)
+    double motion = 0;          ///< a probe's
+    double coarse_stretch = 0;  ///< that of its run with half the substeps
+    bool plausible = true;      ///< the watch finds it plausible (cloth/watch.h)
 };
 
-/// Frames that are judged, kept or done again together: a single one, or the few of a probe, which are run with half
-/// the substeps too and compared at their end.
+/// Frames of a segment are judged, kept or done again together: a single one, or the few of a probe, which are run with
+/// half the substeps too and compared at their end.
 struct Segment {
     std::uint32_t substeps;
     std::uint32_t frame_count;
@@ -37,24 +37,24 @@ struct Segment {
 
 class SubstepControl {
   public:
-    /// Begins with `proposed` substeps, never has fewer than `least`. `probe_length`: frames of a probe, 2 or more.
+    /// It begins with `proposed` substeps, never has fewer than `least`; a probe has `probe_length` frames, 2 or more.
     SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least, std::uint32_t probe_length);
 
-    /// The first attempt at the next frames. `room`: frames that a probe may have from here on. `eventful`: the scene
-    /// tells of something in the first of them (drive.h), so it begins finer, with a probe.
+    /// Returns the first attempt at the next frames. `room` is how many a probe may have from here on. `eventful` means
+    /// that the scene tells of something in the first of them (drive.h), so it begins finer, with a probe.
     const Segment& begin(std::uint32_t room, bool eventful);
-    /// `unpredictable`: kept, though the motion's error is above its limit, since more substeps do not reduce it: the
-    /// cloth crumples, and neighbouring motions part whatever is done.
+    /// `unpredictable` frames are kept, though the motion's error is above its limit, since more substeps do not reduce
+    /// it: the cloth crumples, and neighbouring motions part whatever is done.
     enum class Verdict { keep, unpredictable, again, give_up };
-    /// Of the attempt that `segment` says; `again`: with what `segment` says now.
+    /// Judges the attempt that `segment` says; `again` asks for what `segment` says now.
     Verdict judge(const Judgement& judgement);
     const Segment& segment() const { return segment_; }
     bool at_top() const { return tried_ + 1 == rungs_.size(); }
-    /// The frames are kept although the last judgement says no.
+    /// Keeps the frames although the last judgement says no.
     void keep_anyway();
 
-    /// Hands everything that changes to `archive(members...)`, which writes or reads it (byte_stream.h): between
-    /// segments. Whether what was read can be.
+    /// Hands everything that changes, between segments, to `archive(members...)`, which writes or reads it
+    /// (byte_stream.h). Returns whether what was read can be.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
@@ -84,20 +84,20 @@ class SubstepControl {
     bool resolves_;  ///< no probe is needed
     std::uint32_t probe_length_;
     std::size_t lowest_;
-    std::size_t rung_;       ///< of frames to come
-    std::size_t began_ = 0;  ///< that before the segment
-    std::size_t tried_ = 0;  ///< of the attempt
-    double order_ = 2;       ///< with which the motion's error falls
-    double slack_ = 1;       ///< on the motion's limit, where more substeps did not help
+    std::size_t rung_;       ///< the rung of frames to come
+    std::size_t began_ = 0;  ///< the rung before the segment
+    std::size_t tried_ = 0;  ///< the rung of the attempt
+    double order_ = 2;       ///< power with which the motion's error falls
+    double slack_ = 1;       ///< factor on the motion's limit, where more substeps did not help
     struct Tried {
         double substeps = 0, motion = 0;
     } before_,               ///< a failed attempt of the segment, to tell whether more substeps help
         probed_;             ///< the last probe
-    double top_motion_ = 0;  ///< of the attempt at the top, while one with a quarter of its substeps is tried
+    double top_motion_ = 0;  ///< the error at the top, while a quarter of its substeps is tried
     bool hopeless_ = false;  ///< that one was worse: more substeps would help, and there are none
-    /// Of the segment, the finest attempt so far that only its motion let fail.
+    /// The finest attempt at the segment so far that only its motion let fail.
     std::optional<std::size_t> only_motion_failed_;
-    bool turned_back_ = false;  ///< to that one
+    bool turned_back_ = false;  ///< it went back to that one
     Segment segment_{};
     std::uint32_t interval_ = 1, until_probe_ = 0;  ///< frames between probes, before the next
     std::uint32_t since_fewer_ = 1000000;           ///< frames since the substeps went down

@@ -13,7 +13,7 @@ namespace drape {
 
 namespace {
 
-/// Nearest particle of one pin.
+/// The nearest particle of one pin.
 struct Nearest {
     std::int32_t particle = -1;
     double distance = std::numeric_limits<double>::infinity();  ///< m
@@ -37,7 +37,7 @@ Field straight_distances(const Grid& grid, const double (&spacing)[2], const Ind
     return field;
 }
 
-/// Dijkstra's shortest paths from all of the box's particles along the springs that exist.
+/// Finds Dijkstra's shortest paths from all of the box's particles along the springs that exist.
 Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBox& box) {
     Field field(grid.particle_count());
     using Entry = std::pair<double, std::uint32_t>;

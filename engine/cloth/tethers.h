@@ -1,4 +1,4 @@
-// Tethers (long-range attachments): which held particles a free one hangs on, and how far it may be from them. Pure.
+// Tethers (long-range attachments) tell which held particles a free one hangs on, and how far it may be from them.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace drape {
 
-/// Of every particle, row by row: the nearest particle of each of the two nearest pins, at the distance within the
-/// cloth at rest times 1 + `give`. On a whole grid that distance is the straight line; around holes it is the shortest
-/// path along rows, columns and diagonals (up to 8 % longer than the true one, so never too short). `spacing`: m along
-/// columns and rows. Without pins, or out of their reach: none.
+/// Returns for every particle, row by row, the nearest particle of each of the two nearest pins, at the distance within
+/// the cloth at rest times 1 + `give`. On a whole grid that distance is the straight line; around holes it is the
+/// shortest path along rows, columns and diagonals (up to 8 % longer than the true one, so never too short). `spacing`
+/// is m along columns and rows. There are none without pins, or out of their reach.
 std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const double (&spacing)[2],
                                                 const std::vector<Pin>& pins, double give);
 
-/// The strain of the cloth hanging by its whole length, rho g l/stretch: what a tether gives way by.
+/// Returns the strain of the cloth hanging by its whole length, rho g l/stretch: a tether gives way by it.
 double tether_give(const Cloth& cloth, const Vec3& gravity);
 
 }  // namespace drape

@@ -17,22 +17,22 @@ namespace drape {
 
 namespace {
 
-/// Over what is explained: tips of cloth whip, folds snap.
+/// It multiplies what is explained: tips of cloth whip, folds snap.
 constexpr double generous = 10;
 constexpr double calm_speed = 0.1;   ///< m/s that need no explanation
 constexpr double settling_time = 5;  ///< s in which cloth may keep the strain that it starts with
-constexpr double rounding = 1.01;    ///< of strains that a cloth starts with
+constexpr double rounding = 1.01;    ///< factor on strains that a cloth starts with
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
 constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< of a spring; diagonals per second
-/// Times the law of stretch that are no result any more.
+/// A frame is no result any more at so many times the law of stretch.
 constexpr double times_law = 3;
 /// Speeds of key-framed things are taken over this part of a frame.
 constexpr int parts_of_a_frame = 4;
 
 double distance(const Vec3& a, const Vec3& b) { return length({a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
 
-/// How far a point within `reach` of the centre gets between two poses, at most.
+/// Returns how far a point within `reach` of the centre gets between two poses, at most.
 double moved(const std::array<double, 9>& turned, const std::array<double, 9>& turn, double reach) {
     double square = 0;
     for (std::size_t k = 0; k < 9; ++k) square += (turn[k] - turned[k]) * (turn[k] - turned[k]);
@@ -66,12 +66,12 @@ Implausible compare(const char* criterion, double value, double bound, const cha
 
 Implausible worse(const Implausible& a, const Implausible& b) { return b.excess > a.excess ? b : a; }
 
-/// m/s at which strain comes back. Inextensible cloth has no such speed: through all of it in a frame.
+/// Returns m/s at which strain comes back. Inextensible cloth has no such speed: it is through all of it in a frame.
 double wave_speed(const Cloth& cloth, double diagonal, double fps) {
     return cloth.stiffness.rigid ? diagonal * fps : std::sqrt(cloth.stiffness.stretch / cloth.areal_density);
 }
 
-/// Largest, of springs along rows and columns that are held at both ends where the cloth starts.
+/// Returns the largest strain of springs along rows and columns that are held at both ends where the cloth starts.
 double held_strain(const ClothModel& cloth) {
     double largest = 0;
     const auto compare_ends = [&](std::uint32_t a, std::uint32_t b, double rest) {
@@ -93,7 +93,7 @@ double held_strain(const ClothModel& cloth) {
 Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {Drive{}}) {
     const auto moving = [](const Collider& collider) { return collider.path.moves(); };
     passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
-    // What is led apart may be lifted.
+    // Cloth that is led apart may be lifted.
     led_apart_ = model.self_contact && !model.self_contact->to_part.empty();
     passive_ = passive_ && !led_apart_;
     for (const ClothModel& cloth : model.cloths) {
@@ -115,7 +115,7 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
     }
 }
 
-/// m/s, largest of anything that moves in this time: pins, centres of colliders.
+/// Returns the largest speed of anything that moves in this time, m/s: pins, centres of colliders.
 double Watch::pace(std::size_t cloth, double from, double to) const {
     double farthest = 0;
     for (const DynamicPin& pin : model_.cloths[cloth].dynamic_pins)
@@ -127,7 +127,7 @@ double Watch::pace(std::size_t cloth, double from, double to) const {
     return farthest / (to - from);
 }
 
-/// m/s, largest of anything that may push the cloth in this time.
+/// Returns the largest speed of anything that may push the cloth in this time, m/s.
 double Watch::drive_speed(std::size_t cloth, double from, double to) const {
     const ClothModel& model = model_.cloths[cloth];
     double pins = 0, colliders = 0;
@@ -140,7 +140,7 @@ double Watch::drive_speed(std::size_t cloth, double from, double to) const {
     return (pins + 2 * colliders) / (to - from);
 }
 
-/// That of the frame after `frame`.
+/// Returns the drive of the frame after `frame`.
 Watch::Drive Watch::next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const {
     const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
     const double begin = static_cast<double>(frame) * parts_of_a_frame;
@@ -180,7 +180,7 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     const double travel = drive_at(index, frame).travel, smaller = std::min(cloth.size[0], cloth.size[1]);
     const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    // Where it lies nearer to something than it may, contact moves it away.
+    // Contact moves it away where it lies nearer to something than it may.
     const double out_of_cloth =
         (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
     const double pushed = model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
@@ -197,8 +197,8 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
     if (!passive_) return result;
     const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
     const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
-    // Without the elastic one, which is not negative and was 0: what a solver leaves stretched counts there at the full
-    // stiffness, though it was never stored.
+    // The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at
+    // the full stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
     const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
     return worse(result, compare("energy gained, J", energy - start_energy,
@@ -214,7 +214,7 @@ double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cl
     return most;
 }
 
-/// What the springs of a cloth may be wrong by that moves at this speed (m/s).
+/// Returns what the springs of a cloth that moves at this speed (m/s) may be wrong by.
 double Watch::stretch_law(std::size_t index, double speed) const {
     const ClothModel& cloth = model_.cloths[index];
     const SolverSettings& solver = model_.scene.solver;
@@ -235,7 +235,7 @@ double Watch::stretch_law(std::size_t index, double speed) const {
     return 0.02 + 0.12 * most + 2 * rounded;
 }
 
-/// Of the springs of any cloth, for six frames. `driven`: by what moves until then.
+/// Returns what the springs of any cloth may err by for six frames. `driven` counts what moves until then.
 double Watch::allowed_stretch(std::uint32_t frame, bool driven) const {
     double most = model_.asked_tolerance;
     if (model_.closed_loop() || model_.self_contact) most = std::max(most, times_law * model_.stretch_limits().worst);

@@ -1,4 +1,4 @@
-// What no result of a scene exceeds: bounds from what acts on the cloth, far above what it ever does. Pure.
+// No result of a scene exceeds these bounds, which follow from what acts on the cloth, far above what it ever does.
 #pragma once
 
 #include <deque>
@@ -11,10 +11,10 @@
 
 namespace drape {
 
-/// Something of a frame over its bound.
+/// A frame has something over its bound.
 struct Implausible {
     double excess = 0;  ///< value over bound: 1 is the most there can be
-    std::string what;   ///< "moves at 8e+03 m/s, where at most 120 m/s are explained", of the particle or a sentence
+    std::string what;   ///< of the particle, "moves at 8e+03 m/s, where at most 120 m/s are explained", or a sentence
     std::string criterion;  ///< "speed, m/s"
     double value = 0, bound = 0;
     std::optional<std::uint32_t> particle;  ///< index; nothing: it is not about a single one
@@ -26,10 +26,9 @@ class Watch {
     /// `model` must outlive this.
     explicit Watch(const SimulationModel& model);
 
-    /// What a closed loop does again with more substeps, of the worst cloth:
-    ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; of
-    ///   held
-    ///             cloth g t ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
+    /// Returns the worst cloth's largest value over its bound; above 1 a closed loop does the frame again:
+    ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; g t of
+    ///             held cloth ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
     ///             comes back at the speed of waves, as does what a cloth starts strained by
     ///   distance  from the origin: the start's, twice the stretched diagonal, the travel of pins and colliders, and
     ///             what free cloth may have flown at twice these speeds
@@ -37,9 +36,9 @@ class Watch {
     ///             tenth of v0^2 m/2 + m g d
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
-    /// What makes a frame no result: the same and, for methods whose frames are not judged, a stretch error: the first
-    /// cloth's worst. Nothing: it is plausible. To be asked of each frame once, in order. Bounds, or the scene's own
-    /// tolerance where that is more:
+    /// Returns the first cloth's worst value that makes a frame no result: the same and, for methods whose frames are
+    /// not judged, a stretch error. Nothing: it is plausible. Ask it of each frame once, in order. Stretch errors have
+    /// these bounds, or the scene's own tolerance where that is more:
     ///   0.25 RMS, 1 in a single spring   of any frame; for 5 s what the cloth starts strained by, and for good what
     ///                                    pins hold strained
     ///   1/3 in a single spring           of a cloth at rest (below 1 % of its diagonal in a second): no force that
@@ -52,8 +51,8 @@ class Watch {
     /// meet themselves or each other: what lies between layers is pressed together by more than a law of springs knows.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
-    /// What it remembers of earlier frames, by a ByteWriter or a ByteReader. False where what was read is nothing that
-    /// it can come to.
+    /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
+    /// was read is nothing that it can come to.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(recent_);
@@ -63,20 +62,20 @@ class Watch {
   private:
     static constexpr std::size_t frames_in_a_row = 6;     ///< one may be a snap
     static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
-    /// What moves a cloth, from the start to the end of a frame.
+    /// The things that move a cloth, from the start to the end of a frame.
     struct Drive {
         double speed = 0;   ///< m/s, largest so far
         double travel = 0;  ///< m
-        double pace = 0;    ///< m/s, largest so far, of a frame as a whole and of centres alone
+        double pace = 0;    ///< m/s, largest so far, for a frame as a whole and centres alone
     };
-    /// Of a cloth, at rest.
+    /// A cloth where it starts.
     struct Start {
-        double distance;             ///< m, of the farthest particle from the origin
+        double distance;             ///< m, the farthest particle's from the origin
         std::array<double, 3> mean;  ///< m, centre of mass
         double diagonal;             ///< m
-        double strain;               ///< of its springs, where it starts stretched or compressed
-        double held_strain;          ///< of those that pins hold at both ends
-        bool held;                   ///< for good
+        double strain;               ///< its springs', where it starts stretched or compressed
+        double held_strain;          ///< that of springs that pins hold at both ends
+        bool held;                   ///< pins hold it for good
     };
     void extend(std::uint32_t frame);
     Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;
@@ -92,9 +91,9 @@ class Watch {
     const SimulationModel& model_;
     std::vector<Start> starts_;
     std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
-    std::vector<std::deque<Drive>> drives_;  ///< of the last frames that were asked about, by cloth
+    std::vector<std::deque<Drive>> drives_;  ///< by cloth, for the last frames that were asked about
     bool passive_;
-    bool led_apart_;             ///< some cloths, from others that they started through
+    bool led_apart_;             ///< some cloths are, from others that they started through
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 

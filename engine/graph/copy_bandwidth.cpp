@@ -16,7 +16,7 @@ double copy_bandwidth(const vulkan::Device& device) {
     Graph graph;
     const Handle source = graph.buffer({"source", byte_count, Lifetime::persistent});
     const Handle empty = graph.buffer({"target", byte_count, Lifetime::persistent});
-    const auto target = std::make_shared<Handle>();  // set by set-up, used when recorded
+    const auto target = std::make_shared<Handle>();  // set-up sets it, recording uses it
     graph.add_pass(
         {"copy", "copy", "copy"},
         [&](PassSetup& setup) {

@@ -1,4 +1,4 @@
-// What the three dump formats share; `dump` in plan.h chooses among them.
+// The three dump formats share this; `dump` in plan.h chooses among them.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace drape::graph {
 
-/// Passes that declare the same under the same label and stage fold.
+/// Folds passes that declare the same under the same label and stage.
 Folding fold_passes(const Graph& graph, const Plan& plan);
 
-/// What is skipped, passes of one label and one reason counted together, in order of first appearance.
+/// Skipped passes of one label and one reason are counted together, in order of first appearance.
 struct SkippedGroup {
     std::string what, reason;
     std::uint32_t count = 0;
@@ -21,7 +21,7 @@ struct SkippedGroup {
 std::vector<SkippedGroup> group_skipped(const Graph& graph, const Plan& plan);
 
 std::size_t barrier_count(const Plan& plan);
-std::string format_name(VkFormat format);    ///< "rgba32f"; "VkFormat 37" for those Drape has no word for
+std::string format_name(VkFormat format);    ///< "rgba32f", or "VkFormat 37" for a format that Drape has no word for
 std::string size_text(std::uint64_t bytes);  ///< "1.5 MiB"
 
 std::string dump_text(const Graph& graph, const Plan& plan);

@@ -11,7 +11,7 @@
 namespace drape::graph {
 namespace {
 
-/// Below each other: side by side they would make the picture wide.
+/// Lines stand below each other: side by side they would make the picture wide.
 std::string in_quotes(const std::vector<std::string>& lines, const char* line_end = "\\n") {
     std::string out = "\"";
     for (const std::string& line : lines) {
@@ -26,8 +26,8 @@ std::string in_quotes(const std::vector<std::string>& lines, const char* line_en
 
 std::string in_quotes(const std::string& text) { return in_quotes(std::vector{text}); }
 
-/// Boxes are passes (one per folded place), arrows the resources that flow between them, ellipses what
-/// enters from and leaves to other frames or the host; dashed arrows lead back into a repeated block.
+/// Boxes are passes (one per folded place), arrows the resources that flow between them, ellipses what enters from and
+/// leaves to other frames or the host; dashed arrows lead back into a repeated block.
 class DotWriter {
   public:
     DotWriter(const Graph& graph, const Plan& plan)
@@ -65,7 +65,7 @@ class DotWriter {
         }
     }
 
-    /// The node that made what a pass reads: a pass, or the resource as it was before the frame.
+    /// An arrow comes from the node that made what a pass reads: a pass, or the resource as it was before the frame.
     void arrow_to(std::uint32_t resource, std::uint32_t position) {
         const std::uint32_t reader = folding_.representative[position];
         const std::string& name = graph_.resources()[resource].name;
@@ -83,8 +83,8 @@ class DotWriter {
         for (std::uint32_t p = 0; p < plan_.passes.size(); ++p) {
             const Pass& pass = graph_.passes()[plan_.passes[p].pass];
             for (const Use& use : pass.uses) {
-                // A write keeps what it does not overwrite, so it too depends on the version before; the
-                // first write of a transient has none.
+                // A write keeps what it does not overwrite, so it too depends on the version before; the first write of
+                // a transient has none.
                 const bool fresh = is_write(use.access) && use.handle.version == 1 &&
                                    graph_.resources()[use.handle.resource].lifetime == Lifetime::transient;
                 if (!fresh) arrow_to(use.handle.resource, p);
@@ -119,7 +119,7 @@ class DotWriter {
     void write_note(const char* name, const char* colour, std::vector<std::string> lines) {
         if (lines.empty()) return;
         lines.insert(lines.begin(), std::string(name) + ":");
-        lines.emplace_back();  // what ends in \l stands at the left
+        lines.emplace_back();  // a line that ends in \l stands at the left
         text_ += fmt::format("  {} [style=dashed, color={}, label={}];\n", name, colour, in_quotes(lines, "\\l"));
     }
 

@@ -9,7 +9,7 @@
 namespace drape::graph {
 namespace {
 
-/// Cells padded to their column's widest; the last one is left ragged.
+/// Cells are padded to their column's widest; the last one is left ragged.
 template <std::size_t Columns>
 class Table {
   public:
@@ -18,7 +18,7 @@ class Table {
         cells[0].insert(0, indent * 2, ' ');
         rows_.push_back({std::move(cells), {}});
     }
-    /// A line that is no row: takes no part in the widths.
+    /// Adds a line that is no row and takes no part in the widths.
     void line(std::string text) { rows_.push_back({{}, std::move(text)}); }
 
     std::string text() const {

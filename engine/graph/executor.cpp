@@ -23,8 +23,7 @@ class Recorder {
             vkGetInstanceProcAddr(instance, "vkCmdEndDebugUtilsLabelEXT"));
     }
 
-    /// `bracket_begins`: positions of passes, ascending, before which a timestamp is written; `ticks`: where all end
-    /// up.
+    /// Timestamps are written before the passes at the ascending positions `bracket_begins`; all end up in `ticks`.
     void record(VkCommandBuffer commands, std::uint32_t slot, VkQueryPool queries, const vulkan::Buffer* ticks,
                 std::span<const std::uint32_t> bracket_begins) const {
         auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
@@ -72,8 +71,8 @@ class Recorder {
         if (queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query);
     }
 
-    /// The device copies them, since a host that asks the default device for them waits until it has nothing left to do
-    /// (docs/devices.md).
+    /// The device copies the timestamps, since a host that asks the default device for them waits until it has nothing
+    /// left to do (docs/devices.md).
     static void copy_timestamps(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t count,
                                 const vulkan::Buffer& ticks) {
         vkCmdCopyQueryPoolResults(commands, queries, 0, count, ticks.handle(), 0, sizeof(std::uint64_t),
@@ -96,7 +95,7 @@ class Recorder {
         vkCmdPipelineBarrier2(commands, &dependency);
     }
 
-    /// One command for all: layout changes as image barriers, the rest merged into one memory barrier.
+    /// One command does all: layout changes as image barriers, the rest merged into one memory barrier.
     void emit(VkCommandBuffer commands, const std::vector<Barrier>& barriers) const {
         if (barriers.empty()) return;
         auto memory = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -197,7 +196,7 @@ std::vector<Timing> RecordedPlan::timings(std::uint32_t slot) const {
     if (brackets_.empty()) return timings;
     std::vector<std::uint64_t> ticks(brackets_.size() + 1);
     std::memcpy(ticks.data(), ticks_[slot].mapped().data(), std::span(ticks).size_bytes());
-    if (ticks.back() == 0) return timings;  // never submitted
+    if (ticks.back() == 0) return timings;  // it was never submitted
     const std::uint32_t bits = device_.timestamp_valid_bits();
     const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     const double milliseconds_per_tick = static_cast<double>(device_.limits().timestampPeriod) * 1e-6;

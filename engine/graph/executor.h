@@ -1,5 +1,5 @@
-// Realises the resources of a set of graphs, records each plan once per frame slot, resubmits, reads
-// timestamps. The only part of the graph that needs a device.
+// Realises the resources of a set of graphs, records each plan once per frame slot, resubmits it and reads timestamps.
+// No other part of the graph needs a device.
 #pragma once
 
 #include <array>
@@ -19,18 +19,18 @@
 
 namespace drape::graph {
 
-/// The physical images and buffers, by name, shared by all plans of a scene. What no plan uses is not made.
+/// Holds the images and buffers, by name, that all plans of a scene share. What no plan uses is not made.
 class ResourcePool {
   public:
-    /// Sums all sizes first and throws VulkanError before allocating when they exceed the budget. Usage
-    /// flags are what the plans' uses need, plus transfer for set-up and tests. A resource that several
-    /// graphs declare must be declared equally (GraphError otherwise). Persistent and constant images
-    /// start zeroed, in GENERAL; buffers start zeroed.
+    /// Sums all sizes first and throws VulkanError before allocating when they exceed the budget. Usage flags are what
+    /// the plans' uses need, plus transfer for set-up and tests. A resource that several graphs declare must be
+    /// declared equally (GraphError otherwise). Persistent and constant images start zeroed, in GENERAL; buffers start
+    /// zeroed.
     ResourcePool(const vulkan::Device& device, std::span<const std::pair<const Graph*, const Plan*>> plans);
 
     const vulkan::Device& device() const { return device_; }
     bool has(const std::string& name) const;
-    /// Or a slice of one. GraphError when there is none.
+    /// Returns an image or a slice of one. Throws GraphError when there is none.
     const vulkan::Image& image(const std::string& name) const;
     /// `slot` matters for host_input and host_output buffers only.
     const vulkan::Buffer& buffer(const std::string& name, std::uint32_t slot = 0) const;
@@ -42,30 +42,30 @@ class ResourcePool {
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
 };
 
-/// Why the device cannot give an image a buffer view, of rows `row_pitch` texels apart where that is not 0; empty when
-/// it can. Callers without one use the image alone.
+/// Returns why the device cannot give an image a buffer view, of rows `row_pitch` texels apart where that is not 0;
+/// empty when it can. Callers without one use the image alone.
 std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image,
                                  std::uint32_t row_pitch = 0);
 
 enum class TimestampMode { none, stages, passes };
 
-/// What a draw gives a variable of its shaders.
+/// A draw gives a variable of its shaders this resource.
 struct Binding {
     std::string_view variable;
     Handle handle;
 };
 
-/// Given to a pass's execute function. Every access is compared with what the pass declared.
+/// A pass's execute function gets this. Every access is compared with what the pass declared.
 class PassContext {
   public:
     VkCommandBuffer commands() const { return commands_; }
     std::uint32_t slot() const { return slot_; }
-    /// Throw GraphError, naming pass and resource, when the pass did not declare the handle.
+    /// Return the resource. They throw GraphError, naming pass and resource, when the pass did not declare the handle.
     const vulkan::Image& image(Handle handle) const;
     const vulkan::Buffer& buffer(Handle handle) const;
-    /// Texels from one row to the next in the buffer view of an image that has one.
+    /// Returns the texels from one row to the next in the buffer view of an image that has one.
     std::uint32_t row_pitch(Handle handle) const { return image(handle).row_pitch(); }
-    /// The layout the image is in during this pass: that of its declared access. Throws as `image`.
+    /// Returns the image's layout during this pass, that of its declared access. Throws as `image`.
     VkImageLayout layout(Handle handle) const;
 
     /// Binds the pipeline, pushes every declared use that has a variable, and the push constants, then dispatches
@@ -79,8 +79,8 @@ class PassContext {
     void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants,
                            Handle arguments, std::uint64_t offset);
 
-    /// Of a pass that draws several things: binds the pipeline and pushes one handle per descriptor, as strictly.
-    /// Each stage that uses a descriptor must read the handle by the pass's declaration.
+    /// Binds the pipeline and pushes one handle per descriptor, as strictly, in a pass that draws several things. Each
+    /// stage that uses a descriptor must read the handle by the pass's declaration.
     void bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings);
     /// Throws GraphError when the shaders' push constants have another layout.
     void push(const vulkan::Pipeline& pipeline, const PushConstants& push_constants);
@@ -93,7 +93,7 @@ class PassContext {
     const Use& use_of(Handle handle) const;
     void bind_uses(const vulkan::ComputePipeline& pipeline);
     void check_use(const vulkan::Pipeline& pipeline, const Use& use) const;
-    /// Kind, format and element.
+    /// Checks kind, format and element.
     void check_resource(const vulkan::Pipeline& pipeline, std::string_view variable, const Resource& resource) const;
     void push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
     [[noreturn]] void refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const;
@@ -106,17 +106,17 @@ class PassContext {
 
 /// One timed bracket of one frame.
 struct Timing {
-    std::string name;  ///< stage, or pass label
+    std::string name;  ///< name of the stage or label of the pass
     double milliseconds = 0;
 };
 
-/// Removes barriers on purpose: for the canary test that a planted hazard is reported.
+/// A filter removes barriers on purpose, for the canary test that a planted hazard is reported.
 using BarrierFilter = std::function<bool(const PlannedPass&, const Barrier&)>;
 
 /// A plan recorded into one command buffer per frame slot.
 class RecordedPlan {
   public:
-    /// `keep` (default: all) may drop barriers: canary tests only.
+    /// `keep` (default: all) may drop barriers, for canary tests only.
     RecordedPlan(const Graph& graph, const Plan& plan, const ResourcePool& pool, TimestampMode timestamps,
                  const BarrierFilter& keep = {});
     ~RecordedPlan();
@@ -124,9 +124,9 @@ class RecordedPlan {
     RecordedPlan& operator=(const RecordedPlan&) = delete;
 
     VkCommandBuffer commands(std::uint32_t slot) const { return commands_[slot]; }
-    /// Of the slot's last finished submit, in order, summed by name (stages) or by label (passes). Masked by
-    /// timestampValidBits, times timestampPeriod in double; empty when the device has no timestamps, and before the
-    /// first submit.
+    /// Returns the times of the slot's last finished submit, in order, summed by name (stages) or by label (passes).
+    /// Ticks are masked by timestampValidBits, times timestampPeriod in double; empty when the device has no
+    /// timestamps, and before the first submit.
     std::vector<Timing> timings(std::uint32_t slot) const;
 
   private:
@@ -140,7 +140,7 @@ class RecordedPlan {
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
     std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};
-    std::vector<vulkan::Buffer> ticks_;  ///< by slot: what its queries found, all 0 before its first submit
+    std::vector<vulkan::Buffer> ticks_;  ///< per slot: its queries' results, all 0 before its first submit
     /// Name, first and last query; neighbours share one. Each begins with the pass of the same place in
     /// bracket_begins_.
     std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;

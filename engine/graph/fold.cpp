@@ -7,14 +7,14 @@
 namespace drape::graph {
 namespace {
 
-constexpr std::size_t longest_block = 2048;  // items: bounds the search on sequences without repetition
+constexpr std::size_t longest_block = 2048;  // items; bounds the search on sequences without repetition
 
-/// Equal ids are equal content: leaves and repeated blocks share one numbering.
+/// Equal ids are equal content, because leaves and repeated blocks share one numbering.
 class Folder {
   public:
     explicit Folder(std::span<const std::uint32_t> sequence) {
         for (const std::uint32_t item : sequence) items_.push_back(intern({1, {item}}));
-        // A folded block is one item: what holds it may now repeat at a length already tried.
+        // A folded block is one item, so the block around it may now repeat at a length already tried.
         for (std::size_t length = 1; length <= std::min(items_.size() / 2, longest_block);) {
             length = fold_blocks(length) ? 1 : length + 1;
         }
@@ -28,7 +28,7 @@ class Folder {
     Folding take() { return std::move(result_); }
 
   private:
-    /// Leaf: count 1 and the item; block: count > 1 and the ids of its parts.
+    /// A leaf has count 1 and the item, a block count > 1 and the ids of its parts.
     using Node = std::pair<std::uint32_t, std::vector<std::uint32_t>>;
 
     std::uint32_t intern(Node node) {

@@ -10,17 +10,17 @@ namespace drape::graph {
 /// A position of the sequence, or a block that comes `count` times in a row.
 struct Fold {
     std::uint32_t count = 1;
-    std::uint32_t position = 0;  ///< where it first comes
-    std::vector<Fold> body;      ///< of one repetition; empty: the position itself
+    std::uint32_t position = 0;  ///< the first place where it comes
+    std::vector<Fold> body;      ///< parts of one repetition; empty: the position itself
 };
 
 struct Folding {
     std::vector<Fold> folds;
-    /// For every position, the one that stands for it: the same place in the first repetition.
+    /// Every position has one that stands for it: the same place in the first repetition.
     std::vector<std::uint32_t> representative;
 };
 
-/// Short blocks first, so that repetitions nest (iterations within substeps). Equal numbers are equal items.
+/// Folds short blocks first, so that repetitions nest (iterations within substeps). Equal numbers are equal items.
 Folding fold(std::span<const std::uint32_t> sequence);
 
 }  // namespace drape::graph

@@ -43,7 +43,7 @@ const Resource& newest(const std::vector<Resource>& resources, const Pass& pass,
     if (handle.slice != UINT32_MAX && handle.slice >= resource.image.slices.size())
         refuse(pass, resource.name,
                fmt::format("{} of slice {}, it has {}", verb, handle.slice, resource.image.slices.size()));
-    // Before the versions are compared: the handle this pass's own write returned is the newest.
+    // This comes before the versions are compared: the handle that this pass's own write returned is the newest.
     for (const Use& use : pass.uses) {
         if (use.handle.resource != handle.resource || !is_write(use.access)) continue;
         refuse(pass, resource.name,
@@ -89,7 +89,7 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
                    fmt::format("{} and {} in one pass need two layouts", access_name(other.access),
                                access_name(use.access)));
         }
-        // One version may be read through several variables: a shader's may share a resource.
+        // One version may be read through several variables, as a shader's variables may share a resource.
         const bool by_other_variable =
             !use.variable.empty() && !other.variable.empty() && use.variable != other.variable;
         if (other.handle == use.handle && other.access == use.access && !by_other_variable) {

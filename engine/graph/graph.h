@@ -1,6 +1,6 @@
-// The render graph as declared: resources by versioned handles, passes with declared access.
-// Building and planning are pure: no device, tested without one. `plan.h` turns a Graph into a Plan,
-// `executor.h` records a Plan once and resubmits it.
+// The render graph is declared: resources by versioned handles, passes with declared access. Building and planning are
+// pure: no device, tested without one. `plan.h` turns a Graph into a Plan, `executor.h` records a Plan once and
+// resubmits it.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace drape::graph {
 
-/// A mistake of the programmer who declares passes: stale handle, undeclared access, read of nothing.
-/// The text names the pass and the resource.
+/// Thrown for a mistake of the programmer who declares passes: stale handle, undeclared access, read of nothing. The
+/// text names the pass and the resource.
 class GraphError : public std::logic_error {
     using std::logic_error::logic_error;
 };
@@ -38,7 +38,7 @@ enum class Access : std::uint8_t {
 bool is_write(Access access);
 std::string_view access_name(Access access);  ///< "compute_read"
 
-/// How long a resource's contents live, and how many copies there are.
+/// A lifetime tells how long a resource's contents live, and how many copies there are.
 enum class Lifetime : std::uint8_t {
     transient,    ///< within a frame; its contents do not outlive the plan
     persistent,   ///< the state: carried from frame to frame; its final version is always wanted
@@ -58,8 +58,8 @@ struct ImageDeclaration {
     /// in GENERAL, transient or not, so that every barrier is one on all memory, which covers both views; a barrier on
     /// the image would leave the buffer out. Not every device can: ask buffer_view_obstacle (executor.h) first.
     bool buffer_view = false;
-    /// Names of bands of equally many rows, from the top, that passes may use alone (Handle::slice); only with a buffer
-    /// view. To hazards and versions the image is one: a pass that uses a band uses it.
+    /// Passes may use bands of equally many rows, from the top, alone by these names (Handle::slice); only with a
+    /// buffer view. To hazards and versions the image is one: a pass that uses a band uses it.
     std::vector<std::string> slices = {};
 };
 
@@ -67,7 +67,7 @@ struct BufferDeclaration {
     std::string name;
     std::uint64_t byte_count = 0;  ///< a positive multiple of 4
     Lifetime lifetime = Lifetime::transient;
-    /// What it is an array of (glsl::layout_of); none: no shader may bind it.
+    /// It is an array of this (glsl::layout_of); none: no shader may bind it.
     const glsl::StructLayout* element = nullptr;
     /// Shaders may bind it as a buffer of rgba32f texels too, an imageBuffer, by the kind of the variable.
     bool texels = false;
@@ -77,7 +77,7 @@ struct BufferDeclaration {
 struct Handle {
     std::uint32_t resource = UINT32_MAX;
     std::uint32_t version = 0;
-    std::uint32_t slice = UINT32_MAX;  ///< of ImageDeclaration::slices; none: the whole
+    std::uint32_t slice = UINT32_MAX;  ///< index into ImageDeclaration::slices; none: the whole
     bool valid() const { return resource != UINT32_MAX; }
     bool operator==(const Handle&) const = default;
 };
@@ -88,12 +88,12 @@ struct Resource {
     ImageDeclaration image;    ///< when is_image
     BufferDeclaration buffer;  ///< otherwise
     Lifetime lifetime = Lifetime::transient;
-    std::uint32_t version = 0;  ///< newest
-    /// Of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.
+    std::uint32_t version = 0;  ///< the newest
+    /// Returns the bytes of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.
     std::uint64_t byte_count() const;
-    /// What a handle to an image sees: the image, or a slice as an image.
+    /// Returns what a handle to an image sees: the image, or a slice as an image.
     ImageDeclaration seen(Handle handle) const;
-    /// Of what a handle sees.
+    /// Returns the bytes of what a handle sees.
     std::uint64_t byte_count(Handle handle) const;
 };
 
@@ -101,7 +101,7 @@ struct Resource {
 struct Use {
     Handle handle;  ///< the version read, or the version this write makes
     Access access;
-    std::string variable;  ///< of the compute shader, to which it is bound; empty: none
+    std::string variable;  ///< it is bound to this of the compute shader; empty: to none
 };
 
 std::string_view lifetime_name(Lifetime lifetime);  ///< "persistent"
@@ -110,8 +110,8 @@ class PassContext;  // executor.h
 
 struct Pass {
     std::string name;   ///< "banner/spring row even (substep 3)"
-    std::string stage;  ///< what timestamps bracket by default: "simulate", "normals", "raster", "readback"
-    std::string label;  ///< name without the counters: passes of one label are summed in profiles
+    std::string stage;  ///< timestamps bracket it by default: "simulate", "normals", "raster", "readback"
+    std::string label;  ///< name without the counters; profiles sum passes of one label
     std::vector<Use> uses;
     std::function<void(PassContext&)> execute;
     double flops = 0;  ///< floating-point operations; 0: not known
@@ -124,13 +124,13 @@ struct Remark {
 
 class Graph;
 
-/// Given to a pass's set-up function; the only way to declare access.
+/// A pass's set-up function gets this; there is no other way to declare access.
 class PassSetup {
   public:
-    /// Declares a read of this version. `variable`: what GLSL calls the storage image, or the array of the storage
-    /// buffer, that a compute pass binds it to; draws name theirs when they are recorded (PassContext::bind). Reading
-    /// and then writing one resource in one pass is how a read-modify-write is said (each with its own variable; for
-    /// one read-write descriptor the write alone names it); write then read throws. A variable serves one use.
+    /// Declares a read of this version. A compute pass binds it to `variable`, GLSL's name of the storage image or of
+    /// the storage buffer's array; draws name theirs when they are recorded (PassContext::bind). A read and then a
+    /// write of one resource in one pass are a read-modify-write (each with its own variable; for one read-write
+    /// descriptor the write alone names it); write then read throws. A variable serves one use.
     Handle read(Handle handle, Access access, std::string variable = {});
     /// Declares a write; returns the new version. The contents not written stay (no implied clear).
     [[nodiscard]] Handle write(Handle handle, Access access, std::string variable = {});
@@ -151,7 +151,7 @@ class Graph {
     /// Declares a resource; throws GraphError when the name is taken or the lifetime does not fit.
     Handle image(const ImageDeclaration& declaration);
     Handle buffer(const BufferDeclaration& declaration);
-    /// Of `count` elements T, which shaders that bind it must know under the same name and layout.
+    /// Declares a buffer of `count` elements T, which shaders that bind it must know under the same name and layout.
     template <class T>
     Handle buffer(std::string name, std::uint64_t count, Lifetime lifetime) {
         return buffer({std::move(name), count * sizeof(T), lifetime, &glsl::layout_of<T>()});

@@ -168,7 +168,7 @@ void PassContext::push(const vulkan::Pipeline& pipeline, const PushConstants& pu
     const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), push_constants.layout);
     if (!difference.empty()) refuse(pipeline, "push constants", difference);
     if (!push_constants.layout) return;
-    // C++ may add bytes at the end, which are no part of the pipeline's range.
+    // The bytes that C++ adds at the end are no part of the pipeline's range.
     vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
                        pipeline.push_constants()->size, push_constants.bytes.data());
 }

@@ -22,13 +22,13 @@ bool always_wanted(const Resource& resource) {
     return resource.lifetime == Lifetime::persistent || resource.lifetime == Lifetime::host_output;
 }
 
-/// Contents of version 0: there is something to read before this plan has written it.
+/// Version 0 has contents where there is something to read before this plan has written it.
 bool has_initial_contents(const Resource& resource) {
     return resource.lifetime != Lifetime::transient && resource.lifetime != Lifetime::host_output;
 }
 
-/// Which passes run. Going backwards, every reader of a version is seen before its writer; and since a
-/// write keeps what it does not overwrite, wanting version v wants every version up to v.
+/// Finds the passes that run. Going backwards, every reader of a version is seen before its writer; and since a write
+/// keeps what it does not overwrite, wanting version v wants every version up to v.
 class Culling {
   public:
     explicit Culling(const Graph& graph) : graph_(graph), alive_(graph.passes().size()) {
@@ -54,7 +54,7 @@ class Culling {
     bool alive(std::size_t pass) const { return alive_[pass]; }
 
     void explain(std::vector<Remark>& skipped) const {
-        // readers_[r]: the culled passes that read r, so that the end of a dead chain can be told.
+        // The culled passes that read each resource let the end of a dead chain be told.
         std::vector<std::vector<std::uint32_t>> readers(graph_.resources().size());
         for (std::size_t p = 0; p < alive_.size(); ++p) {
             if (alive_[p]) continue;
@@ -90,7 +90,7 @@ class Culling {
     std::vector<bool> alive_;
 };
 
-/// All uses of one resource by one pass, merged.
+/// The uses of one resource by one pass are merged.
 struct Need {
     std::uint32_t resource = 0;
     std::uint32_t reads = 0;  ///< bits 1 << Access
@@ -115,7 +115,7 @@ struct Scope {
     }
 };
 
-/// What is known of one resource after the passes planned so far.
+/// The knowledge of one resource after the passes planned so far.
 struct State {
     enum class Phase : std::uint8_t {
         untouched,
@@ -123,18 +123,18 @@ struct State {
         ordered  ///< written (or its layout changed) in this plan
     } phase = Phase::untouched;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    Scope last_write;           ///< accesses 0: a layout change, available by itself
+    Scope last_write;           ///< accesses 0 mean a layout change, available by itself
     std::uint32_t visible = 0;  ///< read accesses that see the last write
     VkPipelineStageFlags2 readers = 0;
     VkPipelineStageFlags2 available = 0;       ///< stages that wait until the last write is available
     bool reads_follow_write = false;           ///< waiting for `readers` waits for the last write as well
     std::uint32_t entry_barrier = UINT32_MAX;  ///< index into the entry barriers
-    std::uint32_t last_pass = UINT32_MAX;      ///< of the last write or, in phase entry, the last read
+    std::uint32_t last_pass = UINT32_MAX;      ///< the last write's or, in phase entry, the last read's
     Access last_access = Access::compute_read;
 };
 
-/// Derives barriers pass by pass. The waits for earlier submissions are all put before the first pass: they
-/// wait for everything, and one wait at the start stalls less than many on the way.
+/// Derives barriers pass by pass. The waits for earlier submissions are all put before the first pass: they wait for
+/// everything, and one wait at the start stalls less than many on the way.
 class BarrierPlanner {
   public:
     explicit BarrierPlanner(const Graph& graph) : graph_(graph), states_(graph.resources().size()) {}
@@ -253,21 +253,21 @@ class BarrierPlanner {
         }
     }
 
-    /// The source of a barrier for a reader of the last write.
+    /// Returns the source of a barrier for a reader of the last write.
     static Scope after_write(const State& state) {
-        // Available already when a reader at the writer's stage came between.
+        // It is available already when a reader at the writer's stage came between.
         const bool available = (state.last_write.stages & state.available) != 0;
         return {state.last_write.stages, available ? 0 : state.last_write.accesses & write_accesses};
     }
 
-    /// The source of a barrier for the next write. Readers that saw the last write stand between it and the
+    /// Returns the source of a barrier for the next write. Readers that saw the last write stand between it and the
     /// next one: waiting for them is enough, and the write is available already.
     static Scope after_readers(const State& state) {
         if (state.reads_follow_write) return {state.readers, 0};
         return {state.last_write.stages | state.readers, state.last_write.accesses & write_accesses};
     }
 
-    /// The state after the pass, its barriers being in place.
+    /// Sets the state after the pass, its barriers being in place.
     void record(const Need& need, State& state, std::uint32_t pass) {
         Scope reads;
         reads.add_reads(need.reads);
@@ -302,7 +302,7 @@ class BarrierPlanner {
         }
         if (resource.lifetime == Lifetime::persistent && resource.is_image && state.layout != VK_IMAGE_LAYOUT_GENERAL) {
             const Scope source = after_readers(state);
-            // Ends in all stages so that the entry barrier of whatever plan follows can wait for it.
+            // It ends in all stages, so that the entry barrier of whatever plan follows can wait for it.
             barriers.push_back({r, source.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, source.accesses, 0,
                                 state.layout, VK_IMAGE_LAYOUT_GENERAL,
                                 fmt::format("{}: back to its layout of rest", resource.name)});
@@ -320,7 +320,7 @@ class BarrierPlanner {
 
     const Graph& graph_;
     std::vector<State> states_;
-    std::vector<Need> needs_;  ///< of the pass at hand, kept for its memory
+    std::vector<Need> needs_;  ///< the needs of the pass at hand, kept for their memory
     std::vector<Barrier> entry_;
 };
 

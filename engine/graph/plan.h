@@ -1,4 +1,4 @@
-// From declarations to a plan: culling, barriers, lifetimes, sizes. A pure function of the Graph.
+// Turns declarations into a plan: culling, barriers, lifetimes, sizes. It is a pure function of the Graph.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace drape::graph {
 
-/// Stages and accesses one use touches, and the layout an image must be in for it.
+/// One use touches these stages and accesses, and needs an image in this layout.
 struct AccessScope {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 accesses;
     VkImageLayout layout;
 };
-/// Storage and copies work in GENERAL, attachments in their own layouts: the layout follows from the access
-/// alone, so a pass can know it when it records (PassContext::layout).
+/// Storage and copies work in GENERAL, attachments in their own layouts: the layout follows from the access alone, so a
+/// pass can know it when it records (PassContext::layout).
 AccessScope access_scope(Access access);
-/// Physical copies of a resource: one per frame slot for host inputs and outputs.
+/// Returns the physical copies of a resource: one per frame slot for host inputs and outputs.
 std::uint32_t copy_count(const Resource& resource);
 
 struct Barrier {
@@ -44,20 +44,19 @@ struct Plan {
     std::vector<Barrier> final_barriers;  ///< after the last pass: device writes to the host
     std::vector<Lifespan> lifespans;      ///< per resource of the graph
     std::vector<Remark> skipped;          ///< the graph's own, then what culling removed and why
-    std::uint64_t byte_count = 0;         ///< of all used resources, copies per frame slot counted
+    std::uint64_t byte_count = 0;         ///< bytes of all used resources, copies per frame slot counted
 };
 
-/// Culls every pass whose written versions nobody wanted reads (wanted: the final versions of persistent
-/// and host_output resources, transitively), then derives the barriers. A plan may follow any plan of the
-/// same resources, so the first use of every persistent resource waits for all earlier work (also
-/// write-after-read), transients included because their memory is reused; host inputs need none (a
-/// submit makes host writes visible); these entry barriers all stand before the first pass. Images rest in
-/// GENERAL between plans; transients start UNDEFINED, but for those with a
-/// buffer view: those never change their layout. A pass that declares host_read is always wanted.
-/// Throws GraphError when a wanted pass reads a transient or host_output version nobody wrote.
+/// Culls every pass whose written versions nobody wanted reads (wanted: the final versions of persistent and
+/// host_output resources, transitively), then derives the barriers. A plan may follow any plan of the same resources,
+/// so the first use of every persistent resource waits for all earlier work (also write-after-read), transients
+/// included because their memory is reused; host inputs need none (a submit makes host writes visible); these entry
+/// barriers all stand before the first pass. Images rest in GENERAL between plans; transients start UNDEFINED, but for
+/// those with a buffer view: those never change their layout. A pass that declares host_read is always wanted. Throws
+/// GraphError when a wanted pass reads a transient or host_output version nobody wrote.
 Plan make_plan(const Graph& graph);
 
-/// What runs, what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.
+/// Returns what runs, what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.
 std::string dump(const Graph& graph, const Plan& plan, const std::string& format);
 
 }  // namespace drape::graph

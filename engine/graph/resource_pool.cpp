@@ -9,7 +9,7 @@
 namespace drape::graph {
 namespace {
 
-/// One physical resource: how it is declared, and what all plans together do to it.
+/// One physical resource: its declaration, and the uses of all plans together.
 struct Wanted {
     const Resource* resource = nullptr;
     bool used = false;
@@ -105,8 +105,8 @@ std::uint64_t total_bytes(const WantedByName& all) {
 vulkan::ImageDescription describe_image(const Wanted& wanted) {
     const ImageDeclaration& image = wanted.resource->image;
     VkImageUsageFlags usage = wanted.image_usage;
-    // For set-up and for whoever wants to look at intermediate results; multisampled images cannot be copied
-    // to a buffer, and must not lose the chance to live in tile memory.
+    // Set-up needs this, and whoever wants to look at intermediate results; multisampled images cannot be copied to a
+    // buffer, and must not lose the chance to live in tile memory.
     if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
         usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     }
@@ -171,7 +171,7 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
         }
     }
     device.run_once([&](VkCommandBuffer commands) {
-        // First, since their memory is cleared with the whole.
+        // Slices come first, since their memory is cleared with the whole.
         for (const auto& [name, slice] : slices_) record_to_general(commands, *slice);
         for (const auto& [name, image] : images_) {
             if (set_up_once(*all.at(name).resource) || image.buffer()) record_clear(commands, image);

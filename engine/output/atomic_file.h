@@ -12,7 +12,7 @@
 
 namespace drape {
 
-// What the manifest says about one finished file.
+// The manifest's record of one finished file.
 struct FileRecord {
     std::string name;
     std::uint64_t bytes = 0;
@@ -23,14 +23,13 @@ struct FileRecord {
 
 inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-// XXH3-128 of some bytes as 32 hexadecimal digits.
+// Returns the XXH3-128 of some bytes as 32 hexadecimal digits.
 std::string xxh3_128_hex(std::span<const std::byte> bytes);
 std::string xxh3_128_hex(std::string_view text);
 
-// A file that appears under its name complete or not at all: written as <name>.tmp-<process id> in the same
-// folder, synced, then renamed over any file of that name. Without commit() the destructor removes the
-// temporary. Every member throws OutputError naming the path and the system's reason (a full disk shows in
-// any of them).
+// A file that appears under its name complete or not at all: it is written as <name>.tmp-<process id> in the same
+// folder, synced, then renamed over any file of that name. Without commit() the destructor removes the temporary. Every
+// member throws OutputError naming the path and the system's reason (a full disk shows in any of them).
 class AtomicFile {
   public:
     AtomicFile(OutputFolder& folder, std::string name);
@@ -42,7 +41,7 @@ class AtomicFile {
     // Overwrites bytes appended before (a header known only at the end).
     void rewrite(std::uint64_t offset, std::span<const std::byte> bytes);
     std::uint64_t size() const { return size_; }
-    // To read back what was written so far; the file has no name of its own yet.
+    // The file can be read back before it has a name of its own.
     int descriptor() const { return descriptor_.get(); }
 
     FileRecord commit();
@@ -62,10 +61,9 @@ class AtomicFile {
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> hash_state_;
 };
 
-// Writes a whole file.
 FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<const std::byte> bytes);
 
-// Writes a whole file anywhere, in a folder that exists, in the same way; for results that are not a run's.
+// Writes a whole file in the same way anywhere in a folder that exists, for results that are not a run's.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace drape

@@ -9,13 +9,13 @@
 
 namespace drape {
 
-// What a failed run leaves to be replayed.
+// A failed run leaves this file to be replayed.
 inline constexpr std::string_view capsule_file_name = "failure.capsule";
 
-// What the writers of an unfinished run were told (journal.h).
+// This file says what the writers of an unfinished run were told (journal.h).
 inline constexpr std::string_view journal_file_name = "journal.drape";
 
-// "checkpoint_0000000120.drape": the state before frame 120. Sorted by name they are sorted by frame.
+// Returns "checkpoint_0000000120.drape" for the state before frame 120; sorted by name they are sorted by frame.
 inline std::string checkpoint_file_name(std::uint32_t next_frame) {
     return fmt::format("checkpoint_{:010}.drape", next_frame);
 }

@@ -6,7 +6,7 @@
 
 namespace drape {
 
-// Owns one open file descriptor; -1 is "none".
+// Owns one open file descriptor; -1 means none.
 class FileDescriptor {
   public:
     FileDescriptor() = default;

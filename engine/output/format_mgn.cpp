@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t normal_node = 0, handle_node = 3;  // NodeType of MeshGraphNets' common.py
 
-/// All cloths as one mesh, its nodes one cloth after the other. The frames wait in a file beside the archive.
+/// Writes all cloths as one mesh, cloth after cloth. The frames wait in a file beside the archive.
 class Trajectory : public FrameWriter {
   public:
     Trajectory(OutputFolder& folder, const WrittenRun& run)

@@ -12,7 +12,7 @@ namespace drape {
 
 namespace {
 
-/// What is there for every particle of every frame.
+/// An array that has values for every particle of every frame.
 struct ParticleArray {
     std::string_view name;
     NpyValues values = {};
@@ -20,7 +20,7 @@ struct ParticleArray {
 constexpr ParticleArray positions{"positions"}, velocities{"velocities"}, contacts{"contacts", {"<i2", 2, 1}};
 constexpr std::array<const ParticleArray*, 3> particle_arrays{&positions, &velocities, &contacts};
 
-/// Those of a cloth, under its own names, and those of a frame's effort, which is all cloths'.
+/// Returns a cloth's values under its own names, and those of the frame's effort, which is all cloths'.
 FrameValues numbers_of(const FrameValues& values, const std::string& label) {
     const std::string own = label + "/";
     FrameValues numbers;
@@ -37,7 +37,7 @@ std::string list_array(const char* type, const std::vector<T>& values) {
     return npy_array(type, fmt::format("{},", values.size()), std::as_bytes(std::span(values)));
 }
 
-/// The archive of one cloth. Its frames wait in files beside it, as a ZIP's parts cannot grow side by side.
+/// The archive of one cloth. Its frames wait in files beside it, because a ZIP's parts cannot grow side by side.
 class NpzFile {
   public:
     NpzFile(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)
@@ -49,7 +49,7 @@ class NpzFile {
         }
     }
 
-    /// Of the file that never appears under this name.
+    /// Frames wait in a file that never appears under this name.
     static std::string waiting_stem(const ParticleArray& array) { return fmt::format("frames_of_{}", array.name); }
 
     void add(const WrittenFrame& frame, std::size_t cloth) {

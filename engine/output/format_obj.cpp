@@ -6,7 +6,7 @@ namespace drape {
 
 namespace {
 
-/// Every particle, whatever was cut: the numbers stay.
+/// Every particle is a vertex, whatever was cut, so that the numbers stay.
 std::string mesh_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
     std::vector<std::uint32_t> particles(cloth.particle_count());
     std::iota(particles.begin(), particles.end(), 0u);

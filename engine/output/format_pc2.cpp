@@ -1,5 +1,5 @@
-// Point cache 2: http://mattebb.com/projects/bpython/pointcache/pc2.html (header of 32 bytes, then x y z of every
-// point, sample by sample). Blender, Maya and 3ds Max play it on the mesh beside it, whose vertices must keep their
+// Point cache 2 (http://mattebb.com/projects/bpython/pointcache/pc2.html) is a header of 32 bytes, then x y z of every
+// point, sample by sample. Blender, Maya and 3ds Max play it on the mesh beside it, whose vertices must keep their
 // order.
 #include <algorithm>
 #include <bit>
@@ -21,7 +21,7 @@ struct Pc2Header {
 };
 static_assert(sizeof(Pc2Header) == 32);
 
-/// Those of some triangle: importers drop vertices that no face uses, and the rest would no longer fit.
+/// Returns the particles of any triangle: importers drop other vertices, and the rest would no longer fit.
 std::vector<std::uint32_t> used_particles(const WrittenCloth& cloth) {
     std::vector<std::uint32_t> used = cloth.faces;
     std::ranges::sort(used);

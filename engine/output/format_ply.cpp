@@ -1,4 +1,4 @@
-// Polygon file format, binary: a text header, then vertices (x y z, s t) and triangles as they lie in memory.
+// A binary PLY file is a text header, then vertices (x y z, s t) and triangles as they lie in memory.
 #include <fmt/format.h>
 
 #include <bit>

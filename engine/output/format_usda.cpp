@@ -1,5 +1,5 @@
-// Universal Scene Description as text: https://openusd.org/release/spec_usdpreviewsurface.html is about materials; the
-// mesh schema is UsdGeomMesh, https://openusd.org/release/api/class_usd_geom_mesh.html. One file per cloth, whose
+// Universal Scene Description has materials (https://openusd.org/release/spec_usdpreviewsurface.html) and the mesh
+// schema UsdGeomMesh (https://openusd.org/release/api/class_usd_geom_mesh.html). Each cloth has a text file, whose
 // points are time samples by frame number.
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace drape {
 
 namespace {
 
-/// A prim's name: letters, digits and underscores, no digit first.
+/// Makes a prim's name: letters, digits and underscores, no digit first.
 std::string identifier(const std::string& name) {
     std::string text = name.empty() ? "cloth" : name;
     const auto fits = [](char c) {
@@ -70,7 +70,7 @@ class UsdaFile {
         last_ = frame;
     }
 
-    /// A sample holds until the next one; what was cut before the first frame is its own.
+    /// A sample holds until the next one; a cut before the first frame changes the first sample.
     void set_faces(std::uint32_t frame, const std::vector<std::uint32_t>& faces) {
         if (frame <= faces_.back().first)
             faces_.back().second = faces;
@@ -87,7 +87,7 @@ class UsdaFile {
     }
 
   private:
-    /// As wide for any frame, so that it can be corrected in place.
+    /// Every frame's text is as wide, so that it can be corrected in place.
     static std::string end_text(std::uint32_t frame) { return fmt::format("{:<10}", frame); }
 
     void put(const std::string& text) { file_.append(bytes_of(text)); }
@@ -123,7 +123,7 @@ class UsdaFile {
     std::uint64_t end_place_ = 0;
     std::uint32_t last_ = 0;
     std::string extents_;
-    std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> faces_;  ///< from that frame on
+    std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> faces_;  ///< faces from that frame on
 };
 
 class UsdaFiles : public FrameWriter {

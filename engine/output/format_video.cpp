@@ -1,5 +1,5 @@
-// Uncompressed video, for a file or a pipe: YUV4MPEG2 (https://wiki.multimedia.cx/index.php/YUV4MPEG2), which says its
-// own size and rate, and bare pixels.
+// Uncompressed video for a file or a pipe is YUV4MPEG2 (https://wiki.multimedia.cx/index.php/YUV4MPEG2), which says its
+// own size and rate, or bare pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Rate {
     std::uint64_t numerator, denominator;
 };
 
-/// Written frames per second: whole ones, the 1001ths of television, or to a millionth.
+/// Returns the written frames per second: whole ones, the 1001ths of television, or to a millionth.
 Rate rate_of(const WrittenRun& run) {
     Rate rate{0, 1'000'000};
     for (const std::uint64_t denominator : {1001u, 1u}) {
@@ -29,14 +29,14 @@ Rate rate_of(const WrittenRun& run) {
     return {rate.numerator / common, rate.denominator / common};
 }
 
-/// Y'CbCr of BT.709, limited range, of an sRGB colour, in 65536ths: Kr = 0.2126, Kb = 0.0722.
+/// An sRGB colour as Y'CbCr of BT.709, limited range, in 65536ths: Kr = 0.2126, Kb = 0.0722.
 struct LumaChroma {
     std::int64_t y, cb, cr;
 };
 
 LumaChroma luma_chroma(const std::uint8_t* rgb) {
     const std::int64_t r = rgb[0], g = rgb[1], b = rgb[2];
-    // 219/255 of the luma; 224/255 of (b - y)/1.8556 and (r - y)/1.5748.
+    // The factors hold 219/255 of the luma, and 224/255 of (b - y)/1.8556 and (r - y)/1.5748.
     return {11966 * r + 40254 * g + 4064 * b, -6596 * r - 22189 * g + 28785 * b, 28784 * r - 26145 * g - 2639 * b};
 }
 
@@ -45,8 +45,8 @@ std::uint8_t rounded(std::int64_t value, std::int64_t scale, std::int64_t offset
     return static_cast<std::uint8_t>(std::clamp<std::int64_t>(shifted / scale, 0, 255));
 }
 
-/// 4:2:0 with the chroma between its four pixels. Odd sides get their last pixels twice, as encoders take even ones
-/// only.
+/// Makes 4:2:0 with the chroma between its four pixels. Odd sides get their last pixels twice, because encoders take
+/// even ones only.
 std::string y4m_frame(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height) {
     const std::uint32_t even_width = (width + 1) / 2 * 2, even_height = (height + 1) / 2 * 2;
     std::string luma, cb, cr;
@@ -83,7 +83,7 @@ std::string rgb_frame(std::span<const std::uint8_t> rgba, std::uint32_t width, s
 
 std::string no_header(const WrittenRun&) { return {}; }
 
-/// How a kind of video begins, and what it makes of a picture.
+/// A kind of video has its own beginning, and its own form of a picture.
 struct VideoKind {
     std::string_view file_name;
     std::string (*header)(const WrittenRun&);
@@ -97,7 +97,7 @@ class Video : public FrameWriter {
         : kind_(kind), width_(run.width), height_(run.height), sink_(std::move(sink)) {
         sink_(bytes_of(kind.header(run)));
     }
-    /// Into a file.
+    /// Writes into a file.
     Video(const VideoKind& kind, const WrittenRun& run, std::unique_ptr<AtomicFile> file)
         : Video(kind, run, [into = file.get()](std::span<const std::byte> bytes) { into->append(bytes); }) {
         file_ = std::move(file);

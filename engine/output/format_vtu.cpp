@@ -1,5 +1,5 @@
-// VTK's unstructured grids (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html): XML whose arrays are
-// appended as they lie in memory, and a collection that gives each file its time.
+// VTK's unstructured grids (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html) are XML whose arrays
+// are appended as they lie in memory; a collection gives each file its time.
 #include <fmt/format.h>
 
 #include <bit>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_waiting = std::size_t{1} << 20;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-// Of a row: the frame's number and how many values follow.
+// A row begins with the frame's number and how many values follow.
 using Head = std::array<std::uint32_t, 2>;
 
 }  // namespace
@@ -38,7 +38,7 @@ void FrameTable::add(std::uint32_t frame, const FrameValues& values) {
 }
 
 void FrameTable::write_waiting() {
-    // What is in it comes to the manifest, or is the only reason for which that would not be written.
+    // The error names the manifest: the values come to it, or are all that keeps it from being written.
     const auto error = [&] { return system_error_at("write", folder_.path_of(manifest_file_name), errno); };
     if (!file_) {
         folder_.begin_writing();
@@ -80,7 +80,7 @@ void FrameTable::scan(const std::function<void(const Row&)>& take) const {
     const std::uint64_t end = length_ + waiting_.size();
     std::vector<std::byte> block;
     std::vector<double> values;
-    std::uint64_t begin = 0;  // of the block
+    std::uint64_t begin = 0;  // where the block begins
     const auto copy = [&](std::uint64_t offset, std::span<std::byte> bytes) {
         if (offset + bytes.size() > begin + block.size() || offset < begin) {
             block.resize(std::min<std::uint64_t>(end - offset, std::max(most_waiting, bytes.size())));

@@ -14,39 +14,39 @@
 
 namespace drape {
 
-// Numbers about the frames of a run, however many: what comes to more than a megabyte waits in a file of the run's
-// folder that has no name, so that it ends with the program. Every member but the first throws OutputError.
+// Keeps numbers about the frames of a run, however many: what comes to more than a megabyte waits in a file of the
+// run's folder that has no name, so that it ends with the program. Every member but the first throws OutputError.
 class FrameTable {
   public:
     // `folder` must outlive this.
     explicit FrameTable(OutputFolder& folder) : folder_(folder) {}
 
-    // Frames come in any order; of a frame that comes twice the later values count. A value that is NaN is none.
+    // Frames come in any order; if one comes twice, the later values count. A value that is NaN is none.
     void add(std::uint32_t frame, const FrameValues& values);
 
     // Calls take(frame, values) for every frame, in order of their numbers.
     void for_each(const std::function<void(std::uint32_t, const FrameValues&)>& take) const;
 
-    // In the order in which frames were added: their numbers, and the values of a name, NaN where a frame has none.
+    // Return, in the order in which frames were added, their numbers and the values of a name, NaN where there is none.
     std::vector<std::uint32_t> frames() const;
     std::vector<double> column(const std::string& name) const;
-    // Of all frames, sorted.
+    // Returns the names of all frames' values, sorted.
     std::vector<std::string> names() const;
 
   private:
     struct Row {
-        std::uint64_t offset = 0;  // of its values
+        std::uint64_t offset = 0;  // where its values begin
         std::uint32_t frame = 0;
-        std::span<const double> values;  // the first columns'
+        std::span<const double> values;  // values of the first columns
     };
     void write_waiting();
     void read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
     void scan(const std::function<void(const Row&)>& take) const;
 
     OutputFolder& folder_;
-    std::map<std::string, std::size_t> columns_;  // by name; in the order in which names came
+    std::map<std::string, std::size_t> columns_;  // column of each name, in the order in which names came
     FileDescriptor file_;
-    std::uint64_t length_ = 0;  // of the file; what waits comes behind it
+    std::uint64_t length_ = 0;  // bytes in the file; what waits comes behind them
     std::vector<std::byte> waiting_;
 };
 

@@ -1,5 +1,5 @@
-// What a run writes its frames as: one file per format (format_*.cpp), which owns its file names, and one table of them
-// (output_formats.cpp).
+// A run writes its frames in formats. Each has one file (format_*.cpp), which owns its file names, and a row of one
+// table (output_formats.cpp).
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ namespace drape {
 
 /// A cloth as its files describe it. Particles are numbered row * columns + column, before and after any cut.
 struct WrittenCloth {
-    std::string name;  ///< for its files' names; empty when it is the only one
+    std::string name;  ///< part of its files' names; empty when it is the only one
     std::uint32_t columns = 0, rows = 0;
     std::vector<std::uint32_t> faces;  ///< three particles per triangle, uncut
-    std::string label = {};            ///< what the scene calls it: WrittenFrame::values has "<label>/..."
+    std::string label = {};            ///< the scene's name for it: WrittenFrame::values has "<label>/..."
     std::array<double, 2> size{1, 1};  ///< metres along columns, rows
     std::vector<bool> held{};          ///< by particle: pinned at the start; empty: none
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
-    /// Where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
+    /// Returns where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
     std::array<float, 2> uv(std::size_t particle) const;
 };
 
@@ -36,14 +36,14 @@ struct WrittenRun {
     double fps = 60;
     bool cuts = false;  ///< faces may change
     std::uint32_t width = 0, height = 0;
-    std::string key;                ///< kept_frames.h
+    std::string key;                ///< the run's key (kept_frames.h)
     std::string scene, parameters;  ///< JSON: the scene with its defaults written out; what the run chose
-    std::uint32_t seed = 0;         ///< of the gusts
+    std::uint32_t seed = 0;         ///< decides the gusts
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };
 
-/// Valid during FrameWriter::add. What the format does not need may be empty.
+/// A frame is valid during FrameWriter::add. What the format does not need may be empty.
 struct WrittenFrame {
     std::uint32_t number = 0;
     std::span<const std::uint8_t> rgba;                   ///< rows from the top, sRGB
@@ -62,15 +62,15 @@ class FrameWriter {
     FrameWriter& operator=(const FrameWriter&) = delete;
     virtual ~FrameWriter() = default;
 
-    /// In order of frames.
+    /// Adds frames in their order.
     virtual void add(const WrittenFrame& frame) = 0;
-    /// From `frame` on, which was not added yet, these are the cloth's triangles: those that no cut has split.
+    /// The cloth has these triangles, which no cut has split, from `frame` on, which was not added yet.
     virtual void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
         (void)frame, (void)cloth, (void)faces;
     }
     /// Waits until the files of the single frames added so far are whole.
     virtual void flush() {}
-    /// The files written, of the frames added so far. Nothing may be added after.
+    /// Returns the files written for the frames added so far. Nothing may be added after.
     virtual std::vector<FileRecord> finish() = 0;
 };
 
@@ -80,19 +80,19 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// A row of the table. The command line's help, the check of its options, docs/export_formats.md (usage_test) and the
 /// names that `--overwrite` may remove follow from these.
 struct OutputFormat {
-    std::string_view name;     ///< of --export
+    std::string_view name;     ///< value of --export
     std::string_view files;    ///< "positions.npy": with one cloth; FRAME stands for at least four digits
-    std::string_view holds;    ///< what is in them
+    std::string_view holds;    ///< says what is in them
     bool draws = false;        ///< needs WrittenFrame::rgba, else positions
     bool details = false;      ///< needs velocities and contacts
-    bool resumes = false;      ///< its files say which run they are of (kept_frames.h); others' are written anew
+    bool resumes = false;      ///< its files name their run (kept_frames.h); others' are written anew
     bool follows_cuts = true;  ///< its faces may change; false: such a scene is refused
     bool frame_files;          ///< a file per frame, each a result; else files that appear when the run is complete
-    /// Whether the format may give a file this name.
+    /// Returns whether the format may give a file this name.
     bool (*owns)(std::string_view file_name);
-    /// The folder must outlive the writer.
+    /// Opens a writer, which the folder must outlive.
     std::unique_ptr<FrameWriter> (*open)(OutputFolder& folder, const WrittenRun& run);
-    /// Without a folder, to a stream (`-o -`); null: it cannot.
+    /// Opens a writer without a folder, to a stream (`-o -`); null: it cannot.
     std::unique_ptr<FrameWriter> (*stream)(const ByteSink& sink, const WrittenRun& run) = nullptr;
 };
 
@@ -102,23 +102,23 @@ std::unique_ptr<FrameWriter> open_writer(OutputFolder& folder, const WrittenRun&
 }
 
 std::span<const OutputFormat* const> output_formats();
-/// Nothing when there is none of that name.
+/// Returns null when no format has that name.
 const OutputFormat* find_output_format(std::string_view name);
-/// Whether --export takes it: all but the pictures themselves; `drawn`: also those made of pictures.
+/// Returns whether --export takes it: all but the pictures themselves; `drawn`: also those made of pictures.
 bool exported(const OutputFormat& format, bool drawn);
-/// "npy, npz, ...": those that --export takes.
+/// Returns "npy, npz, ...": those that --export takes.
 std::string export_format_names(bool drawn);
-/// Those that can be a stream: "y4m, rgb".
+/// Returns "y4m, rgb": those that can be a stream.
 std::string stream_format_names();
 
-/// Digits of the frame numbers in file names: enough for the last frame, at least four.
+/// Returns the digits of the frame numbers in file names: enough for the last frame, at least four.
 int frame_digits(std::uint64_t last_frame);
 
-/// "positions.npy", or "positions_flag.npy" for one of several cloths.
+/// Returns "positions.npy", or "positions_flag.npy" for one of several cloths.
 std::string cloth_file_name(std::string_view stem, const WrittenCloth& cloth, std::string_view extension);
 bool is_cloth_file_name(std::string_view name, std::string_view stem, std::string_view extension);
 
-/// "mesh_0031.obj", or "mesh_flag_0031.obj" for one of several cloths.
+/// Returns "mesh_0031.obj", or "mesh_flag_0031.obj" for one of several cloths.
 std::string cloth_frame_file_name(std::string_view stem, const WrittenCloth& cloth, std::uint64_t frame, int digits,
                                   std::string_view extension);
 bool is_cloth_frame_file_name(std::string_view name, std::string_view stem, std::string_view extension);

@@ -14,38 +14,38 @@
 
 namespace drape {
 
-// A frame that was handed to the writers, or a cut, in the order in which they were told of them.
+// A record is a frame that was handed to the writers, or a cut, in the order in which they were told of them.
 struct JournalRecord {
     enum class Kind : std::uint32_t { frame, cut };
     Kind kind = Kind::frame;
     std::uint32_t frame = 0;
-    FrameValues values{};  // of a frame
-    // Of a frame, per cloth: x y z w of every particle; empty where no format needs them.
+    FrameValues values{};  // only with a frame
+    // Only with a frame, per cloth: x y z w of every particle; empty where no format needs them.
     std::vector<std::vector<float>> positions{}, velocities{};
-    std::uint32_t cloth = 0, springs = 0, triangles = 0, crumbs = 0;  // of a cut
-    std::vector<std::uint32_t> faces{};                               // of a cut
+    std::uint32_t cloth = 0, springs = 0, triangles = 0, crumbs = 0;  // only with a cut
+    std::vector<std::uint32_t> faces{};                               // only with a cut
 };
 
-// A record's content (engine/docs/checkpoint.md) and back. decode_record throws Error when it is none.
+// Convert a record's content (engine/docs/checkpoint.md). decode_record throws Error when the bytes are none.
 std::vector<std::byte> encode_record(const JournalRecord& record);
 JournalRecord decode_record(std::span<const std::byte> bytes);
 
-// What the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same (its
-// arrays appear only when complete). Short runs never write it: records wait in memory until there is a checkpoint, or
-// too many of them; from then on few wait, so that a run's memory does not depend on how many frames lie between
-// checkpoints. Every member throws OutputError.
+// Keeps what the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same
+// (its arrays appear only when complete). Short runs never write it: records wait in memory until there is a
+// checkpoint, or too many of them; from then on few wait, so that a run's memory does not depend on how many frames lie
+// between checkpoints. Every member throws OutputError.
 class Journal {
   public:
     Journal(OutputFolder& folder, std::string run_key) : folder_(folder), run_key_(std::move(run_key)) {}
 
     void add(const JournalRecord& record);
-    // Everything added is on the disk; the file's length.
+    // Puts everything added on the disk, and returns the file's length.
     std::uint64_t sync();
 
-    // The records of the first `length` bytes, in order. Throws OutputError naming the file when it is not this run's,
-    // or damaged.
+    // Reads the records of the first `length` bytes, in order. Throws OutputError naming the file when it is not this
+    // run's, or damaged.
     void read(std::uint64_t length, const std::function<void(JournalRecord&&)>& take) const;
-    // Goes on behind the first `length` bytes of the file; what follows them goes.
+    // Goes on behind the first `length` bytes of the file, and drops what follows them.
     void go_on_behind(std::uint64_t length);
 
   private:
@@ -55,7 +55,7 @@ class Journal {
     OutputFolder& folder_;
     std::string run_key_;
     FileDescriptor file_;
-    std::uint64_t length_ = 0;  // written
+    std::uint64_t length_ = 0;  // bytes written
     std::vector<std::byte> waiting_;
 };
 

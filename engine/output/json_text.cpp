@@ -38,8 +38,7 @@ std::string leaf_text(const Json::Value& value, const std::string& pointer) {
     }
 }
 
-// Calls visit(prefix, child, child's pointer) for every child; prefix is the quoted key and colon in an
-// object.
+// Calls visit(prefix, child, child's pointer) for every child; prefix is the quoted key and colon in an object.
 template <class Visit>
 void for_each_child(const Json::Value& value, const std::string& pointer, const Visit& visit) {
     for (auto child = value.begin(); child != value.end(); ++child) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view remedy = "use --overwrite to replace an earlier run's files, or choose another folder";
 
-// Compared as text: a frame number may have more digits than any integer type.
+// Numbers are compared as text: one may have more digits than any integer type.
 std::string_view without_zeros(std::string_view digits) {
     const size_t first = digits.find_first_not_of('0');
     return first == std::string_view::npos ? "0" : digits.substr(first);
@@ -41,7 +41,7 @@ void check_text(const std::string& path, std::string_view name, const std::strin
         remedy));
 }
 
-// The values behind the frame's number.
+// Returns the values behind the frame's number.
 FrameValues values_in(const std::string& text) {
     FrameValues values;
     const size_t begin = text.find('{');

@@ -212,7 +212,7 @@ Json::Value solver_json(const Manifest::Solver& solver) {
     return json;
 }
 
-/// All but the statistics, which are an empty array.
+/// Returns all but the statistics, which are an empty array.
 Json::Value frameless_json(const Manifest& manifest) {
     Json::Value json;
     json["format"] = std::string(manifest_format);

@@ -17,10 +17,9 @@
 
 namespace drape {
 
-// What a run was and what it made. Written last: a folder with a manifest is finished.
-//
-// Two runs of the same program on the same scene and device give the same JSON but for the key "run" (when,
-// by which command line, how fast), which a comparison drops.
+// Says what a run was and what it made. It is written last: a folder with a manifest is finished. Two runs of the same
+// program on the same scene and device give the same JSON but for the key "run" (when, by which command line, how
+// fast), which a comparison drops.
 struct Manifest {
     struct Scene {
         std::string path;
@@ -46,8 +45,8 @@ struct Manifest {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
         std::uint32_t samples = 0;  // per pixel
-        std::string view;           // what it shows, when not what a camera would
-        double strain_range = 0;    // of a heat map: strain at its end; 0: no heat map
+        std::string view;           // name of the view, unless it shows what a camera would
+        double strain_range = 0;    // strain at the end of a heat map; 0: no heat map
     };
     struct Solver {
         std::string method;   // in use
@@ -55,9 +54,9 @@ struct Manifest {
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
         bool tethers = false;
-        std::string asked;                    // what the scene says, when that was to choose
-        std::string choice;                   // why that method
-        double tolerance = 0;                 // of the RMS stretch error; 0: none
+        std::string asked;                    // the scene's method, when that was to choose
+        std::string choice;                   // the reason for that method
+        double tolerance = 0;                 // bound of the RMS stretch error; 0: none
         std::optional<double> stretch_error;  // worst RMS of any written frame and cloth, as the device measured it
     };
     struct Validation {
@@ -71,13 +70,13 @@ struct Manifest {
     struct Compromise {
         std::string what;  // "<cloth>/stiffness"
         std::string reason;
-        std::uint32_t enough_substeps = 0;  // that would follow all of it; 0: none would
+        std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
     struct SelfCollision {
-        std::vector<std::string> cloths;                           // that meet themselves
+        std::vector<std::string> cloths;                           // those that meet themselves
         bool between_cloths = false;                               // all cloths meet each other
         std::optional<std::uint32_t> first_unproved;               // frame; nothing: no crossing in any substep
-        std::uint32_t most_pairs = 0;                              // that were near each other in a substep
+        std::uint32_t most_pairs = 0;                              // pairs that were near each other in a substep
         std::uint64_t truncated = 0;                               // motions cut short
         std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
         std::optional<std::uint32_t> apart_since;                  // frame from which on none of them crosses another
@@ -87,7 +86,7 @@ struct Manifest {
         std::string cloth;
         std::uint32_t spring_count = 0;    // cut
         std::uint32_t triangle_count = 0;  // split
-        std::uint32_t crumb_count = 0;     // there are now
+        std::uint32_t crumb_count = 0;     // crumbs that there are now
     };
     struct FrameTime {  // wall-clock milliseconds per frame
         double median = 0;
@@ -101,13 +100,13 @@ struct Manifest {
     using FrameVisitor = std::function<void(const FrameStatistics&)>;
 
     std::string program_version;
-    // "diverged", "tolerance missed": ended before its end, with what came before, or went on as it was asked to;
-    // "device failed", "output failed", "out of memory", "internal error": broke off; "validation messages"
+    // "diverged", "tolerance missed": the run ended before its end, with what came before, or went on as it was asked
+    // to; "device failed", "output failed", "out of memory", "internal error": it broke off; "validation messages"
     std::string status = "done";
-    std::string failure;                       // then why
-    std::string capsule;                       // file that replays it; empty: there is none
-    std::optional<FrameFailure> failed_frame;  // where a frame was no result
-    std::string run_key;                       // kept_frames.h
+    std::string failure;                       // the reason, when it is not done
+    std::string capsule;                       // file that replays the failure; empty: there is none
+    std::optional<FrameFailure> failed_frame;  // the frame that was no result
+    std::string run_key;                       // the run's key (kept_frames.h)
     Scene scene;
     Device device;
     Frames frames;
@@ -116,29 +115,28 @@ struct Manifest {
     Validation validation;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
-    std::vector<std::string> warnings;  // as they were told, compromises among them
+    std::vector<std::string> warnings;  // the texts that were told, compromises among them
     std::optional<SelfCollision> self_collision;
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
-    // Calls the visitor for every frame, in order: of a long run they are not all in memory. Null: there are none.
+    // Calls the visitor for every frame, in order, as a long run's are not all in memory. Null: there are none.
     std::function<void(const FrameVisitor&)> statistics;
 
-    // Under "run":
+    // The key "run" has these.
     std::string created;  // utc_timestamp()
     std::vector<std::string> command_line;
     std::optional<FrameTime> frame_time;
     std::map<std::string, double> stage_median_ms;  // stage -> median device milliseconds per frame
 };
 
-// Median, minimum and maximum; nothing for no frames.
+// Returns median, minimum and maximum; nothing for no frames.
 std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double> milliseconds);
 
-// "2024-05-31T12:00:00Z"
+// Returns a time as "2024-05-31T12:00:00Z".
 std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chrono::system_clock::now());
 
-// UTF-8 JSON, handed to `append` piece by piece; doubles with the fewest digits that read back as the same double.
-// Throws OutputError naming the number when one is not finite (JSON has no such numbers, and a run that has one is not
-// done).
+// Hands UTF-8 JSON to `append` piece by piece; doubles have the fewest digits that read back as the same double. Throws
+// OutputError naming the number when one is not finite (JSON has no such numbers, and a run that has one is not done).
 void put_manifest(const Manifest& manifest, const std::function<void(std::string_view)>& append);
 
 // Writes manifest.json after all files of the run have reached the disk. Throws OutputError.

@@ -1,4 +1,4 @@
-// Meshes as files: one per frame and cloth, in what a format makes of a mesh.
+// Writes meshes as files: one per frame and cloth, in what a format makes of a mesh.
 #pragma once
 
 #include "output/frame_writer.h"
@@ -11,15 +11,15 @@ struct WrittenMesh {
     std::span<const std::int16_t> contacts;
 };
 
-/// The mesh of a cloth, with its `faces`.
+/// Makes a text of the mesh of a cloth, with its `faces`.
 using MeshText = std::string (*)(const WrittenCloth& cloth, const WrittenMesh& mesh);
 
-/// Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all that the
-/// faces name, then the faces. Numbers have the fewest digits that read back as the same float.
+/// Returns a Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all
+/// that the faces name, then the faces. Numbers have the fewest digits that read back as the same float.
 std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
                      const std::vector<std::uint32_t>& particles);
 
-/// mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths.
+/// Writes mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths.
 class MeshSequence : public FrameWriter {
   public:
     MeshSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshText text)
@@ -36,7 +36,7 @@ class MeshSequence : public FrameWriter {
 
   private:
     OutputFolder& folder_;
-    WrittenRun run_;  ///< with the faces as they are now
+    WrittenRun run_;  ///< its faces are those of now
     std::string extension_;
     MeshText text_;
     std::vector<FileRecord> files_;

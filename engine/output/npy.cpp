@@ -12,8 +12,8 @@ static_assert(std::endian::native == std::endian::little, "frames are written as
 
 namespace {
 
-// One size whatever the frame count, so that the header can be corrected in place; a multiple of 64, so that
-// a memory map of the data is aligned. The longest dictionary is 101 bytes.
+// The header has one size whatever the frame count, so that it can be corrected in place; a multiple of 64, so that a
+// memory map of the data is aligned. The longest dictionary is 101 bytes.
 constexpr size_t header_bytes = 128;
 
 std::uint32_t checked_rows(const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,

@@ -9,52 +9,50 @@
 
 namespace drape {
 
-// x y z per particle, of x y z w.
+// Returns x y z per particle, from x y z w.
 std::vector<float> without_w(std::span<const float> xyzw);
 
-// What a NumPy file begins with: 128 bytes, so that the header of a file that grew can be replaced. `type` and `shape`
-// as below.
+// Returns the first 128 bytes of a NumPy file, which can be replaced once the file has grown. `type` and `shape` are as
+// below.
 std::string npy_header(const char* type, const std::string& shape);
 
-// A whole NumPy file: `type` as NumPy spells it ("<f4"), `shape` as in a tuple ("2, 3" or "2,").
+// Returns a whole NumPy file: `type` as NumPy spells it ("<f4"), `shape` as in a tuple ("2, 3" or "2,").
 std::string npy_array(const char* type, const std::string& shape, std::span<const std::byte> values);
 
-// A face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
+// Returns a face list: little-endian int32, shape [face, 3], particle indices row * columns + column.
 std::string face_array(std::span<const std::uint32_t> indices);
 
-// A JSON text, or any other of ASCII characters, as a string of no dimension.
+// Returns a JSON text, or any other of ASCII characters, as a string of no dimension.
 std::string text_array(std::string_view text);
 
-// What a frame's array holds for each particle.
+// The values that a frame's array holds for each particle.
 struct NpyValues {
     const char* type = "<f4";
-    std::uint32_t bytes = 4;       // of a component
+    std::uint32_t bytes = 4;       // per component
     std::uint32_t components = 3;  // 1: the array has no axis for them
 };
 
-// Streams frames into a NumPy file: C order, shape [frame, row, column, 3], positions as little-endian float32.
-// Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html (version 1.0). The file
-// appears at finish(); a writer that ends without it leaves nothing.
+// Streams frames into a NumPy file: C order, shape [frame, row, column, 3], positions as little-endian float32, in
+// version 1.0 of https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html. The file appears at finish();
+// a writer that ends without it leaves nothing.
 class NpyWriter {
   public:
-    // Throws std::invalid_argument when rows or columns are 0 or the array would exceed 2^63 bytes,
-    // OutputError.
+    // Throws std::invalid_argument when rows or columns are 0 or the array would exceed 2^63 bytes, and OutputError.
     NpyWriter(OutputFolder& folder, const std::string& name, std::uint64_t frame_count, std::uint32_t row_count,
               std::uint32_t column_count, const NpyValues& values = {});
 
-    // One frame of any type. Throws std::invalid_argument on another size.
+    // Appends one frame of any type. Throws std::invalid_argument on another size.
     void append_bytes(std::span<const std::byte> frame);
-    // One frame: row_count * column_count particles, x y z each. Throws std::invalid_argument on another
-    // size.
+    // Appends one frame: row_count * column_count particles, x y z each. Throws std::invalid_argument on another size.
     void append_frame(std::span<const float> xyz);
-    // The same from x y z w; w is dropped.
+    // Appends one frame of x y z w; w is dropped.
     void append_frame_xyzw(std::span<const float> xyzw);
 
     std::uint64_t frame_count() const { return written_count_; }
 
-    // The header is corrected when fewer or more frames came than announced (an interrupted run).
+    // Corrects the header when fewer or more frames came than announced (an interrupted run).
     FileRecord finish();
-    // The file as finish() would leave it, for a writer that ends without.
+    // Returns the file as finish() would leave it, for a writer that ends without.
     const AtomicFile& contents();
 
   private:

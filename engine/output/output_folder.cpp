@@ -37,14 +37,14 @@ bool is_finished_file_name(std::string_view name) {
            std::ranges::any_of(output_formats(), [&](const OutputFormat* format) { return format->owns(name); });
 }
 
-// One file per frame, of whatever run: beside the frames of another it would look like one of them.
+// A file of one frame, of whatever run, would look like one of another run's beside them.
 bool is_loose_frame_file_name(std::string_view name) {
     return std::ranges::any_of(output_formats(), [&](const OutputFormat* format) {
         return format->frame_files && !format->resumes && format->owns(name);
     });
 }
 
-// The file names a manifest lists, whatever they are (only names found in the folder are ever removed);
+// Returns the file names that a manifest lists, whatever they are (only names found in the folder are ever removed);
 // nothing when the file is not a manifest of this program.
 std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_path) {
     std::ifstream file(manifest_path, std::ios::binary);
@@ -59,7 +59,7 @@ std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_
             if (entry.isObject() && entry["name"].isString()) names.insert(entry["name"].asString());
         }
         return names;
-    } catch (const Json::Exception&) {  // nested too deeply
+    } catch (const Json::Exception&) {  // it is nested too deeply
         return std::nullopt;
     }
 }
@@ -145,8 +145,7 @@ void OutputFolder::create_missing_folders() {
         if (mkdir(prefix.c_str(), 0777) == 0) {
             created_folders_.push_back(prefix);
         } else if (const int error = errno; error != EEXIST) {
-            // A parent that exists may sit on a read-only file system, where mkdir says so before it says
-            // EEXIST.
+            // A parent that exists may sit on a read-only file system, where mkdir says so before it says EEXIST.
             std::error_code status_error;
             if (fs::is_directory(prefix, status_error)) continue;
             throw system_error_at("create output folder", prefix.string(), error);
@@ -227,7 +226,7 @@ std::vector<std::string> OutputFolder::file_names() const {
 }
 
 std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const {
-    // O_NONBLOCK: a named pipe must not make the program wait for a writer.
+    // O_NONBLOCK keeps a named pipe from making the program wait for a writer.
     const FileDescriptor file(openat(descriptor_.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (!file || fstat(file.get(), &status) != 0) throw system_error_at("read", path_of(name), errno);
@@ -237,7 +236,7 @@ std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const
         const ssize_t count = read(file.get(), bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw system_error_at("read", path_of(name), errno);
-        if (count == 0) bytes.resize(done);  // shortened meanwhile
+        if (count == 0) bytes.resize(done);  // it was shortened meanwhile
         done += static_cast<size_t>(count);
     }
     return bytes;
@@ -246,7 +245,7 @@ std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const
 void OutputFolder::begin_writing() {
     const std::scoped_lock lock(writing_mutex_);
     if (writing_begun_) return;
-    // The manifest first: a folder that lost some of its frames must not look done.
+    // The manifest goes first: a folder that lost some of its frames must not look done.
     std::ranges::stable_partition(files_to_remove_, [](const auto& name) { return name == manifest_file_name; });
     for (const std::string& name : files_to_remove_) {
         if (unlinkat(descriptor_.get(), name.c_str(), 0) != 0 && errno != ENOENT) {
@@ -257,7 +256,7 @@ void OutputFolder::begin_writing() {
 }
 
 void OutputFolder::sync() const {
-    // EINVAL: a file system that cannot sync folders.
+    // A file system that cannot sync folders gives EINVAL.
     if (fsync(descriptor_.get()) != 0 && errno != EINVAL) {
         throw system_error_at("write output folder", path_.string(), errno);
     }

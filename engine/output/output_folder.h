@@ -13,10 +13,10 @@
 namespace drape {
 
 inline constexpr std::string_view manifest_file_name = "manifest.json";
-// Value of the manifest's "format" key: how a later run knows that a manifest.json is drape's.
+// The manifest's "format" key has this value, by which a later run knows that a manifest.json is drape's.
 inline constexpr std::string_view manifest_format = "drape manifest 1";
 
-// What to do with a folder that is not empty.
+// A folder that is not empty can be treated so.
 enum class ExistingFiles {
     refuse,
     overwrite,  // remove what an earlier run wrote, leave every other file alone
@@ -24,17 +24,12 @@ enum class ExistingFiles {
                 // single frames that do not say which run they are of
 };
 
-// The folder of one run. While this object lives the folder is locked against other drape processes and files
-// in it are reached through its descriptor, so that renaming the folder or changing the working directory
-// does no harm.
-//
-// The constructor checks everything (kind, lock, content, writability) and changes nothing but creating a
-// missing folder and its missing parents, which are removed again when it throws, or when the object ends and
-// no file was written. An earlier run's files go at the first write, not before: a run that fails while
-// starting loses nothing.
-//
-// Also ignores SIGXFSZ unless the program handles it, so that a file size limit arrives as an error, not as a
-// death.
+// The folder of one run. While this object lives the folder is locked against other drape processes and files in it are
+// reached through its descriptor, so that renaming the folder or changing the working directory does no harm.
+// The constructor checks everything (kind, lock, content, writability) and changes nothing but creating a missing
+// folder and its missing parents, which are removed again when it throws, or when the object ends and no file was
+// written. An earlier run's files go at the first write, not before: a run that fails while starting loses nothing. It
+// also ignores SIGXFSZ unless the program handles it, so that a file size limit arrives as an error, not as a death.
 class OutputFolder {
   public:
     // Throws OutputError.
@@ -44,22 +39,21 @@ class OutputFolder {
     OutputFolder& operator=(const OutputFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    // Path of the file of this name, for messages.
+    // Returns the path of the file of this name, for messages.
     std::string path_of(std::string_view name) const { return (path_ / name).string(); }
     int descriptor() const { return descriptor_.get(); }
 
-    // False on a file system that cannot lock folders (some network ones): two processes are then not kept
+    // Returns false on a file system that cannot lock folders (some network ones): two processes are then not kept
     // apart.
     bool is_locked() const { return is_locked_; }
 
-    // The earlier run's files that the first write removes, sorted; empty unless overwriting or resuming.
+    // Returns the earlier run's files that the first write removes, sorted; empty unless overwriting or resuming.
     const std::vector<std::string>& files_to_remove() const { return files_to_remove_; }
 
     bool has_file(const std::string& name) const;
-    // Names of everything in the folder that is no folder itself, sorted. Throws OutputError.
+    // Returns the sorted names of everything in the folder that is no folder itself. Throws OutputError.
     std::vector<std::string> file_names() const;
-    // The whole file; a symbolic link or anything else that is no regular file is refused. Throws
-    // OutputError.
+    // Returns the whole file; refuses a symbolic link or anything else that is no regular file. Throws OutputError.
     std::vector<std::uint8_t> read_file(const std::string& name) const;
 
     // Removes files_to_remove() once. Every writer calls it; any thread may. Throws OutputError.
@@ -84,11 +78,11 @@ class OutputFolder {
     bool writing_begun_ = false;
 };
 
-// True for a name that stays in its folder: not empty, no '/', not "." or "..".
+// Returns whether a name stays in its folder: it is not empty, "." or "..", and has no '/'.
 bool is_plain_file_name(std::string_view name);
 
-// True for the names this program gives its files (those of its formats and manifest.json) and for the temporary names
-// they have while being written.
+// Return whether the program gives its files such a name (those of its formats and manifest.json) or, while they are
+// being written, such a temporary name.
 bool is_output_file_name(std::string_view name);
 bool is_temporary_file_name(std::string_view name);
 

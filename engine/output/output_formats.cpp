@@ -15,7 +15,7 @@ namespace {
 constexpr const OutputFormat* table[] = {&png_format,  &npy_format, &npz_format, &pc2_format, &obj_format, &ply_format,
                                          &usda_format, &vtu_format, &mgn_format, &y4m_format, &rgb_format};
 
-/// What stands between the two; nothing when the name does not begin and end so.
+/// Returns what stands between the two; nothing when the name does not begin and end so.
 std::optional<std::string_view> middle(std::string_view name, std::string_view begin, std::string_view end) {
     if (name.size() < begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end))
         return std::nullopt;

@@ -34,7 +34,7 @@ int append_bytes(spng_ctx*, void* user, void* source, size_t length) noexcept {
     const auto* bytes = static_cast<const std::uint8_t*>(source);
     try {
         png.insert(png.end(), bytes, bytes + length);
-    } catch (const std::bad_alloc&) {  // must not unwind through C
+    } catch (const std::bad_alloc&) {  // it must not unwind through C
         return SPNG_EMEM;
     }
     return 0;
@@ -100,11 +100,11 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     check(spng_set_png_stream(context.get(), append_bytes, &png), "set the stream");
     check(spng_set_ihdr(context.get(), &header), "set the header");
     check(spng_set_srgb(context.get(), 0), "set the sRGB chunk");
-    std::string kept_text = text;  // not const, as the encoder's structure wants it
+    std::string kept_text = text;  // the encoder's structure wants it not const
     set_text(context.get(), kept_text);
-    // Measured at 1080p on smooth, checkered and unevenly lit pictures: level 1 without filters takes 15 to
-    // 23 ms for 300 to 600 KB; with the sub or up filter 25 to 40 ms for 370 to 860 KB; level 6 with sub 81
-    // ms. Pictures without noise repeat pixels exactly, which a filter hides from level 1's short search.
+    // Measured at 1080p on smooth, checkered and unevenly lit pictures, level 1 without filters takes 15 to 23 ms for
+    // 300 to 600 KB; with the sub or up filter 25 to 40 ms for 370 to 860 KB; level 6 with sub 81 ms. Pictures without
+    // noise repeat pixels exactly, which a filter hides from level 1's short search.
     check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1), "set the level");
     check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_NONE), "set the filter");
     check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE),

@@ -12,14 +12,13 @@ struct Picture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> rgb;
-    std::string text;  // of the tEXt chunk with the keyword "drape"; empty when there is none
+    std::string text;  // content of the tEXt chunk with the keyword "drape"; empty when there is none
 };
 
-// Encodes RGBA8 (sRGB-encoded, rows tightly packed from the top) as an RGB PNG with an sRGB chunk; alpha is
-// dropped. `png` is replaced; its memory is reused. `text`, unless empty, becomes a tEXt chunk with the
-// keyword "drape": Latin-1 without control characters. The bytes depend on the pixels and the text alone (and
-// on the zlib that is linked). Throws std::invalid_argument when the sizes do not fit, OutputError when the
-// encoder fails.
+// Encodes RGBA8 (sRGB-encoded, rows tightly packed from the top) as an RGB PNG with an sRGB chunk; alpha is dropped.
+// `png` is replaced; its memory is reused. `text`, unless empty, becomes a tEXt chunk with the keyword "drape": Latin-1
+// without control characters. The bytes depend on the pixels and the text alone (and on the zlib that is linked).
+// Throws std::invalid_argument when the sizes do not fit, OutputError when the encoder fails.
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                 std::vector<std::uint8_t>& png, const std::string& text = {});
 

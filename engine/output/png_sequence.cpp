@@ -15,7 +15,7 @@ std::string frame_file_name(std::uint64_t frame, int digits) {
 }
 
 bool is_frame_file_name(std::string_view name) {
-    // No cloth's name: a picture shows all of them.
+    // A picture shows all cloths, so its name has no cloth's.
     return is_cloth_frame_file_name(name, "frame", "png") && name.find('_') == name.rfind('_');
 }
 

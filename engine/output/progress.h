@@ -8,20 +8,19 @@
 
 namespace drape {
 
-// Says on stderr how far a run is: frame, share, milliseconds per frame, time left. On a terminal one line is
-// redrawn (at most ten times a second); elsewhere a line comes every 10 % or 30 s. No colours, so NO_COLOR
-// holds.
+// Says on stderr how far a run is: frame, share, milliseconds per frame, time left. On a terminal one line is redrawn
+// (at most ten times a second); elsewhere a line comes every 10 % or 30 s. There are no colours, so NO_COLOR holds.
 class Progress {
   public:
     struct Options {
         bool is_quiet = false;
-        bool is_terminal = false;                     // one that can redraw a line
+        bool is_terminal = false;                     // it can redraw a line
         std::function<double()> seconds;              // a steady clock
         std::function<void(std::string_view)> write;  // to stderr, unbuffered
         std::string_view unit = "frame";
-        std::size_t columns = 0;  // of the terminal: a longer line, which could not be redrawn, is cut; 0: unknown
+        std::size_t columns = 0;  // the terminal's: a longer line, which could not be redrawn, is cut; 0: unknown
     };
-    // For this process's stderr.
+    // Returns the options for this process's stderr.
     static Options standard_options(bool is_quiet);
 
     // The clock starts here.
@@ -31,7 +30,7 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // One more frame is done; its number is what the line shows, and after the times a note on it, if any.
+    // Counts a frame as done; the line shows its number, and after the times a note on it, if any.
     void frame_done(std::int64_t frame, std::string note = {});
 
     // Writes a line of text, also when quiet, without tearing the progress line.
@@ -50,7 +49,7 @@ class Progress {
     std::uint64_t done_count_ = 0;
     std::int64_t frame_ = 0;
     std::string note_;
-    std::deque<double> recent_;  // when the latest frames were done, oldest first
+    std::deque<double> recent_;  // times when the latest frames were done, oldest first
     double last_report_;
     std::uint64_t last_tenth_ = 0;
     bool line_is_open_ = false;

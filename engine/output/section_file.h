@@ -11,19 +11,19 @@
 
 namespace drape {
 
-// A file of named parts with a checksum (engine/docs/checkpoint.md).
+// A file of named parts ends with a checksum (engine/docs/checkpoint.md).
 using Sections = std::map<std::string, std::vector<std::byte>>;
 
 struct SectionFormat {
     std::string_view magic;  // 8 bytes
-    std::string_view what;   // "checkpoint"
+    std::string_view what;   // such as "checkpoint"
     std::uint32_t version;
 };
 
 inline constexpr SectionFormat checkpoint_format{"DRAPECKP", "checkpoint", 1};
 inline constexpr SectionFormat capsule_format{"DRAPECAP", "capsule", 1};
 
-// XXH3-128, low half first: what ends a file, of all before it.
+// A file ends with the XXH3-128, low half first, of all before it.
 using SectionChecksum = std::array<std::byte, 16>;
 SectionChecksum section_checksum(std::span<const std::byte> bytes);
 

@@ -1,4 +1,3 @@
-// Text within XML, SVG and HTML.
 #pragma once
 
 #include <string>
@@ -6,8 +5,8 @@
 
 namespace drape {
 
-/// For content and for attributes in double quotes. Control characters but tab and line feed, which XML cannot say,
-/// become spaces.
+/// Escapes text for XML, SVG and HTML, in content and in attributes in double quotes. Control characters but tab and
+/// line feed, which XML cannot say, become spaces.
 inline std::string xml_text(std::string_view text) {
     std::string result;
     for (const char c : text) {

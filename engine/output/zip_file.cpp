@@ -16,7 +16,7 @@ namespace {
 struct Target {
     AtomicFile& file;
     std::uint64_t position = 0;
-    std::exception_ptr failure;  ///< must not unwind through C
+    std::exception_ptr failure;  ///< kept here, as it must not unwind through C
     zip_error_t error{};
 
     zip_int64_t write(const void* data, std::uint64_t count) {

@@ -1,4 +1,3 @@
-// A ZIP archive of files stored as they are, by libzip.
 #pragma once
 
 #include <string>
@@ -9,13 +8,14 @@
 
 namespace drape {
 
-/// Appears under its name complete or not at all. The same parts give the same bytes: dates are those of no time.
+/// A ZIP archive of files as they are, which appears under its name complete or not at all. Its bytes depend on its
+/// parts alone, as every date is the same.
 class ZipFile {
   public:
     ZipFile(OutputFolder& folder, std::string name) : file_(folder, std::move(name)) {}
 
     void add(std::string part_name, std::string bytes) { parts_.push_back({std::move(part_name), std::move(bytes)}); }
-    /// What `contents`, which must live until the commit, holds by then.
+    /// Adds what `contents`, which must live until the commit, holds by then.
     void add(std::string part_name, const AtomicFile& contents) {
         parts_.push_back({std::move(part_name), {}, &contents});
     }

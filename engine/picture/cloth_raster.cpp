@@ -6,7 +6,7 @@ namespace drape {
 
 namespace {
 
-/// m, of the stretch springs along columns, rows; 0 where there are none.
+/// Returns the rest lengths of the stretch springs along columns, rows, m; 0 where there are none.
 std::array<double, 2> rest_lengths(const ClothModel& cloth) {
     const StiffnessConstants& constants = cloth.stiffness_constant;
     return {constants.spring[0] > 0 ? constants.rest_length[0] : 0,

@@ -1,4 +1,4 @@
-// The raster pass as the cuts so far ask for it.
+// Makes the raster pass as the cuts so far ask for it.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ class ClothRaster {
 
   private:
     std::unique_ptr<RasterPass> pass_;
-    bool cut_ = false, masked_ = false;  ///< what it was made for
+    bool cut_ = false, masked_ = false;  ///< the pass was made for these
 };
 
 }  // namespace drape

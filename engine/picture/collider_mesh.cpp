@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// What may hide most first: planes last.
+/// Kinds that may hide most come first, planes last.
 constexpr auto drawing_order = [] {
     std::array<int, glsl::collider_kind_count> kinds{};
     for (int kind = 0; kind < glsl::collider_kind_count; ++kind)
@@ -30,7 +30,7 @@ glsl::ColliderInstance instance(const ColliderPose& pose, const glsl::vec4& shap
             vec4({r[6], r[7], r[8]}, pose.center[2]), shape, linear_color(color)};
 }
 
-/// Unit vector in the plane of which the grid's lines follow: x for a floor.
+/// Returns a unit vector in the plane that the grid's lines follow: x for a floor.
 Vec3 tangent(const Vec3& normal) {
     const Vec3 along = std::abs(normal[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
     const double shared = dot(along, normal);
@@ -97,7 +97,7 @@ double radius_in_pixels(const Collider& collider, double time, const Camera& cam
     const Vec3 center = collider_pose(collider, time).center, eye = camera.position;
     const double nearest = std::hypot(center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]) - shape.reach;
     const double pixels =
-        0.5 * height / std::tan(0.5 * camera.fov * std::numbers::pi / 180);  // of what is as far as long
+        0.5 * height / std::tan(0.5 * camera.fov * std::numbers::pi / 180);  // pixels of what is as long as it is far
     return nearest > 0 ? radius / nearest * pixels : std::numeric_limits<double>::infinity();
 }
 

@@ -1,4 +1,4 @@
-// The scene's colliders as instances of the collider shaders' meshes, in one buffer per frame.
+// The scene's colliders become instances of the collider shaders' meshes, in one buffer per frame.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// sRGB 0..1 -> linear.
+/// Converts sRGB 0..1 to linear.
 glsl::vec4 linear_color(const Vec3& srgb);
 
 /// One instanced draw of the collider pipeline specialised to `kind` (shaders/shared/collider_types.h).
@@ -24,31 +24,31 @@ struct ColliderDraw {
     bool casts_shadow = false;
 };
 
-/// Segments around the round mesh of each kind (shaders/shared/collider_types.h).
+/// The round mesh of each kind has so many segments (shaders/shared/collider_types.h).
 using RoundColumns = std::array<std::uint32_t, glsl::collider_kind_count>;
 
-/// As few segments as keep the outline of a circle of `radius` pixels within a tenth of a pixel: radius (1 - cos(pi/n))
-/// is how far they cut into it. A multiple of 4, at least 12, at most most_round_columns.
+/// Returns as few segments as keep the outline of a circle of `radius` pixels within a tenth of a pixel: they cut into
+/// it by radius (1 - cos(pi/n)). It is a multiple of 4, at least 12, at most most_round_columns.
 std::uint32_t round_columns(double radius);
 
-/// Pixels, a bound: of a sphere, or of an ellipsoid's or capsule's largest circle, at `time` (s), as seen from the
-/// camera in a picture of so many rows. 0 for a shape that is not round.
+/// Returns a bound, in pixels, of a sphere, or of an ellipsoid's or capsule's largest circle, at `time` (s), as seen
+/// from the camera in a picture of so many rows. It is 0 for a shape that is not round.
 double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height);
 
-/// Kinds that the scene has, what may hide most first.
+/// Returns the kinds that the scene has, those that may hide most first.
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns);
 
-/// How planes, which have no end, are drawn: as a square around the point below `center`.
+/// Planes, which have no end, are drawn as a square around the point below `center`.
 struct PlaneExtent {
     Vec3 center{0, 0, 0};
     double half_side = 1;      ///< m
-    double line_distance = 1;  ///< m, of the grid drawn on it
+    double line_distance = 1;  ///< m, between lines of the grid drawn on it
 };
 
-/// As a plane is drawn: y is its normal, x and z run along the grid's lines.
+/// Returns the pose in which a plane is drawn: y is its normal, x and z run along the grid's lines.
 ColliderPose plane_pose(const Collider& plane, double time);
 
-/// In the order that `collider_draws` counts, poses at `time` (s).
+/// Returns them in the order that `collider_draws` counts, with poses at `time` (s).
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
                                                        const PlaneExtent& extent, double time);
 

@@ -16,7 +16,7 @@ constexpr std::size_t most_pins = 256;
 
 Vec3 middle(const Vec3& a, const Vec3& b) { return sum(sum({0, 0, 0}, a, 0.5), b, 0.5); }
 
-/// The fixtures of one cloth, sized after it.
+/// Finds the fixtures of one cloth, sized after it.
 class Fitter {
   public:
     Fitter(const SceneDescription& scene, const Cloth& cloth, std::vector<Fixture>& found)
@@ -45,12 +45,12 @@ class Fitter {
     }
     void add_knob(const Vec3& at, const Pin& pin, double radius = knob) { add(at, at, radius, pin); }
 
-    /// A pin of one row or column, or of a few beside each other, of which the outermost counts.
+    /// Fits a pin of one row or column, or of a few beside each other, of which the outermost counts.
     void fit_row(const Pin& pin) {
         const IndexBox& box = pin.particles;
         const double wide = cloth_.size[0] * (box.last[0] - box.first[0]) / (cloth_.grid[0] - 1.0);
         const double high = cloth_.size[1] * (box.last[1] - box.first[1]) / (cloth_.grid[1] - 1.0);
-        if (std::min(wide, high) > 0.25 * size_) return;  // an area, held by nothing that could be drawn
+        if (std::min(wide, high) > 0.25 * size_) return;  // an area is held by nothing that could be drawn
         std::array<std::uint32_t, 2> from = box.first, to = box.last;
         const std::size_t across = wide >= high ? 1 : 0;
         const bool at_end = box.last[across] + 1 == cloth_.grid[across] && box.first[across] > 0;
@@ -77,7 +77,7 @@ class Fitter {
         if (!upright) add_knob(from, pin, finial);
     }
 
-    /// Three or more points on one line that is not upright, held by pins that stay on it.
+    /// Fits three or more points on one line that is not upright, held by pins that stay on it.
     bool fit_rail(const std::vector<const Pin*>& points) {
         if (points.size() < 3) return false;
         Vec3 along = sum(first(*points.back()), first(*points.front()), -1);
@@ -115,7 +115,7 @@ class Fitter {
         add_knob(at, pin);
     }
 
-    // In units of the cloth's longer side.
+    // These are in units of the cloth's longer side.
     static constexpr double pole = 0.011, rail = 0.009, knob = 0.014, finial = 0.018, overhang = 0.05;
 
     const SceneDescription& scene_;

@@ -1,5 +1,4 @@
-// What holds a pinned cloth in the picture: poles, rails and knobs. They are drawn and cast shadows; no cloth touches
-// them.
+// Poles, rails and knobs hold a pinned cloth in the picture. They are drawn and cast shadows; no cloth touches them.
 #pragma once
 
 #include <vector>
@@ -13,16 +12,16 @@ struct Fixture {
     Vec3 from, to;      ///< m, before the pin moves
     double radius = 0;  ///< m
     MotionPath path;
-    Vec3 pivot;  ///< of the path's rotation, m
+    Vec3 pivot;  ///< m; the path rotates about it
 };
 
 /// A pinned row or column, and three or more single particles in a line, hang on a rail with a knob at each end, or on
 /// a pole with a knob on top when they stand upright; a single pinned particle hangs on a pole of its own where there
-/// is a floor to stand on and the pin does not move, and on a knob otherwise. Nothing where `image.fixtures` is false
-/// or more than 256 pins would need one.
+/// is a floor to stand on and the pin does not move, and on a knob otherwise. Nothing is drawn where `image.fixtures`
+/// is false or more than 256 pins would need one.
 std::vector<Fixture> fixtures(const SceneDescription& scene);
 
-/// As a collider that is drawn, at `time` (s).
+/// Returns the collider that is drawn for it at `time` (s).
 Collider posed(const Fixture& fixture, double time);
 
 }  // namespace drape

@@ -1,4 +1,3 @@
-// A frame that outlives the buffers it was read from.
 #pragma once
 
 #include <span>

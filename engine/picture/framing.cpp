@@ -33,7 +33,7 @@ struct Bounds {
     }
 };
 
-/// Corners of the cloth where it starts.
+/// Returns the corners of the cloth where it starts.
 std::array<Vec3, 4> corners(const Cloth& cloth) {
     std::array<Vec3, 4> result;
     for (std::uint32_t i = 0; i < 4; ++i)
@@ -60,7 +60,7 @@ Vec3 unit(const Vec3& v) {
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 0, 0};
 }
 
-/// Where `point` of a cloth comes to hang straight below the nearest of its pins.
+/// Returns where `point` of a cloth comes to hang straight below the nearest of its pins.
 std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& down) {
     std::optional<Vec3> place;
     double nearest = infinity;
@@ -77,7 +77,7 @@ std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& d
     return place;
 }
 
-/// Points that the picture should hold.
+/// Returns points that the picture should hold.
 std::vector<Vec3> subject(const SceneDescription& scene) {
     std::vector<Vec3> points;
     const Vec3 down = unit(scene.gravity);
@@ -112,7 +112,7 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
     return points;
 }
 
-/// Extents of the points seen from `eye` along `forward`: tangents of the angles to the outermost.
+/// The extents of points seen from `eye` along `forward` are tangents of the angles to the outermost.
 struct Seen {
     double left = infinity, right = -infinity, low = infinity, high = -infinity, nearest = infinity;
 };
@@ -143,7 +143,7 @@ Camera automatic_camera(const SceneDescription& scene, double aspect) {
     const Vec3 forward = unit({-0.5, -0.4, -0.85}), right = unit(cross(forward, {0, 1, 0}));
     const Vec3 up = cross(right, forward);
     const double half_high = std::tan(camera.fov * std::numbers::pi / 360) * 0.9, half_wide = half_high * aspect;
-    // The nearest distance that shows all of it, by bisection; the middle of what is seen becomes the target.
+    // Bisection finds the nearest distance that shows all of it; the middle of what is seen becomes the target.
     double near = 0.5 * size, far = 20 * size;
     for (int round = 0; round < 60; ++round) {
         const double distance = 0.5 * (near + far);

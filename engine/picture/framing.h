@@ -1,4 +1,4 @@
-// What a scene shows of itself: how far it reaches, and from where it is looked at when it does not say.
+// Finds how far a scene reaches, and from where it is looked at when it does not say.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ struct BoundingSphere {
     double radius = 1;
 };
 
-/// Around the cloths at their start (and where they would land on a plane below), the bounded colliders, and
-/// all of these wherever their key frames take them; cloths swing, so they count a quarter larger. An empty
-/// scene's: a sphere of radius 1 around the origin.
+/// Returns a sphere around the cloths at their start (and where they would land on a plane below), the bounded
+/// colliders, and all of these wherever their key frames take them; cloths swing, so they count a quarter larger. An
+/// empty scene has a sphere of radius 1 around the origin.
 BoundingSphere scene_extent(const SceneDescription& scene);
 
-/// The scene's camera; without one, a camera that looks from the right, the front and above at its colliders and at
-/// its cloths where they start, hang and land, as near as keeps all of them in the picture, whatever its shape.
+/// Returns the scene's camera; without one, a camera that looks from the right, the front and above at its colliders
+/// and at its cloths where they start, hang and land, as near as keeps all of them in the picture, whatever its shape.
 Camera picture_camera(const SceneDescription& scene, std::uint32_t width, std::uint32_t height);
 
 }  // namespace drape

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::uint32_t glyph_width = 5, glyph_height = 7, advance = 6;
 
-/// Five by seven pixels, rows from the top, the leftmost pixel in bit 4.
+/// A glyph has five by seven pixels, rows from the top, the leftmost pixel in bit 4.
 struct Glyph {
     char letter;
     std::array<std::uint8_t, glyph_height> rows;
 };
 
-/// What percentages and titles are made of.
+/// Percentages and titles are made of these.
 constexpr Glyph glyphs[] = {
     {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}}, {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
     {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}}, {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
@@ -37,9 +37,9 @@ constexpr Glyph glyphs[] = {
 
 using Color = std::array<double, 3>;
 constexpr Color ink{245, 245, 245}, paper{24, 24, 28};
-constexpr double paper_share = 0.72;  ///< of the panel; the rest is the picture behind it
+constexpr double paper_share = 0.72;  ///< share of the panel; the rest is the picture behind it
 
-/// Pixels of the picture per pixel of a letter.
+/// Returns the pixels of the picture per pixel of a letter.
 std::uint32_t letter_scale(std::uint32_t height) { return std::max(1u, (height + 180) / 360); }
 
 /// Part of a picture, and what is painted into it.
@@ -88,7 +88,7 @@ void draw_legend(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_
     const LegendBar bar = legend_bar(width, height);
     const std::array<std::string, 3> labels{percent_text(scale.high), percent_text(0.5 * (scale.low + scale.high)),
                                             percent_text(scale.low)};
-    std::size_t letters = scale.title.size();  // as wide as the widest line, counted from the bar
+    std::size_t letters = scale.title.size();  // the widest line's, counted from the bar
     for (const std::string& label : labels) letters = std::max(letters, label.size() + 2);
     const auto columns = static_cast<std::uint32_t>(letters) * advance * unit;
     canvas.fill(4 * unit, 4 * unit, columns + 13 * unit, bar.y + bar.height + 4 * unit, paper, paper_share);

@@ -1,4 +1,4 @@
-// The scale of a heat map, drawn into the finished picture.
+// Draws the scale of a heat map into the finished picture.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace drape {
 
-/// Least picture that gets a legend, pixels.
+/// Smaller pictures than this, in pixels, get no legend.
 inline constexpr std::uint32_t legend_least_width = 160, legend_least_height = 120;
 
-/// Where the bar of colours is in a picture, pixels; its top row shows the scale's high end, its bottom row the low
-/// one.
+/// The bar of colours has this place in a picture, in pixels; its top row shows the scale's high end, its bottom row
+/// the low one.
 struct LegendBar {
     std::uint32_t x, y, width, height;
 };
 LegendBar legend_bar(std::uint32_t width, std::uint32_t height);
 
-/// A strain as percent, with as many digits as it takes: "2.5%".
+/// Returns a strain as percent, with as many digits as it takes: "2.5%".
 std::string percent_text(double strain);
 
 /// Draws the scale at the left of `rgba` (rows from the top, 8-bit sRGB, four bytes a pixel): a bar with its title and

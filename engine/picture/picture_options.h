@@ -1,4 +1,4 @@
-// What is asked of the pictures of a run.
+// A run asks this of its pictures.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What framing and fixtures share.
+// Framing and fixtures share this.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace drape {
 
-/// a + scale * b.
+/// Returns a + scale * b.
 inline Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
 }
 
-/// Height of the highest level floor that is not above `height`, m; nothing without one.
+/// Returns the height of the highest level floor that is not above `height`, m; nothing without one.
 inline std::optional<double> floor_below(const std::vector<Collider>& colliders, double height) {
     std::optional<double> found;
     for (const Collider& collider : colliders) {

@@ -9,8 +9,8 @@ namespace drape {
 
 namespace {
 
-/// Frames that may wait for their pictures: a probe's and some, as long as their positions take no more than 64 MiB.
-/// Where cloth is cut no more than are in flight: a cut asks for the pictures of all before it.
+/// Returns how many frames may wait for their pictures: a probe's and some, as long as their positions take no more
+/// than 64 MiB. Where cloth is cut these are only those in flight, as a cut asks for the pictures of all before it.
 std::size_t most_pending(const SimulationModel& model) {
     constexpr std::size_t most = 16, most_bytes = std::size_t{64} << 20;
     if (!model.scene.cutters.empty()) return vulkan::frame_slot_count;
@@ -125,7 +125,7 @@ bool Pictures::is_there(const PendingPicture& picture) const {
 void Pictures::deliver(const Finished& finished) {
     const PendingPicture& first = pending_.front();
     const FinishedFrame frame = first.has_picture ? first.frame.frame() : drawn(first);
-    const PendingPicture done = std::move(pending_.front());  // what the frame's spans are of
+    const PendingPicture done = std::move(pending_.front());  // the frame's spans look into it
     pending_.pop_front();
     finished(frame);
 }

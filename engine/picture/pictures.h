@@ -1,5 +1,5 @@
-// Pictures that a device of their own draws while another simulates the next frames (Device::for_scene). It is given
-// positions alone: the normals, and what cuts left to draw, it makes as the simulating device would.
+// A device of its own draws pictures while another simulates the next frames (Device::for_scene). It is given positions
+// alone: it makes the normals, and what cuts left to draw, as the simulating device would.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@ namespace drape {
 /// A frame whose picture waits to be drawn, is being drawn, or is there.
 struct PendingPicture {
     FrameCopy frame;
-    std::optional<std::uint32_t> slot;  ///< that draws it
+    std::optional<std::uint32_t> slot;  ///< the slot that draws it
     bool has_picture = false;           ///< the copy has it
 };
 
@@ -32,9 +32,9 @@ class Pictures {
     /// of these three, and with positions only where the options want them. Waits for a picture only where more frames
     /// wait than may: those of a probe come all at once, and are to be drawn while the next ones are simulated.
     void draw(const FinishedFrame& frame, const Finished& finished);
-    /// Gives those whose pictures are there and begins to draw others. Waits for none.
+    /// Gives frames whose pictures are there and begins to draw others. Waits for none.
     void go_on(const Finished& finished);
-    /// Gives all that are not given yet.
+    /// Gives all frames that are not given yet.
     void flush(const Finished& finished);
     /// The next frames are of cloth that was cut like this.
     void follow(const std::vector<CutTopology>& topologies);
@@ -47,10 +47,10 @@ class Pictures {
     void allocate();
     void record();
     std::optional<std::uint32_t> free_slot() const;
-    /// As many of those that wait as there are slots.
+    /// Begins as many of those that wait as there are slots.
     void begin_waiting();
     void begin(PendingPicture& picture, std::uint32_t slot);
-    /// The frame of a slot, drawn; the picture lies in the slot's buffer.
+    /// Returns the frame of a slot, drawn; the picture lies in the slot's buffer.
     FinishedFrame drawn(const PendingPicture& picture);
     bool is_there(const PendingPicture& picture) const;
     /// Gives the first one.
@@ -65,7 +65,7 @@ class Pictures {
     graph::Plan plan_;
     std::unique_ptr<graph::ResourcePool> pool_;
     std::unique_ptr<graph::RecordedPlan> recorded_;
-    vulkan::FrameSlots slots_;  ///< goes, and waits for what is in flight, before what that uses
+    vulkan::FrameSlots slots_;  ///< goes, and waits for work in flight, before what that uses
     std::size_t most_pending_;
     std::deque<PendingPicture> pending_;  ///< in order
 };

@@ -17,7 +17,7 @@ namespace drape {
 using graph::Access;
 using graph::Handle;
 
-/// Newest handles of what a frame's passes write one after the other.
+/// A frame's passes write these one after the other; the handles are the newest.
 struct RasterPass::Targets {
     Handle frame;
     Handle colliders;    ///< invalid where no body is drawn
@@ -29,7 +29,7 @@ struct RasterPass::Targets {
 
 namespace {
 
-/// RGBA8 as one integer: a storage image that every device has.
+/// RGBA8 is one integer, as every device has such storage images.
 constexpr VkFormat color_format = VK_FORMAT_R32_UINT;
 /// Radiance goes beyond 1, and light is averaged before it is encoded.
 constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -78,7 +78,7 @@ glsl::StrainPush strain_push(const RasterCloth& cloth, const StrainScale& scale)
             {static_cast<float>(1 / range), static_cast<float>(-scale.low / range), 0, 0}};
 }
 
-/// As radiance: the tone curve turns them into the map's own colours.
+/// Returns the colours as radiance: the tone curve turns them into the map's own colours.
 std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) {
     std::array<glsl::vec4, glsl::heat_color_count> colors{};
     for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -89,7 +89,7 @@ std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) 
     return colors;
 }
 
-/// How a view draws cloths.
+/// A view draws cloths by these.
 struct ClothShaders {
     const char *vertex, *fragment;
     bool lit;
@@ -191,8 +191,8 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
                                   {"round_columns", range.round_columns}};
         state.constants = shadow_state.constants;
         state.constants.push_back({"light_count", lights});
-        // What has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that there the
-        // outer side turns the other way.
+        // A body that has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that
+        // there the outer side turns the other way.
         state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
         shadow_state.cull = VK_CULL_MODE_FRONT_BIT;
         draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
@@ -221,7 +221,7 @@ std::vector<Collider> RasterPass::drawn_bodies(double time) const {
     return bodies;
 }
 
-/// For the largest bodies of each kind, looked for at so many moments.
+/// Returns the columns for the largest bodies of each kind, looked for at so many moments.
 RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
     constexpr int moments = 64;
     const Camera camera = picture_camera(scene, width_, height_);

@@ -1,5 +1,5 @@
-// The picture of a frame: cloths from their images, colliders as their true shapes, the first light's shadow,
-// and the copy that the host reads.
+// Draws the picture of a frame: cloths from their images, colliders as their true shapes, the first light's shadow, and
+// the copy that the host reads.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@
 
 namespace drape {
 
-/// A cloth as the raster pass sees it. Images have one texel per particle, rgba32f: position (xyz metres) and
-/// normal (xyz unit, pointing to the front; zero where there is none). Indices are uint32,
-/// row * columns + column, corners of a triangle counter-clockwise seen from the front.
+/// A cloth as the raster pass sees it. Images have one texel per particle, rgba32f: position (xyz metres) and normal
+/// (xyz unit, pointing to the front; zero where there is none). Indices are uint32, row * columns + column, corners of
+/// a triangle counter-clockwise seen from the front.
 struct RasterCloth {
     std::string name;
     std::uint32_t columns = 0, rows = 0;
     double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
-    double thickness = 0;           ///< m, by which a collider that its triangles cut is drawn behind it
+    double thickness = 0;           ///< m; a collider that its triangles cut is drawn so far behind it
     Appearance appearance;
     graph::Handle position, normal, indices;
     std::uint32_t index_count = 0;
@@ -42,8 +42,8 @@ struct RasterOptions {
     bool shadow = true;
     PictureView view;
     bool cut = false;     ///< some cloth has cut vertices: their pipelines are made
-    bool masked = false;  ///< some cloth has spring shares: likewise
-    /// Pixels right and down by which the picture is moved: pictures moved by parts of a pixel add up to one of many
+    bool masked = false;  ///< some cloth has spring shares: their pipelines are made
+    /// The picture is moved by so many pixels right and down: pictures moved by parts of a pixel add up to one of many
     /// samples.
     std::array<double, 2> shift{0, 0};
 };
@@ -57,8 +57,8 @@ class RasterPass {
     RasterPass& operator=(const RasterPass&) = delete;
 
     /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow", "raster" and
-    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows
-    /// from the top, tightly packed. The graph's plans may run as long as this object lives.
+    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the
+    /// top, tightly packed. The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
     /// Fills the host inputs of a slot for the picture at `time` (s).
@@ -89,7 +89,7 @@ class RasterPass {
     };
     struct Targets;
 
-    /// What draws a cloth, by what it has.
+    /// A cloth is drawn by one of these, by what it has.
     struct ClothPipelines {
         std::unique_ptr<vulkan::GraphicsPipeline> whole, masked, cut;
         const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
@@ -108,9 +108,9 @@ class RasterPass {
     graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
-    bool resolves_;  ///< the samples, for the encoding pass cannot read them
+    bool resolves_;  ///< the samples, where the encoding pass cannot read them
     RoundColumns columns_in_picture(const SceneDescription& scene) const;
-    /// The scene's colliders and then its fixtures, at `time` (s).
+    /// Returns the scene's colliders and then its fixtures, at `time` (s).
     std::vector<Collider> drawn_bodies(double time) const;
 
     std::vector<Collider> colliders_;
@@ -120,7 +120,7 @@ class RasterPass {
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
     View view_;
-    std::optional<StrainScale> scale_;  ///< of a heat map
+    std::optional<StrainScale> scale_;  ///< only a heat map's
     ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
     Pipelines compute_;

@@ -28,7 +28,7 @@ void write_lights(const SceneDescription& scene, glsl::FrameConstants& constants
     }
 }
 
-/// Rows of (texel x, texel y, depth) in the shadow map from a point of the world.
+/// The rows give (texel x, texel y, depth) in the shadow map from a point of the world.
 struct ShadowMatrix {
     std::array<Vec3, 3> axes;
     std::array<double, 3> middle;
@@ -61,7 +61,7 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, g
     for (std::size_t i = 0; i < 3; ++i) constants.shadow_from_world[i] = texel(matrix.axes[i], matrix.middle[i]);
 }
 
-/// Directions of sight, in the world: [0] + x [1] + y [2] at the pixels' place (x, y).
+/// Returns the directions of sight, in the world: [0] + x [1] + y [2] at the pixels' place (x, y).
 std::array<Vec3, 3> sight_rays(const PictureGeometry& picture) {
     const Matrix4 view = view_matrix(picture.camera);
     const Matrix4 projection = projection_matrix(picture.camera, picture.width, picture.height);
@@ -74,17 +74,17 @@ std::array<Vec3, 3> sight_rays(const PictureGeometry& picture) {
     return {corner, x, y};
 }
 
-/// Axes of the floor's coordinates in the world; y is its normal.
+/// The floor's coordinates have these axes in the world; y is its normal.
 struct FloorFrame {
     Vec3 x, y, z, center;
 };
 
-/// Lambert's part of every light by the formula of include/shading.h: for a surface that neither shines nor lets light
-/// through.
+/// Writes Lambert's part of every light by the formula of include/shading.h, for a surface that neither shines nor lets
+/// light through.
 void write_floor_light(const SceneDescription& scene, const Collider& plane, const Vec3& normal,
                        glsl::FloorConstants& floor) {
     const glsl::vec4 albedo = linear_color(plane.color);
-    std::array<Vec3, 2> sums{};  // of all but the first light, of the first
+    std::array<Vec3, 2> sums{};  // all lights but the first, and the first
     const double up = 0.5 + 0.5 * normal[1];
     for (std::size_t k = 0; k < 3; ++k) sums[0][k] = scene.ambient[k] * up + scene.ambient_ground[k] * (1 - up);
     for (std::size_t i = 0; i < light_count(scene); ++i) {
@@ -100,7 +100,7 @@ void write_floor_light(const SceneDescription& scene, const Collider& plane, con
     floor.first = texel(lit(sums[1]), 0);
 }
 
-/// As include/raster_lights.h does it for any surface: moved off it by a texel, each texel compared with its plane.
+/// Does as include/raster_lights.h for any surface: moved off by a texel, each texel compared with its plane.
 void write_floor_shadow(const SceneDescription& scene, const BoundingSphere& extent, const FloorFrame& frame,
                         glsl::FloorConstants& floor) {
     const ShadowMatrix matrix = shadow_matrix(scene, extent);
@@ -116,7 +116,7 @@ void write_floor_shadow(const SceneDescription& scene, const BoundingSphere& ext
     floor.first.w = static_cast<float>(per_texel * dot(off_surface, matrix.axes[1]));
 }
 
-/// After lights and shadow.
+/// Lights and shadow are written before.
 void write_floor(const SceneDescription& scene, const Collider& collider, const PictureGeometry& picture,
                  glsl::FrameConstants& constants) {
     const PlaneExtent extent = plane_extent(picture.camera, picture.extent);
@@ -128,7 +128,7 @@ void write_floor(const SceneDescription& scene, const Collider& collider, const 
     const std::array<Vec3, 3> rays = sight_rays(picture);
     for (std::size_t i = 0; i < rays.size(); ++i) floor.ray[i] = texel(local(rays[i]), 0);
     floor.eye = texel(local(sum(picture.camera.position, pose.center, -1)), extent.line_distance);
-    // What lies on the floor stays whole: rounding may put it a little under.
+    // The floor hides nothing that lies on it: rounding may put that a little under.
     constants.above_floor = texel(normal, floor.eye.y * 1e-4 - dot(normal, pose.center));
     floor.fade = texel(local(sum(extent.center, pose.center, -1)), extent.half_side);
     write_floor_light(scene, collider, normal, floor);
@@ -147,7 +147,7 @@ double fade_radius(const Camera& camera, const BoundingSphere& extent) {
 }
 
 PlaneExtent plane_extent(const Camera& camera, const BoundingSphere& extent) {
-    // 1, 2 or 5 times a power of ten, so that lengths can be read off the picture.
+    // Lines are 1, 2 or 5 times a power of ten apart, so that lengths can be read off the picture.
     const double wanted = extent.radius / 2;
     const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
     const double step = wanted / decade;
@@ -162,7 +162,7 @@ std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, cons
         const ColliderPose pose = collider_pose(collider, 0);
         const Vec3 normal = rotate(pose.rotation, std::get<Plane>(collider.shape).normal);
         const double height = dot(normal, sum(camera.position, pose.center, -1));
-        // From lower down its pixels would be drawn from too few digits.
+        // Seen from lower down its pixels would be drawn from too few digits.
         if (height > 1e-3 * length(sum(camera.position, camera.target, -1))) return i;
     }
     return std::nullopt;

@@ -1,4 +1,4 @@
-// The frame constants of the raster shaders: camera, lights, backdrop, and the shadow map's fit.
+// Makes the frame constants of the raster shaders: camera, lights, backdrop, and the shadow map's fit.
 #pragma once
 
 #include <array>
@@ -13,23 +13,22 @@
 
 namespace drape {
 
-/// Lights that the pictures show.
+/// Returns how many lights the pictures show.
 std::uint32_t light_count(const SceneDescription& scene);
 
-/// Planes fade into the backdrop over this distance from the camera's target, m.
+/// Returns the distance from the camera's target over which planes fade into the backdrop, m.
 double fade_radius(const Camera& camera, const BoundingSphere& extent);
 PlaneExtent plane_extent(const Camera& camera, const BoundingSphere& extent);
 
-/// Of the colliders, the plane that the encoding pass draws behind all else: the first that keeps still with the camera
-/// above it.
+/// Returns the plane that the encoding pass draws behind all else: the first of the colliders that keeps still with the
+/// camera above it.
 std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, const Camera& camera);
 
-/// What a picture is taken of and with.
 struct PictureGeometry {
     Camera camera;
     BoundingSphere extent;
     std::uint32_t width = 0, height = 0;
-    std::array<double, 2> shift{0, 0};  ///< RasterOptions
+    std::array<double, 2> shift{0, 0};  ///< RasterOptions::shift
 };
 
 /// The shadow map looks along the first light and holds the extent. `floor`: null where there is none.

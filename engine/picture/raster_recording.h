@@ -1,4 +1,4 @@
-// The Vulkan commands of the raster passes.
+// Records the Vulkan commands of the raster passes.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// What a pass renders into; filled while the pass is set up, used when it is recorded.
+/// A pass renders into these; they are filled while it is set up, and used when it is recorded.
 struct RasterAttachments {
     graph::Handle color;
     graph::Handle depth = {};  ///< invalid: none
@@ -28,7 +28,7 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
 
-/// Tightly packed.
+/// Copies to tightly packed rows.
 void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);
 
 }  // namespace drape

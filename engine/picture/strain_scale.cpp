@@ -11,7 +11,7 @@ namespace {
 
 constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 20;
 
-/// N/m, on an edge that bears the cloth's weight, so many times as pins and folds gather it, or the wind's push.
+/// Returns N/m on an edge that bears the cloth's weight, as often as pins and folds gather it, or the wind's push.
 double edge_force(const Cloth& cloth, const SceneDescription& scene) {
     const double fastest = length(scene.wind.velocity) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
     const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;
@@ -19,7 +19,7 @@ double edge_force(const Cloth& cloth, const SceneDescription& scene) {
            std::max(cloth.size[0], cloth.size[1]);
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
     const double decade = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0})

@@ -1,4 +1,4 @@
-// Which colour of a picture stands for which strain.
+// Tells which colour of a picture stands for which strain.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ namespace drape {
 struct StrainScale {
     std::string_view title;
     const ColorMap* map;
-    double low, high;  ///< strains at the map's ends; what is beyond has the end's colour
+    double low, high;  ///< strains at the map's ends; beyond them the end's colour is shown
 };
 
-/// Strain at the end of the colour map where nobody asked for one: what 20 times the weight of a cloth would cause if
-/// it hung from one edge (in the shipped scenes the most stretched springs see 20 to 60 times, since pins and folds
-/// gather forces), or the wind's push on all of it; the largest of the cloths, rounded up to 1, 2 or 5 times a power of
-/// ten, from 0.1 % to 50 %. It depends on the scene alone, so that colours mean the same in every frame.
+/// Returns the strain at the end of the colour map where nobody asked for one: what 20 times the weight of a cloth
+/// would cause if it hung from one edge (in the shipped scenes the most stretched springs see 20 to 60 times, since
+/// pins and folds gather forces), or the wind's push on all of it; the largest of the cloths, rounded up to 1, 2 or 5
+/// times a power of ten, from 0.1 % to 50 %. The scene alone decides it, so that colours mean the same in all frames.
 double default_strain_range(const SceneDescription& scene);
 
-/// Nothing where the view shows no strain. `stretch` runs from 0 on, the others to both sides of 0.
+/// Returns nothing where the view shows no strain. `stretch` runs from 0 on, the others to both sides of 0.
 std::optional<StrainScale> strain_scale(const PictureView& view, const SceneDescription& scene);
 
 }  // namespace drape

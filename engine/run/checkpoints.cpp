@@ -47,7 +47,7 @@ std::optional<FrameFailure> get_failure(ByteReader& reader) {
     return failure;
 }
 
-/// Newest first.
+/// Returns the names of the checkpoints, newest first.
 std::vector<std::string> names_in(const OutputFolder& folder) {
     std::vector<std::string> names = folder.file_names();
     std::erase_if(names, [](const std::string& name) { return !is_checkpoint_file_name(name); });
@@ -113,7 +113,7 @@ std::optional<RunCheckpoint> Checkpoints::newest(const std::function<bool(const 
         try {
             found = true;
             if (usable(*checkpoint)) return checkpoint;
-        } catch (const OutputError& error) {  // the journal
+        } catch (const OutputError& error) {  // the journal is damaged
             found = false;
             damage = error.what();
             say(fmt::format("warning: {}: an older checkpoint is looked for", damage));
@@ -134,12 +134,12 @@ bool Checkpoints::due() const {
 
 void Checkpoints::write(RunCheckpoint checkpoint) {
     checkpoint.journal_length = journal_.sync();
-    folder_.sync();  // the names of the frames before it
+    folder_.sync();  // keeps the names of the frames before it
     const std::string name = checkpoint_file_name(checkpoint.next_frame);
     write_file(folder_, name, encode_sections(checkpoint_format, sections_of(checkpoint, run_key_)));
     folder_.sync();
     std::vector<std::string> names = names_in(folder_);
-    // Those after it are of a run that did not get so far with what is there now, or damaged.
+    // Those after it belong to a run that did not get so far with what is there now, or are damaged.
     std::erase_if(names, [&](const std::string& other) { return other == name; });
     const auto older = std::ranges::find_if(names, [&](const std::string& other) { return other < name; });
     for (const std::string& other : names)

@@ -1,4 +1,4 @@
-// Which collider each particle touches, from positions alone.
+// Finds the collider that each particle touches, from positions alone.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace drape {
 
-/// How near a particle is to the distance that contact keeps it at, cloth's thickness included, when it touches: a
-/// share of the shorter edge of the cloth's cells at rest.
+/// A particle touches when it is so near to the distance that contact keeps it at, cloth's thickness included: a share
+/// of the shorter edge of the cloth's cells at rest.
 inline constexpr double contact_reach = 1e-3;
 
-/// For every particle of a cloth the number of the nearest collider that it touches at a time (s), in the scene's order
-/// (planes, spheres, boxes, ellipsoids, capsules), or -1; held particles touch nothing. `xyzw`: as FinishedFrame has
-/// them. Distances are those that the solver's contacts see (shaders/include/colliders.h).
+/// Returns for every particle of a cloth the number of the nearest collider that it touches at a time (s), in the
+/// scene's order (planes, spheres, boxes, ellipsoids, capsules), or -1; held particles touch nothing. `xyzw` is as
+/// FinishedFrame has it. Distances are those that the solver's contacts see (shaders/include/colliders.h).
 std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::size_t cloth, double time,
                                             std::span<const float> xyzw);
 

@@ -1,4 +1,4 @@
-// The documented exit codes of the command line: the one list of them.
+// The command line documents these exit codes; there is no other list of them.
 #pragma once
 
 #include <array>
@@ -44,10 +44,10 @@ inline constexpr std::array<ExitCodeRow, 13> exit_code_rows{{
     {ExitCode::terminated, "terminated", "stopped by SIGTERM"},
 }};
 
-/// "0 ok, 1 file, ...", in lines of at most `columns`.
+/// Returns "0 ok, 1 file, ...", in lines of at most `columns`.
 std::string exit_code_list(std::size_t columns = 110);
 
-/// A line per code: number, name, meaning.
+/// Returns a line per code: number, name, meaning.
 std::string exit_code_table();
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// What an exception stands for: the exit code and the message that a command ends with.
+// An exception stands for the exit code and the message that a command ends with.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Failure {
     bool is_located = false;  ///< the text says itself where: nothing stands before it
 };
 
-/// Of the current exception. Call in a catch block.
+/// Returns the failure of the current exception. Call it in a catch block.
 Failure current_failure();
 
 }  // namespace drape

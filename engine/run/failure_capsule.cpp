@@ -20,7 +20,7 @@ namespace drape {
 namespace {
 
 constexpr const char *about_part = "about", *scene_part = "scene", *checkpoint_prefix = "checkpoint/";
-/// Not a frame's own: of the first frame too.
+/// This value is not a frame's own: it depends on the first frame too.
 constexpr const char* drift = "energy_drift_j";
 
 Json::Value settings_json(const FailureCapsule& capsule) {

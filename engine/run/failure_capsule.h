@@ -1,4 +1,4 @@
-// What a failed run leaves so that anybody can see it fail again: its scene, its settings, its device, its last
+// A failed run leaves a capsule so that anybody can see it fail again: its scene, its settings, its device, its last
 // checkpoint and what it said (engine/docs/checkpoint.md).
 #pragma once
 
@@ -21,22 +21,22 @@ struct FailureCapsule {
     std::string program_version, run_key;
     Manifest::Device device;
     std::string status, reason;          ///< as in the manifest
-    std::optional<FrameFailure> failed;  ///< where a frame was no result
+    std::optional<FrameFailure> failed;  ///< the frame that was no result
     /// The last frame that was handed out before, and its numbers.
     std::optional<Manifest::FrameStatistics> last_frame;
     std::optional<RunCheckpoint> checkpoint;
 };
 
-/// Into the folder, as capsule_file_name. Throws OutputError.
+/// Writes it into the folder, as capsule_file_name. Throws OutputError.
 void write_capsule(OutputFolder& folder, const FailureCapsule& capsule);
-/// Throws OutputError naming the file when it is none.
+/// Throws OutputError naming the file when it is no capsule.
 FailureCapsule read_capsule(const std::string& path);
-/// The same of a file's bytes. Throws OutputError with what is wrong, to be put behind the file's name.
+/// Decodes a file's bytes. Throws OutputError with what is wrong, to be put behind the file's name.
 FailureCapsule decode_capsule(std::span<const std::byte> file);
 
 struct ReplayRequest {
     std::string path;
-    std::string device;  ///< selector; empty: the capsule's, if it is there, else the default
+    std::string device;  ///< selects the device; empty: the capsule's, if it is there, else the default
     bool validate = false;
     std::function<void(const std::string&)> message;
     std::function<bool()> stop;
@@ -44,9 +44,9 @@ struct ReplayRequest {
 
 struct Replay {
     bool reached = false;      ///< the same failure, to the bit; else `text` says what was different
-    bool stopped = false;      ///< by `stop`
-    std::string text;          ///< what happened
-    std::exception_ptr error;  ///< of the failure, where there was one
+    bool stopped = false;      ///< `stop` ended it
+    std::string text;          ///< says what happened
+    std::exception_ptr error;  ///< the failure's, where there was one
 };
 
 /// Simulates from the capsule's checkpoint to its failure. Throws OutputError, SceneFailure, DeviceError.

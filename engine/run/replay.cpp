@@ -1,4 +1,4 @@
-// A failed run once more, from its capsule.
+// Runs a failed run once more, from its capsule.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace drape {
 
 namespace {
 
-/// The capsule's device where it is, unless another is asked for.
+/// Returns the capsule's device where it is, unless another is asked for.
 std::string device_for(const ReplayRequest& request, const FailureCapsule& capsule) {
     if (!request.device.empty()) return request.device;
     const std::vector<DeviceInfo> devices = Device::list();
@@ -19,7 +19,7 @@ std::string device_for(const ReplayRequest& request, const FailureCapsule& capsu
     return same == devices.end() ? std::string() : capsule.device.uuid;
 }
 
-/// Why bits may differ; empty: they may not.
+/// Returns why bits may differ; empty: they may not.
 std::string difference(const FailureCapsule& capsule, const DeviceInfo& device) {
     if (capsule.program_version != program_version())
         return fmt::format("the run was of version {}, this is {}", capsule.program_version, program_version());
@@ -29,7 +29,7 @@ std::string difference(const FailureCapsule& capsule, const DeviceInfo& device) 
     return {};
 }
 
-/// What is not as the capsule says of its last good frame.
+/// Returns what is not as the capsule says of its last good frame.
 std::string different_values(const FailureCapsule& capsule, const FrameValues& values) {
     for (const auto& [name, value] : capsule.last_frame->values) {
         const auto found = values.find(name);
@@ -40,7 +40,7 @@ std::string different_values(const FailureCapsule& capsule, const FrameValues& v
     return {};
 }
 
-/// To the failure or the end.
+/// Runs to the failure or the end.
 Replay replayed(Simulation& simulation, const FailureCapsule& capsule, const ReplayRequest& request) {
     Replay replay;
     std::string different;

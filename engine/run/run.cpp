@@ -27,7 +27,7 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
 }  // namespace
 
 LoadedScene load(const SceneRequest& request) {
-    // Read once: what is hashed is what is run, also when the file changes meanwhile or is a pipe.
+    // The file is read once: what is hashed is what is run, also when it changes meanwhile or is a pipe.
     return loaded_scene(request, read_scene(request.path, request.overrides));
 }
 
@@ -81,7 +81,7 @@ SceneDescription asked_scene(const SceneRequest& request) { return load(request)
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
-    const Device device(request.device, validation_if(request.validate));  // one graph, on one device
+    const Device device(request.device, validation_if(request.validate));  // there is one graph, on one device
     return Simulation(scene, simulation_options(request, draw, !draw, !draw), device).describe_plan(format);
 }
 

@@ -20,19 +20,19 @@
 
 namespace drape {
 
-/// The command line asks for something that cannot be: exit code 2.
+/// Thrown when the command line asks for something that cannot be: exit code 2.
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What the scene is asked to become. Unset values are the scene's own.
+/// A scene is asked to become this. Unset values are the scene's own.
 struct SceneRequest {
     std::string path;
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
     PictureView view;
-    std::string device;     ///< selector; empty: the best there is
+    std::string device;     ///< selects the device; empty: the best there is
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
     Kernels kernels = Kernels::automatic();
@@ -41,13 +41,13 @@ struct SceneRequest {
 struct RunRequest {
     SceneRequest scene;
     std::string output;  ///< folder
-    /// Instead of a folder: takes the bytes of the one format, which must be one that can be a stream. No manifest.
+    /// The one format, which must be able to be a stream, gives its bytes to this instead of a folder. No manifest.
     std::function<void(std::span<const std::byte>)> stream;
     ExistingFiles existing = ExistingFiles::refuse;
-    std::vector<std::string> formats{"png"};  ///< names of output/frame_writer.h's table
+    std::vector<std::string> formats{"png"};  ///< names in output/frame_writer.h's table
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
-    /// Seconds between checkpoints, and one where the run is stopped; nothing: none, not there either.
+    /// Seconds between checkpoints; a run that is stopped writes one too. Nothing: it writes none at all.
     std::optional<double> checkpoint_interval = 60;
     bool keep_failed = false;  ///< go on after a frame that is no result; one that is not finite ends the run anyway
     bool quiet = false;        ///< no progress
@@ -61,19 +61,18 @@ struct RunRequest {
 };
 
 struct RunSummary {
-    std::uint64_t frame_count = 0;            ///< written by this run
-    std::uint64_t kept_count = 0;             ///< of an earlier run, kept by ExistingFiles::resume
+    std::uint64_t frame_count = 0;            ///< frames written by this run
+    std::uint64_t kept_count = 0;             ///< frames of an earlier run, kept by ExistingFiles::resume
     std::uint64_t validation_count = 0;       ///< messages
     bool complete = true;                     ///< false: stopped before the last frame; no manifest was written
-    std::optional<std::uint32_t> checkpoint;  ///< where a stopped run can go on: the next frame
-    std::vector<std::string> dropped;         ///< formats of which a stopped run leaves nothing
+    std::optional<std::uint32_t> checkpoint;  ///< next frame, where a stopped run can go on
+    std::vector<std::string> dropped;         ///< formats that a stopped run leaves nothing of
     std::vector<std::string> warnings;
 };
 
-/// Reads, simulates, draws, writes; the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
+/// Reads, simulates, draws and writes, the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
 /// ToleranceMissed (where failed frames are kept, after the last), DeviceError; nothing is written before everything
 /// that can be checked up front has been.
-///
 /// ExistingFiles::resume goes on with an earlier run of the same scene, size, samples, view, program, device and
 /// driver: from its newest checkpoint (engine/docs/checkpoint.md), or, where there is none that serves, from frame 0,
 /// keeping the pictures. The folder then holds the bytes of an undisturbed run, but for the manifest's "run". Pictures
@@ -82,31 +81,31 @@ struct RunSummary {
 /// are written.
 RunSummary run_scene(const RunRequest& request);
 
-/// The scene as it is asked for. Throws SceneFailure.
+/// Returns the scene as it is asked for. Throws SceneFailure.
 SceneDescription asked_scene(const SceneRequest& request);
 
-/// The plan of one frame as text, json or dot. `draw`: with the picture's passes, else as `simulate` runs.
+/// Returns the plan of one frame as text, json or dot. `draw` adds the picture's passes; else it is as `simulate` runs.
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
 
 const char* program_version();
 
 struct LoadedScene {
     SceneDescription description;
-    std::string text;  ///< of the file
-    std::string hash;  ///< of the text and the overrides: what decides the result besides program and device
+    std::string text;  ///< text of the file
+    std::string hash;  ///< hash of the text and the overrides, which decide the result besides program and device
     std::vector<std::string> warnings;
 };
 
 /// Throws SceneFailure.
 LoadedScene load(const SceneRequest& request);
-/// The same of a text that was read before.
+/// Loads a text that was read before.
 LoadedScene load_text(const SceneRequest& request, std::string text);
 
 /// Two runs with the same key give the same bytes for the same frame.
 std::string key_of(const RunRequest& request, const LoadedScene& scene, const DeviceInfo& device);
 
 SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions, bool velocities);
-/// To run the scene with.
+/// Opens the device to run the scene with.
 Device device_of(const SceneRequest& request, const SceneDescription& scene, bool draws);
 
 }  // namespace drape

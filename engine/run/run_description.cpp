@@ -15,7 +15,7 @@ namespace drape {
 
 namespace {
 
-/// The scene as it is run, on one line of JSON.
+/// Returns the scene as it is run, on one line of JSON.
 std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded) {
     std::vector<std::string> overrides = request.overrides;
     const ImageSettings& image = loaded.description.image;
@@ -27,7 +27,7 @@ std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded
     return json_line(value);
 }
 
-/// What the run chose, for who reads its arrays alone.
+/// Returns what the run chose, for who reads its arrays alone.
 std::string run_parameters(const SceneDescription& scene, const Manifest& manifest) {
     Json::Value value(Json::objectValue);
     value["program_version"] = manifest.program_version;

@@ -1,4 +1,4 @@
-// A run into a folder: frames, then the manifest; checkpoints on the way.
+// Runs a scene into a folder: frames, then the manifest, with checkpoints on the way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,13 +48,13 @@ SimulationOptions run_options(const RunRequest& request) {
     return options;
 }
 
-/// Whether some format needs every picture, those of kept frames too.
+/// Returns whether some format needs every picture, those of kept frames too.
 bool needs_every_picture(const RunRequest& request) {
     return std::ranges::any_of(output_formats(request.formats),
                                [](const OutputFormat* format) { return format->draws && !format->resumes; });
 }
 
-/// Frames of the range that have to be handed out, and those whose pictures are there already.
+/// Some frames of the range have to be handed out; the pictures of others are there already.
 struct MissingFrames {
     std::set<std::uint32_t> frames;
     std::map<std::uint32_t, KeptFrame> kept;
@@ -76,14 +76,14 @@ MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const Ru
     return missing;
 }
 
-/// How a run ended before its end that would end there again, or with frames that are no result.
+/// A run that would end early at the same frame again, or has frames that are no result, failed so.
 struct RunFailure {
     std::string status, reason;
     std::optional<FrameFailure> frame;
     std::exception_ptr error;
 };
 
-/// The failure of a frame, to be told as its reason and `consequence`.
+/// Returns the failure of a frame, to be told as its reason and `consequence`.
 RunFailure frame_run_failure(const FrameError& error, bool of_tolerance, const std::string& consequence) {
     const std::string text = error.what() + consequence;
     return {of_tolerance ? "tolerance missed" : "diverged", error.what(), error.failure(),
@@ -91,7 +91,7 @@ RunFailure frame_run_failure(const FrameError& error, bool of_tolerance, const s
                          : std::make_exception_ptr(Diverged(text, error.failure()))};
 }
 
-/// What is said at the end of a run that went on.
+/// Returns what is said at the end of a run that went on.
 RunFailure kept_failure(const FrameFailure& failure) {
     return frame_run_failure(FrameError(failure.reason, failure), failure.kind == FrameFailure::Kind::tolerance,
                              "; it and what came after are kept, as --on-failure keep asks");
@@ -99,7 +99,7 @@ RunFailure kept_failure(const FrameFailure& failure) {
 
 constexpr const char* output_failed = "output failed";
 
-/// Of the exception being handled, which did not come from a frame's numbers.
+/// Returns the failure of the exception being handled, which did not come from a frame's numbers.
 RunFailure broken_run(const std::exception& error) {
     const char* status = dynamic_cast<const OutputError*>(&error)      ? output_failed
                          : dynamic_cast<const DeviceError*>(&error)    ? "device failed"
@@ -108,16 +108,16 @@ RunFailure broken_run(const std::exception& error) {
     return {status, error.what(), std::nullopt, std::current_exception()};
 }
 
-/// What a run goes by.
+/// A run goes by these parts.
 struct RunParts {
     const RunRequest& request;
     const MissingFrames& missing;
     Simulation& simulation;
     Sink& sink;
-    Checkpoints* checkpoints;  ///< nothing: of a stream
+    Checkpoints* checkpoints;  ///< nothing for a stream
     RunSummary& summary;
     std::optional<RunFailure>& failure;
-    std::uint64_t earlier_validation;  ///< messages, of a run that this one goes on
+    std::uint64_t earlier_validation;  ///< messages of a run that this one goes on
     const Device& device;
 };
 
@@ -141,7 +141,7 @@ bool run_with_checkpoints(const RunParts& run, std::uint32_t last,
     for (bool due = true; due;) {
         due = false;
         const auto pause = [&] {
-            // What method auto has simulated ahead is handed out first: that takes no time.
+            // Frames that method auto has simulated ahead are handed out first, which takes no time.
             if (!run.simulation.can_save()) return false;
             due = run.simulation.next_frame() > saved && run.checkpoints->due();
             return due || stopped();
@@ -188,7 +188,7 @@ bool write_frames(const RunParts& run, std::uint32_t last) {
     return false;
 }
 
-/// Throws Error for a record of other cloths: what wrote the file may have made its checksum as well.
+/// Throws Error for a record of other cloths: the writer of the file may have made its checksum as well.
 void expect_of_scene(const JournalRecord& record, const SceneDescription& scene) {
     const auto particles = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1]; };
     const auto fits = [&](const std::vector<std::vector<float>>& arrays) {
@@ -206,8 +206,8 @@ void expect_of_scene(const JournalRecord& record, const SceneDescription& scene)
         throw Error("a record of another scene");
 }
 
-/// The checkpoint that a run goes on from: what it does not simulate again has to be there, as pictures and, for
-/// arrays, in the journal.
+/// Returns the checkpoint that a run goes on from: what it does not simulate again has to be there, as pictures and,
+/// for arrays, in the journal.
 std::optional<RunCheckpoint> resumed_from(std::optional<Checkpoints>& checkpoints, const RunRequest& request,
                                           const SceneDescription& scene, const FrameRange& range,
                                           const MissingFrames& missing,
@@ -261,7 +261,7 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
 /// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
 bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
 
-/// Frame from which on cloths that started through each other are apart.
+/// Returns the frame from which on cloths that started through each other are apart.
 std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
     if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
     return *told.last_crossed + 1;
@@ -290,7 +290,7 @@ bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, 
     return write_frames(run, to_the_end ? range.end : *frames.rbegin());
 }
 
-/// What a run that did not keep what `auto` aims at is told.
+/// Returns what to tell a run that did not keep what `auto` aims at.
 std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics) {
     if (facts.limits_are_kept) return statistics.unpredictable();
     const double rms = statistics.worst_of_run("/stretch_error_rms").value_or(0),
@@ -302,7 +302,7 @@ std::optional<std::string> missed_limits(const SimulationFacts& facts, const Run
         rms, largest, facts.tolerance_rms, facts.tolerance_worst);
 }
 
-/// What a run is told whose cloths met and may have crossed; those that started so were told of before.
+/// Returns what to tell a run whose cloths met and may have crossed; those that started so were told of before.
 std::optional<std::string> lost_proof(const Simulation& simulation) {
     const std::optional<SelfContactReport> told = simulation.self_contact();
     if (!told || !told->first_unproved || *told->first_unproved == 0) return std::nullopt;
@@ -312,14 +312,14 @@ std::optional<std::string> lost_proof(const Simulation& simulation) {
         *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
 }
 
-/// What a run is told whose cloths started through each other and did not come apart.
+/// Returns what to tell a run whose cloths started through each other and did not come apart.
 std::optional<std::string> still_crossed(const Simulation& simulation) {
     const std::optional<SelfContactReport> told = simulation.self_contact();
     if (!told || !told->last_crossed || apart_since(*told, simulation)) return std::nullopt;
     return "cloths that started through each other still are in the last frame";
 }
 
-/// The files of a run that is done, or of one that failed as far as it came.
+/// Finishes the files of a run that is done, or of one that failed as far as it came.
 void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
     manifest.cuts = sink.cuts();
     const std::shared_ptr<const RunStatistics> statistics = sink.statistics();
@@ -327,7 +327,7 @@ void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::opti
     manifest.solver.stretch_error = statistics->worst_of_run("/stretch_error_rms");
     try {
         sink.add_timings(manifest);
-        // Arrays of a run that something broke are no result; those before a frame that fails again are.
+        // Arrays of a run that something broke are no result; those before a frame that fails again are one.
         const bool whole =
             summary.complete || (failure && failure->frame && summary.frame_count + summary.kept_count > 0);
         manifest.files = sink.finish(whole, summary.dropped);
@@ -337,7 +337,7 @@ void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::opti
     }
 }
 
-/// What a failed run leaves to be replayed. What keeps it from being written has been told, or is told of the manifest.
+/// Leaves a capsule to be replayed. What keeps it from being written has been told, or is told of the manifest.
 void leave_capsule(OutputFolder& folder, const RunRequest& request, const LoadedScene& scene, const FrameRange& range,
                    const Checkpoints& checkpoints, const RunFailure& failure, Manifest& manifest) {
     if (failure.status == output_failed) return;
@@ -350,7 +350,7 @@ void leave_capsule(OutputFolder& folder, const RunRequest& request, const Loaded
     capsule.reason = failure.reason;
     capsule.failed = failure.frame;
     capsule.checkpoint = checkpoints.last();
-    // In a run that went on, later ones are of no use.
+    // Later checkpoints are of no use in a run that went on.
     if (capsule.checkpoint && failure.frame && capsule.checkpoint->next_frame > failure.frame->frame)
         capsule.checkpoint.reset();
     try {
@@ -379,7 +379,7 @@ void end_with_manifest(OutputFolder& folder, Manifest& manifest, std::optional<R
     try {
         write_manifest(folder, manifest);
     } catch (const OutputError&) {
-        if (!failure) throw;  // else what came first is told: what kept the files from being written keeps this one
+        if (!failure) throw;  // else the first failure is told, which keeps this file from being written too
     }
 }
 

@@ -1,4 +1,4 @@
-// The statistics of a run, frame by frame, as the manifest and the progress line say them.
+// Keeps the statistics of a run, frame by frame, as the manifest and the progress line say them.
 #pragma once
 
 #include <optional>
@@ -13,33 +13,32 @@
 
 namespace drape {
 
-/// By name, "<cloth>/stretch_rms" and so on; without a cloth: sums over the cloths, and the deepest penetration.
-/// A number that overflowed single precision is left out: JSON has none for it.
+/// Returns values by name, "<cloth>/stretch_rms" and so on; without a cloth: sums over the cloths, and the deepest
+/// penetration. A number that overflowed single precision is left out: JSON has none for it.
 FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame);
 
 class RunStatistics {
   public:
-    /// `folder`: where the numbers of a long run wait for its manifest, and must outlive this; null: of a stream, which
-    /// has none.
+    /// The numbers of a long run wait in `folder`, which must outlive this, for its manifest; null: a stream has none.
     explicit RunStatistics(OutputFolder* folder);
 
-    /// In any order, each once. Throws OutputError.
+    /// Adds frames in any order, each once. Throws OutputError.
     void add(std::uint32_t frame, const FrameValues& values);
 
-    /// "stretch 0.52 % RMS, 3.1 % max, stretch error 0.47 % RMS, energy -0.0012 J since frame 0, penetration 0.03 mm"
-    /// of the values of a frame: the worst cloth's; what is not known is left out.
+    /// Returns "stretch 0.52 % RMS, 3.1 % max, stretch error 0.47 % RMS, energy -0.0012 J since frame 0, penetration
+    /// 0.03 mm" for the values of a frame: the worst cloth's; what is not known is left out.
     std::string note(const FrameValues& values) const;
 
-    /// In order of frames, each with "energy_drift_j": kinetic, potential and elastic energy together, minus that
+    /// Visits frames in order, each with "energy_drift_j": kinetic, potential and elastic energy together, minus that
     /// of the first frame. It is the solver's error where nothing does work on the cloth; wind, damping, contact and
-    /// moving pins do. Of a stream none. Throws OutputError.
+    /// moving pins do. A stream has no frames. Throws OutputError.
     void for_each_frame(const Manifest::FrameVisitor& take) const;
 
-    /// The largest value, of any frame and cloth, of "<cloth>" + `name`.
+    /// Returns the largest value, of any frame and cloth, of "<cloth>" + `name`.
     std::optional<double> worst_of_run(std::string_view name) const { return worst(largest_, name); }
 
-    /// What to say of the frames in which method `auto` did not keep the motion's error, since more substeps do not
-    /// reduce it; nothing when there is none.
+    /// Returns what to say of the frames in which method `auto` did not keep the motion's error, since more substeps do
+    /// not reduce it; nothing when there is none.
     std::optional<std::string> unpredictable() const;
 
   private:
@@ -54,7 +53,7 @@ class RunStatistics {
     std::optional<FrameTable> frames_;
     std::size_t count_ = 0;
     std::optional<std::pair<std::uint32_t, std::optional<double>>> first_;  ///< frame, its energy
-    FrameValues largest_;                                                   ///< of every name
+    FrameValues largest_;                                                   ///< largest value of every name
     Unpredictable unpredictable_;
 };
 

@@ -44,7 +44,7 @@ bool check_particle(const SceneNode& node, const Particle& particle, const Parti
 }
 
 bool check_box(const SceneNode& node, const IndexBox& box, const Particle& grid) {
-    if (box == IndexBox{}) return true;  // or it was reported already, and may be no box
+    if (box == IndexBox{}) return true;  // fits every grid, or was reported already and may be no box
     const bool has_first = check_particle(node.element(0), box.first, grid);
     if (!check_particle(node.element(1), box.last, grid) || !has_first) return false;
     return (box.first[0] <= box.last[0] && box.first[1] <= box.last[1]) ||
@@ -76,7 +76,7 @@ bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
                     farthest, ulp, edge));
 }
 
-// What the grid can keep apart, and the device's dispatches reach.
+// The thickness must be one that the grid can keep, and the device's dispatches must reach all particles.
 bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
     if (!cloth.self_collision) return true;
     constexpr std::uint64_t most_particles = 4'000'000;
@@ -87,7 +87,7 @@ bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
     const double spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const double least = least_self_thickness * spacing, most = most_self_thickness * spacing;
     const double thickness = *cloth.self_collision->thickness;
-    constexpr double rounding = 1e-9;  // of who divided the cloth's size by its edges
+    constexpr double rounding = 1e-9;  // left by whoever divides the cloth's size by its edges
     if (thickness >= least * (1 - rounding) && thickness <= most * (1 + rounding)) return true;
     return node.member("thickness")
         .fail(fmt::format(
@@ -96,7 +96,7 @@ bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
             thickness < least ? "a finer grid allows less" : "a coarser grid allows more"));
 }
 
-// Particles a grid asks for, also where an axis is beyond its limit: the message should name the count.
+// Counts the particles that a grid asks for, also where an axis is beyond its limit: the message should name the count.
 std::uint64_t requested_particle_count(const SceneNode& grid, const Cloth& cloth) {
     std::uint64_t count = 1;
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -121,8 +121,7 @@ void count_particles(const SceneNode& grid, const Cloth& cloth, std::uint64_t& t
             fmt::format("expected at most {} particles in all cloths together, got {}", scene_particle_limit, total));
 }
 
-/// Edge lengths that gravity moves a free particle by in a substep, with the most substeps that there may be: g D^2 /
-/// h.
+/// Returns how many edge lengths gravity moves a free particle by in a substep, with the most substeps: g D^2 / h.
 double fall_per_substep(const SceneDescription& scene, const Cloth& cloth, double gravity, double fps) {
     const bool is_automatic = scene.solver.method == SolverMethod::automatic;
     const double step = 1 / (fps * (is_automatic ? most_solver_substeps : scene.solver.substeps));
@@ -130,8 +129,8 @@ double fall_per_substep(const SceneDescription& scene, const Cloth& cloth, doubl
     return gravity * step * step / edge;
 }
 
-/// Beyond any use are steps in which cloth falls by ten thousand of its edges. Blamed is what would be right if it were
-/// ordinary: gravity, the frame rate, or else the cloth.
+/// Steps in which cloth falls by ten thousand of its edges are beyond any use. The error blames the value that would
+/// set it right if it were ordinary: gravity, the frame rate, or else the cloth.
 bool check_fall(const Members& members, const SceneDescription& scene) {
     constexpr double most = 1e4, ordinary_gravity = 9.81, ordinary_fps = 60;
     const double gravity = std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]), fps = scene.time.fps;
@@ -165,7 +164,7 @@ bool start_boxes_meet(const Cloth& a, const Cloth& b) {
     return true;
 }
 
-// One warning per cloth, naming the first of the earlier ones it meets.
+// Warns once per cloth, naming the first of the earlier ones that it meets.
 void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
     for (std::size_t i = 1; i < cloths.size(); ++i) {
         const auto other = std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i),
@@ -178,7 +177,7 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
     }
 }
 
-/// What becomes of it, and what would help.
+/// Says what becomes of the crossing, and what would help.
 std::string crossing_fate(const SceneDescription& scene, const StartCrossing& crossing) {
     if (crossing.first == crossing.second) return ": no frame is proved; less jitter would help";
     const std::string elsewhere = "; place one of them elsewhere";
@@ -189,7 +188,7 @@ std::string crossing_fate(const SceneDescription& scene, const StartCrossing& cr
     return ": the two will not meet, and no frame is proved" + elsewhere;
 }
 
-/// Of cloths that start through each other or themselves, where cloths meet: a warning, or an error where the scene
+/// Warns of cloths that start through each other or themselves, where cloths meet. It is an error where the scene
 /// refuses that, or contact would hold all of a cloth in one place.
 void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartCrossing& crossing : start_crossings(scene)) {
@@ -205,7 +204,7 @@ void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
     }
 }
 
-/// Of each cloth that starts inside a collider: a warning, or an error where the scene refuses that.
+/// Warns of each cloth that starts inside a collider, which is an error where the scene refuses that.
 void check_overlaps(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartOverlap& overlap : start_overlaps(scene)) {
         const SceneNode cloth = cloths.element(overlap.cloth), placement = cloth.member("placement");

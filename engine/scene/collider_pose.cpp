@@ -30,7 +30,7 @@ ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
     return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
 }
 
-/// Its own y runs from `from` to `to`.
+/// The capsule's own y axis runs from `from` to `to`.
 ShapeGeometry geometry(const Capsule& capsule) {
     Vec3 center, y;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -39,7 +39,7 @@ ShapeGeometry geometry(const Capsule& capsule) {
     }
     const double apart = std::hypot(y[0], y[1], y[2]);
     y = apart > 0 ? Vec3{y[0] / apart, y[1] / apart, y[2] / apart} : Vec3{0, 1, 0};
-    // Any x across it: of the world's x and z, the one farther from y, made perpendicular.
+    // Any x across y will do: the one of the world's x and z that is farther from y is made perpendicular.
     Vec3 x = std::abs(y[0]) < std::abs(y[2]) ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
     const double shared = x[0] * y[0] + x[2] * y[2];
     for (std::size_t k = 0; k < 3; ++k) x[k] -= shared * y[k];

@@ -1,4 +1,4 @@
-// Where a collider is at a time, and what simulation and pictures know of its shape: one definition for both.
+// Simulation and pictures share this definition of where a collider is at a time and of its shape.
 #pragma once
 
 #include <array>
@@ -17,19 +17,19 @@ struct ColliderPose {
 
 /// A shape in its own frame.
 struct ShapeGeometry {
-    Vec3 center;   ///< m, at rest: what it turns about
-    Vec3 size;     ///< what the device knows of it (shared/collider_types.h); a plane's: its normal
-    double reach;  ///< m, of the surface from the centre; infinity: it has no end
-    /// How its own axes lie before it is rotated, row major; nothing: along the world's.
+    Vec3 center;   ///< m, at rest; the shape turns about it
+    Vec3 size;     ///< the device's form of it (shared/collider_types.h), a plane's is its normal
+    double reach;  ///< m, the surface's farthest from the centre; infinity: it has no end
+    /// The shape's own axes before it is rotated, row major; nothing: the world's.
     std::optional<std::array<double, 9>> axes = {};
 };
 ShapeGeometry shape_geometry(const ColliderShape& shape);
 
-/// Its rest pose with its key-framed motion on top: the path's rotation turns it about its own centre, its translation
-/// is added. A plane's world normal is `rotate(pose.rotation, normal)`.
+/// Returns the rest pose with the key-framed motion on top: the path's rotation turns it about its own centre, its
+/// translation is added. A plane's world normal is `rotate(pose.rotation, normal)`.
 ColliderPose collider_pose(const Collider& collider, double time);
 
-/// rotation * v.
+/// Returns rotation * v.
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v);
 
 }  // namespace drape

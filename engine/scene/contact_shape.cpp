@@ -7,7 +7,7 @@ namespace drape {
 
 namespace {
 
-/// What a ball's radius lacks to keep triangles out.
+/// Returns what a ball's radius lacks to keep triangles out.
 double lift(double radius, double covering) { return std::hypot(radius, covering) - radius; }
 
 double grown(double radius, double by, double thickness) { return radius + std::max(0.0, by - thickness); }

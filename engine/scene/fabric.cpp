@@ -1,4 +1,4 @@
-// The scene key "fabric".
+// Reads the scene key "fabric".
 #include "drape/fabric.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// Most frames that a scene may have.
 #pragma once
 
 #include <cstdint>

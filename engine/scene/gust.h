@@ -1,4 +1,4 @@
-// The wind as a function of time; the formula is part of the scene format (scene.schema.json).
+// Computes the wind as a function of time; the formula is part of the scene format (scene.schema.json).
 #pragma once
 
 #include <array>
@@ -7,16 +7,15 @@
 
 namespace drape {
 
-/// The three phases of a gust's sine waves, radians in [0, 2 pi): the top 53 bits of
-/// splitmix64(seed + k), k = 1, 2, 3, times 2 pi / 2^53.
+/// Returns the three phases of a gust's sine waves, radians in [0, 2 pi): the top 53 bits of splitmix64(seed + k), k =
+/// 1, 2, 3, times 2 pi / 2^53.
 std::array<double, 3> gust_phases(std::uint32_t seed);
 
-/// Extra wind speed at `time` (s), m/s along the wind's direction, within +-amplitude:
-/// amplitude (sin(2 pi t/period + p1) + 0.5 sin(2 pi 2.3 t/period + p2) + 0.25 sin(2 pi 5.1 t/period + p3))
-/// / 1.75.
+/// Returns the extra wind speed at `time` (s), m/s along the wind's direction, within +-amplitude: amplitude
+/// (sin(2 pi t/period + p1) + 0.5 sin(2 pi 2.3 t/period + p2) + 0.25 sin(2 pi 5.1 t/period + p3)) / 1.75.
 double gust_speed(const Gust& gust, double time);
 
-/// Wind velocity at `time` (s), m/s: the steady velocity plus the gust along it. Zero when the steady
+/// Returns the wind velocity at `time` (s), m/s: the steady velocity plus the gust along it. It is zero when the steady
 /// velocity is zero, since a gust then has no direction.
 Vec3 wind_velocity(const Wind& wind, double time);
 

@@ -13,7 +13,7 @@ struct SineCosine {
     double cosine;
 };
 
-// Reduced to [-45, 45] degrees before the conversion to radians, whose rounding would otherwise leave
+// The angle is reduced to [-45, 45] degrees before the conversion to radians, whose rounding would otherwise leave
 // sin(360 degrees) at 1e-16 instead of 0.
 SineCosine sine_cosine(double degrees) {
     const double turn = std::remainder(degrees, 360.0);

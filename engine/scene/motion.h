@@ -1,4 +1,4 @@
-// Key-framed rigid motion, evaluated on the host in double precision.
+// Evaluates key-framed rigid motion on the host in double precision.
 #pragma once
 
 #include <array>
@@ -7,21 +7,21 @@
 
 namespace drape {
 
-/// x -> rotation * x + translation, about whatever centre the owner of the path states.
+/// Maps x to rotation * x + translation, about whatever centre the owner of the path states.
 struct RigidTransform {
     std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row major
-    Vec3 translation{0, 0, 0};                                  ///< metres
+    Vec3 translation{0, 0, 0};                                  ///< m
     bool operator==(const RigidTransform&) const = default;
 };
 
-/// R = Rz Ry Rx of angles in degrees: turns about x, then y, then z. Exact at multiples of 90 degrees
-/// (so a whole turn is exactly the identity); elsewhere within a few ulp.
+/// Returns R = Rz Ry Rx of angles in degrees: it turns about x, then y, then z. It is exact at multiples of 90 degrees
+/// (so a whole turn is exactly the identity), elsewhere within a few ulp.
 std::array<double, 9> rotation_matrix(const Vec3& degrees);
 
-/// The transform of a path at `time` (seconds). Translation and angles are interpolated component by
-/// component: cubic Hermite between neighbouring keys, slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner
-/// keys (Catmull-Rom on uneven times), 0 at the first and last key; before and after, the end keys hold.
-/// Exactly the key at a key's time, exactly the identity for an empty path.
+/// Returns the transform of a path at `time` (s). Translation and angles are interpolated component by component: cubic
+/// Hermite between neighbouring keys, slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys (Catmull-Rom on uneven
+/// times), 0 at the first and last key; before and after, the end keys hold. It is exactly the key at a key's time, and
+/// exactly the identity for an empty path.
 RigidTransform motion_at(const MotionPath& path, double time);
 
 }  // namespace drape

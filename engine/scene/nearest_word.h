@@ -1,4 +1,4 @@
-// "Did you mean": the word that somebody may have wanted to write.
+// Finds the word that somebody may have wanted to write ("did you mean").
 #pragma once
 
 #include <span>
@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// The candidate nearest to a misspelt word: edit distance (insert, delete, replace a byte) at most 2 and less than the
-/// candidate's length; the first of equally near ones; empty when there is none.
+/// Returns the candidate nearest to a misspelt word: the edit distance (insert, delete, replace a byte) is at most 2
+/// and less than the candidate's length. The first of equally near ones is taken; empty when there is none.
 std::string_view nearest_word(std::string_view misspelt, std::span<const std::string_view> candidates);
 
 }  // namespace drape

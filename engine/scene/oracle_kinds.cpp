@@ -57,7 +57,7 @@ constexpr OracleLimit which_cloth{"cloth", "number of the cloth, from 0", true};
 constexpr OracleLimit from_frame{"from_frame", "first frame that counts", true};
 constexpr OracleLimit until_frame{"until_frame", "last frame that counts", true};
 
-/// How the cloth lies and is held.
+/// These checks judge how the cloth lies and is held.
 std::vector<OracleKind> kinds_of_shape() {
     return {
         {"stretch",
@@ -99,7 +99,7 @@ std::vector<OracleKind> kinds_of_shape() {
     };
 }
 
-/// How it moves, and what cuts and methods do to it.
+/// These checks judge how the cloth moves, and what cuts and methods do to it.
 std::vector<OracleKind> kinds_of_motion() {
     return {
         {"falls",

@@ -13,10 +13,10 @@ namespace drape {
 
 namespace {
 
-constexpr double least_depth = 1e-3;  ///< of an edge: less is rounding
+constexpr double least_depth = 1e-3;  ///< edge lengths; less is rounding
 constexpr std::size_t most_particles = std::size_t{1} << 18;
 
-/// By particle: whether it is a corner of a cell that no hole takes away.
+/// Returns by particle whether it is a corner of a cell that no hole takes away.
 std::vector<bool> in_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1];
     const std::vector<bool> missing = missing_cells(cloth);
@@ -29,7 +29,7 @@ std::vector<bool> in_a_cell(const Cloth& cloth) {
     return used;
 }
 
-/// m; those of a large cloth thinned out.
+/// Returns where the particles start, in m; those of a large cloth are thinned out.
 std::vector<Vec3> places(const Cloth& cloth) {
     const std::vector<bool> used = in_a_cell(cloth);
     const std::vector<Vec3> all = start_positions(cloth);
@@ -40,12 +40,12 @@ std::vector<Vec3> places(const Cloth& cloth) {
     return chosen;
 }
 
-/// m, along its shorter side: how deep particles must be to count.
+/// Returns how deep (m) particles must be to count.
 double counting_depth(const Cloth& cloth) {
     return least_depth * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
 }
 
-/// `inside`: the places of particles in the box, `normal` the cloth's, both in its frame.
+/// `inside` holds the places of particles in the box, `normal` is the cloth's; both are in the box's frame.
 WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Box& box, double speed) {
     WayOut best;
     double least = std::numeric_limits<double>::infinity();
@@ -68,7 +68,7 @@ StartOverlap overlap(const std::vector<Vec3>& places, const Collider& collider, 
     const double reach = shape_geometry(collider.shape).reach;
     StartOverlap found;
     for (const Vec3& at : places) {
-        if (exact::norm(exact::minus(at, pose.center)) > reach) continue;  // told without the costly distance
+        if (exact::norm(exact::minus(at, pose.center)) > reach) continue;  // spares the costly distance
         const Vec3 local = exact::to_local(pose, at);
         const double distance =
             std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape);

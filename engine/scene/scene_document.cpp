@@ -20,7 +20,7 @@ std::unique_ptr<Json::CharReader> strict_reader() {
     Json::CharReaderBuilder::strictMode(&builder.settings_);
     builder["allowComments"] = true;
     builder["collectComments"] = false;
-    builder["skipBom"] = false;  // it would shift the offsets; the caller has removed it
+    builder["skipBom"] = false;  // skipping it would shift the offsets; the caller has removed it
     return std::unique_ptr<Json::CharReader>(builder.newCharReader());
 }
 
@@ -58,7 +58,7 @@ void shift_offsets(Json::Value& value, std::ptrdiff_t shift) {
     for (Json::Value& member : value) shift_offsets(member, shift);
 }
 
-// "[value]" parsed; nothing when that is not JSON of exactly one value.
+// Parses "[value]"; returns nothing when that is not JSON of exactly one value.
 std::optional<Json::Value> parse_single(const std::string& bracketed) {
     if (find_text_fault(bracketed)) return std::nullopt;
     Json::Value list;
@@ -80,7 +80,7 @@ std::optional<Json::ArrayIndex> parse_index(const std::string& token) {
     return index;
 }
 
-/// An empty array or object at a place of the text.
+/// Returns an empty array or object at a place of the text.
 Json::Value made(Json::ValueType type, std::size_t offset) {
     Json::Value value(type);
     value.setOffsetStart(static_cast<std::ptrdiff_t>(offset));
@@ -182,7 +182,7 @@ void SceneDocument::apply_override(const std::string& override_text) {
     target->setOffsetLimit(static_cast<std::ptrdiff_t>(begin + 1 + word.size()));
 }
 
-/// By its index; "-" or the number of elements: a new one behind the last.
+/// Finds an element by its index; "-" or the number of elements makes a new one behind the last.
 Json::Value* SceneDocument::find_element(Json::Value& array, const std::string& token, const std::string& pointer,
                                          std::size_t offset) {
     const auto index = token == "-" ? array.size() : parse_index(token);

@@ -1,4 +1,4 @@
-// The parsed JSON of a scene with its overrides applied, and the place in the text of every value.
+// Parses the JSON of a scene, applies its overrides, and knows the place in the text of every value.
 #pragma once
 
 #include <json/value.h>
@@ -15,7 +15,7 @@
 
 namespace drape {
 
-/// An error and the offset it sorts by.
+/// An error and the offset that it is sorted by.
 struct PlacedError {
     std::size_t offset;
     SceneError error;
@@ -30,17 +30,17 @@ class SceneDocument {
     /// Applies `/json/pointer=value`. Call only while there are no errors.
     void apply_override(const std::string& override_text);
 
-    /// What keeps the text from being read.
+    /// Returns the errors that keep the text from being read.
     const std::vector<PlacedError>& errors() const { return errors_; }
-    /// Commas too many, which keep nothing from being read but are errors.
+    /// Returns the superfluous commas, which keep nothing from being read but are errors.
     const std::vector<std::size_t>& trailing_commas() const { return trailing_commas_; }
     static constexpr const char* comma_message = "expected no comma after the last member";
     const Json::Value& root() const { return root_; }
 
     PlacedError place(std::size_t offset, std::string pointer, std::string message) const;
-    /// The text a value was written as.
+    /// Returns the text that a value was written as.
     std::string_view written(const Json::Value& value) const;
-    /// Where the key of `value`, a member of `object`, is written; the value's own place when it has no key
+    /// Returns where the key of `value`, a member of `object`, is written, or the value's own place when it has no key
     /// in the text (it came from an override).
     std::size_t key_offset(const Json::Value& object, const std::string& key, const Json::Value& value);
 
@@ -57,12 +57,12 @@ class SceneDocument {
                               std::size_t offset);
 
     std::string text_;
-    LineTable lines_;  ///< of the file alone
+    LineTable lines_;  ///< lines of the file, without overrides
     std::vector<Source> sources_;
     Json::Value root_;
     std::vector<PlacedError> errors_;
     std::vector<std::size_t> trailing_commas_;
-    std::map<const Json::Value*, std::map<std::string, std::size_t>> keys_;  ///< filled as asked for
+    std::map<const Json::Value*, std::map<std::string, std::size_t>> keys_;  ///< filled on demand
 };
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// The format for editors (JSON Schema) and for people (Markdown).
+// Writes the format for editors (JSON Schema) and for people (Markdown).
 #include <fmt/format.h>
 
 #include "drape/scene_reader.h"
@@ -9,14 +9,14 @@ namespace drape {
 namespace {
 
 std::string key_schema(const KeyText& key) {
-    // Beside a reference, draft-07 ignores everything else.
+    // Draft-07 ignores everything else beside a reference.
     const bool refers = key.schema.starts_with("\"$ref\"");
     std::string members = refers ? "\"allOf\": [{" + key.schema + "}]" : key.schema;
     if (!key.default_value.empty()) members += ", \"default\": " + key.default_value;
     return fmt::format("{}: {{{}, \"description\": {}}}", quoted(key.name), members, quoted(key.help));
 }
 
-/// The members of an object's schema, each on lines of its own.
+/// Returns the members of an object's schema, each on lines of its own.
 std::string object_schema(const Definition& object, const std::string& indent) {
     std::string required, properties;
     for (const KeyText& key : object.keys) {

@@ -1,4 +1,4 @@
-// The rows of the format. A new key is its field in drape/scene.h and its row here.
+// These rows are the scene format. A new key is its field in drape/scene.h and its row here.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ bool read_address(const SceneNode& node, SceneDescription&) {
     return node.read(ignored);
 }
 
-// Values that several keys have.
+// Several keys have these values.
 const Named<Vec3> vec3{"vec3", "x, y, z; y is up.", three_numbers(any_number)};
 const Named<Vec3> direction{"direction", "x, y, z, not all zero; only the direction counts, the length does not.",
                             unit_vector()};
@@ -172,7 +172,7 @@ const Object<Cloth> cloth{
         {"size", &Cloth::size, two_numbers(positive),
          "Metres along the columns' direction u and the rows' direction v."},
         {"placement", &Cloth::placement, placement, "Where the flat cloth starts."},
-        {"fabric", fabric_text(), read_fabric, fabric_help()},  // before what it sets
+        {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
         {"stiffness", &Cloth::stiffness, rigid_or(stiffness),
@@ -200,7 +200,7 @@ const Object<Cloth> cloth{
     },
     check_cloth};
 
-/// A collider of one shape: the shape's keys, then those that every collider has.
+/// Returns the keys of a collider of one shape: the shape's own, then those that every collider has.
 template <class Shape>
 std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
     std::vector<Key<Collider>> keys;
@@ -243,7 +243,7 @@ const Object<Collider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
                                      {"radii", &Ellipsoid::radii, extents, "Half axes, metres."},
                                  })};
 
-/// One radius for both ends.
+/// Reads one radius for both ends.
 Value<std::array<double, 2>> equal_radii() {
     const Value<double> radius = number(positive);
     return {radius.text,
@@ -274,7 +274,7 @@ const Object<Collider> capsule{
 
 using Colliders = std::vector<Collider>;
 
-/// The list of one shape; all lists are read into the scene's one, in the order of their rows.
+/// Returns the key of one shape's list; all lists are read into the scene's one, in the order of their rows.
 template <class Shape>
 Key<Colliders> colliders_of(const Object<Collider>& object, std::string_view help) {
     const Value<Colliders> own =

@@ -7,8 +7,8 @@ namespace drape {
 namespace {
 
 struct Guess {
-    std::string_view objects;  ///< names of objects, with a space before and behind each
-    std::string_view keys;     ///< likewise, in lower case
+    std::string_view objects;  ///< names of objects, each between spaces
+    std::string_view keys;     ///< keys in lower case, each between spaces
     std::string_view meant;
 };
 
@@ -80,7 +80,7 @@ constexpr Guess guesses[] = {
     {" scene ", " knife blade cuts cut ", "\"cutters\" (an array)"},
 };
 
-/// Whether the list has the word with a space before and behind it.
+/// Returns whether the list has the word between spaces.
 bool lists(std::string_view list, std::string_view word) {
     for (std::size_t at = list.find(word); at != std::string_view::npos; at = list.find(word, at + 1))
         if (list[at - 1] == ' ' && list[at + word.size()] == ' ') return true;

@@ -78,7 +78,7 @@ bool ErrorList::earlier(const Found& a, const Found& b) {
 
 void ErrorList::add(const SceneDocument& document, std::size_t offset, const std::string& pointer,
                     std::string message) {
-    if (counts_only(offset)) return;  // before its place is looked up: there may be a million
+    if (counts_only(offset)) return;  // its place is not looked up: there may be a million
     const std::size_t order = count_++;
     const bool full = first_.size() == most;
     first_.push_back({order, document.place(offset, pointer, std::move(message))});
@@ -192,7 +192,7 @@ bool SceneNode::read_direction(Vec3& field) const {
     if (!read(direction)) return false;
     const double largest = std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
     if (largest == 0.0) return fail_expected("a vector that is not zero");
-    for (double& x : direction) x /= largest;  // or the squares of tiny components would vanish
+    for (double& x : direction) x /= largest;  // otherwise the squares of tiny components would vanish
     const double length = std::hypot(direction[0], direction[1], direction[2]);
     for (std::size_t i = 0; i < 3; ++i) field[i] = direction[i] / length;
     return true;

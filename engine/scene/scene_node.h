@@ -1,4 +1,4 @@
-// A cursor over the document: reads a value into a field and reports, with its place, what does not fit.
+// A cursor over the document reads a value into a field and reports, with its place, what does not fit.
 #pragma once
 
 #include <json/value.h>
@@ -16,37 +16,36 @@
 
 namespace drape {
 
-/// Errors and warnings of one reading.
-/// The first so many errors of a text, in its order, and how many there are. Of the rest nothing is kept.
+/// Keeps the first errors or warnings of a text, in its order, and counts the rest.
 class ErrorList {
   public:
     static constexpr std::size_t most = 100;
     void add(const SceneDocument& document, std::size_t offset, const std::string& pointer, std::string message);
-    /// One more, of the text at `offset` or after, when that is not among those told: nothing need be known of it.
+    /// Counts an error at `offset` or after if it will not be told, and returns whether that is so.
     bool counts_only(std::size_t offset) {
         const bool told = first_.size() < most || offset < first_.front().error.offset;
         if (!told) ++count_;
         return !told;
     }
     bool empty() const { return count_ == 0; }
-    /// In the order of the text; the last one, without a place, counts those that are not told.
+    /// Returns them in the order of the text; the last one, without a place, counts those that are not told.
     std::vector<SceneError> told() const;
 
   private:
     struct Found {
-        std::size_t order;  ///< of one place they are told as they were found
+        std::size_t order;  ///< errors of one place are told as they were found
         PlacedError error;
     };
     static bool earlier(const Found& a, const Found& b);
 
-    std::vector<Found> first_;  ///< a heap, the last of them in front
+    std::vector<Found> first_;  ///< a heap with the last of them in front
     std::size_t count_ = 0;
 };
 
-/// `count` errors, in order, as far as they are told: beyond ErrorList::most one without a place counts them.
+/// Returns the errors in order as far as they are told: beyond ErrorList::most, one without a place counts all `count`.
 std::vector<SceneError> first_errors(std::vector<SceneError> errors, std::size_t count);
 
-/// A key that is not there, which has a published default.
+/// A missing key that has a published default.
 struct MissingKey {
     std::string object;  ///< JSON pointer
     std::string key;
@@ -57,19 +56,19 @@ struct SceneReport {
     SceneDocument& document;
     ErrorList errors;
     ErrorList warnings;
-    std::vector<MissingKey>* missing = nullptr;  ///< where they are wanted
+    std::vector<MissingKey>* missing = nullptr;  ///< null where they are not wanted
 };
 
-/// Numbers a field may have. The kernels work in single precision, so "finite" means finite there.
+/// The numbers that a field may have. The kernels work in single precision, so "finite" means finite there.
 struct Range {
     double low = -FLT_MAX;
     double high = FLT_MAX;
     bool above_low = false;  ///< `low` itself is excluded
 
     bool contains(double x) const;
-    /// What an error says was expected.
+    /// Returns what an error says was expected.
     std::string text() const;
-    /// Members of its JSON Schema, and what the document says.
+    /// Return the members of its JSON Schema, and what the document says.
     std::string schema() const;
     std::string words() const;
 };
@@ -78,8 +77,8 @@ inline constexpr Range not_negative{0.0, FLT_MAX, false};
 inline constexpr Range positive{0.0, FLT_MAX, true};
 inline constexpr Range unit_interval{0.0, 1.0, false};
 
-/// A place where a value may be. Every `read` leaves the field alone when the value is absent, reports when
-/// it does not fit, and returns whether the field can be relied on.
+/// A place where a value may be. Every `read` leaves the field alone when the value is absent, reports a value that
+/// does not fit, and returns whether the field can be relied on.
 class SceneNode {
   public:
     SceneNode(SceneReport& report, const Json::Value& root);
@@ -89,16 +88,16 @@ class SceneNode {
     const Json::Value* value() const { return value_; }
     bool is_number() const { return value_ != nullptr && value_->isNumeric(); }
 
-    /// True when there is an object here; reports anything else that is here and every key that it may not have.
+    /// Returns whether an object is here; reports anything else that is here and every key that it may not have.
     bool open_object(const Definition& definition) const;
     /// Tells the report which of the object's keys with a default are missing, where that is wanted.
     void note_missing(const Definition& definition) const;
-    /// Tells it that a key, when it is missing, has this default (JSON) here, instead of the published one.
+    /// Tells the report that a missing key has this default (JSON) here, instead of the published one.
     void note_default(const std::string& key, std::string value) const;
-    /// A member of an object; nothing where there is none.
+    /// Returns a member of an object, which is absent where there is none.
     SceneNode member(std::string_view key) const;
 
-    /// True when there is an array of `least` to `most` elements here; reports anything else that is here.
+    /// Returns whether an array of `least` to `most` elements is here; reports anything else that is here.
     bool open_array(std::string_view what, std::size_t least, std::size_t most) const;
     SceneNode element(std::size_t index) const;
     std::size_t size() const { return value_->size(); }
@@ -107,7 +106,7 @@ class SceneNode {
     bool read(std::uint32_t& field, std::uint32_t low, std::uint32_t high) const;
     bool read(std::span<double> field, std::string_view what, const Range& range) const;
     bool read(Vec3& field, const Range& range = any_number) const;
-    /// A vector that is not zero; the field becomes its unit vector.
+    /// Reads a vector that is not zero; the field becomes its unit vector.
     bool read_direction(Vec3& field) const;
     bool read(bool& field) const;
     bool read(std::string& field) const;
@@ -115,7 +114,7 @@ class SceneNode {
     template <class T>
     bool read_choice(T& field, std::span<const Spelling<T>> spellings) const;
 
-    /// "expected <what>, got <what is here>".
+    /// Reports "expected <what>, got <what is here>".
     bool fail_expected(std::string_view what) const;
     bool fail(std::string message) const;
     void warn(std::string message) const;
@@ -127,7 +126,7 @@ class SceneNode {
 
     SceneReport* report_;
     const Json::Value* value_;  ///< null when absent
-    std::size_t offset_;        ///< of the value, or of the nearest object around it
+    std::size_t offset_;        ///< place of the value, or of the nearest object around it
     std::string pointer_;
 };
 
@@ -145,7 +144,7 @@ bool SceneNode::read_choice(T& field, std::span<const Spelling<T>> spellings) co
     return fail_expected(what);
 }
 
-/// The whole scene, by the table (scene_format.cpp).
+/// Reads the whole scene by the table (scene_format.cpp).
 bool read_scene_object(const SceneNode& root, SceneDescription& scene);
 
 }  // namespace drape

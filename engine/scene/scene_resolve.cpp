@@ -1,4 +1,4 @@
-// A scene with every default written out.
+// Writes out a scene with every default.
 #include <json/writer.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace drape {
 namespace {
 
-/// The defaults of one scene, found by reading it, adding what is missing, and reading again: a default may have
-/// members with defaults of their own.
+/// Finds the defaults of one scene by reading it, adding what is missing, and reading again: a default may have members
+/// with defaults of their own.
 class Resolution {
   public:
     Resolution(std::string_view text, std::span<const std::string> overrides)
@@ -64,7 +64,7 @@ class Resolution {
         const std::size_t before = defaults_.size();
         for (const MissingKey& key : missing) {
             const std::string pointer = key.object + "/" + key.key;
-            // The first one told counts: what an object says of its own case, before what is published.
+            // The first default told counts: an object tells that of its own case before the published one.
             const bool known = std::ranges::find(defaults_, pointer, &Default::first) != defaults_.end();
             if (!known && !left_out_.contains(pointer)) defaults_.emplace_back(pointer, key.default_value);
         }

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// Twice the area over the square of the longest edge: 0 for points on a line, 0.87 for equal edges.
+/// Returns twice the area over the square of the longest edge: 0 for points on a line, 0.87 for equal edges.
 double shape_quality(const std::array<Vec3, 3>& t) {
     const auto edge = [&](std::size_t a, std::size_t b) {
         return Vec3{t[b][0] - t[a][0], t[b][1] - t[a][1], t[b][2] - t[a][2]};
@@ -130,7 +130,7 @@ Value<std::string> check_name() {
 
 bool read_oracle_limits(const Members& members, Oracle& oracle) {
     const OracleKind* kind = find_oracle_kind(oracle.check);
-    if (!kind) return true;  // that was said
+    if (!kind) return true;  // it was reported already
     const SceneNode& object = members.object();
     bool fits = object.open_object(oracle_definition(*kind));
     for (const OracleLimit& limit : kind->limits) {

@@ -1,4 +1,4 @@
-// What a row cannot say: values of a special shape, and what concerns several keys of an object at once.
+// These rules are what a row cannot say: values of a special shape, and what concerns several keys of an object.
 #pragma once
 
 #include "scene/scene_value.h"
@@ -10,23 +10,23 @@ inline constexpr std::uint32_t most_solver_substeps = 4096;
 
 /// A name that may become a part of a file name.
 Value<std::string> file_name();
-/// [column, row], within the largest grid: `check_cloth` holds it against the cloth's own.
+/// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
-/// true: all defaults, false: nothing.
+/// The value true means all defaults, false means nothing.
 Value<std::optional<SelfCollision>> true_or(const Value<SelfCollision>& object);
 Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point);
 Value<std::string> check_name();
-// The name of a fabric, which sets several fields.
+// The name of a fabric sets several fields.
 ValueText fabric_text();
 std::string_view fabric_help();
 bool read_fabric(const SceneNode& node, Cloth& cloth);
-/// Its values are the defaults of the keys that it sets.
+/// Notes the fabric's values as the defaults of the keys that it sets.
 void note_fabric(const SceneNode& cloth);
 
-// The borders and corners of a grid whose last column and row are 1.
+// The borders and corners belong to a grid whose last column and row are 1.
 inline constexpr Spelling<IndexBox> edge_spellings[] = {
     {"left", {{0, 0}, {0, 1}}}, {"right", {{1, 0}, {1, 1}}}, {"top", {{0, 0}, {1, 0}}}, {"bottom", {{0, 1}, {1, 1}}}};
 inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, {0, 0}}},
@@ -37,16 +37,16 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
 bool check_wind(const Members& members, Wind& wind);
 bool check_placement(const Members& members, Placement& placement);
 bool check_pin(const Members& members, Pin& pin);
-/// Also finds the particles of its pins' edges and corners.
+/// Checks a cloth, and finds the particles of its pins' edges and corners.
 bool check_cloth(const Members& members, Cloth& cloth);
-/// Also names the nameless cloths.
+/// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);
 bool check_camera(const Members& members, Camera& camera);
-/// The limits of its check: all of them, and no others.
+/// Reads the limits of an oracle's check: all of them, and no others.
 bool read_oracle_limits(const Members& members, Oracle& oracle);
-/// What the checks need of the whole scene: cloths that are there are an error, what makes a check empty is a warning.
+/// Checks oracles against the whole scene: naming a missing cloth is an error, what makes a check empty a warning.
 void check_oracles(const SceneNode& oracles, const SceneDescription& scene);
 
 }  // namespace drape

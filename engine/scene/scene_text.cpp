@@ -13,7 +13,7 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool continues_number(char c) { return is_digit(c) || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E'; }
 
-// number = [-] (0 | 1-9 digits) [. digits] [e|E [+|-] digits]
+// A number is [-] (0 | 1-9 digits) [. digits] [e|E [+|-] digits].
 bool is_json_number(std::string_view token) {
     std::size_t i = 0;
     const auto digits = [&] {
@@ -39,7 +39,7 @@ bool is_json_number(std::string_view token) {
     return i == token.size();
 }
 
-// Bytes of the UTF-8 sequence that begins at `text`, 0 when it is not one (overlong, surrogate, cut off ...).
+// Returns the bytes of the UTF-8 sequence that begins at `text`, 0 when it is none (overlong, surrogate, cut off).
 std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
@@ -123,7 +123,7 @@ class TokenScanner {
 /// Counts what is nested, and what there is, by brackets and commas alone.
 class Counter {
   public:
-    /// What is too much with this character.
+    /// Returns what is too much with this character.
     std::optional<std::string> take(char c) {
         if (c == '{' || c == '[') {
             if (open_.size() == static_cast<std::size_t>(scene_depth_limit))
@@ -179,8 +179,8 @@ void append_utf8(std::string& out, unsigned code) {
     }
 }
 
-// A key with its escapes resolved. A pair of surrogates is left as two code units: such a key is known to no
-// table, and only its place is then reported less exactly.
+// Resolves the escapes of a key. A pair of surrogates is left as two code units: such a key is known to no table, and
+// only its place is then reported less exactly.
 std::string unescaped(std::string_view quoted) {
     std::string key;
     for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
@@ -254,7 +254,7 @@ std::vector<std::size_t> trailing_commas(std::string_view text) {
     std::vector<std::size_t> commas;
     constexpr std::size_t none = std::string_view::npos;
     std::size_t comma = none;
-    char before = '[';  // as long as there is nothing, a comma ends no member
+    char before = '[';  // while there is nothing, a comma ends no member
     TokenScanner scanner(text);
     while (const auto token = scanner.next()) {
         const char c = token->kind == TokenKind::other ? text[token->begin] : '"';

@@ -19,7 +19,7 @@ std::string array_schema(const std::string& item, std::size_t count) {
 
 template <class T>
 std::string written(const T& value) {
-    return fmt::format("{}", value);  // the fewest digits that read back as the same number
+    return fmt::format("{}", value);  // gives the fewest digits that read back as the same number
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ Value<bool> boolean() {
 Value<std::string> text() {
     return {{"\"type\": \"string\"", "string"},
             [](const SceneNode& node, std::string& field) { return node.read(field); },
-            [](const std::string& field) { return drape::quoted(field); }};  // not std::quoted
+            [](const std::string& field) { return drape::quoted(field); }};  // this is not std::quoted
 }
 
 bool Members::fit(std::initializer_list<std::string_view> keys) const {

@@ -1,4 +1,4 @@
-// What the rows of the format are made of: a value with its reader, its JSON Schema and its words; a key, which puts a
+// The rows of the format are made of these: a value with its reader, its JSON Schema and its words; a key, which puts a
 // value into a field; an object, which is a list of keys and perhaps a rule about several of them.
 #pragma once
 
@@ -20,13 +20,13 @@ namespace drape {
 struct ValueText {
     std::string schema;                        ///< members of its JSON Schema, without braces
     std::string words;                         ///< Markdown
-    std::vector<const Definition*> uses = {};  ///< what `schema` refers to
+    std::vector<const Definition*> uses = {};  ///< the definitions that `schema` refers to
 };
 
 template <class T>
 struct Value {
     ValueText text;
-    /// Leaves the field alone when there is nothing; reports what does not fit; whether the field can be relied on.
+    /// Leaves the field alone where nothing is, reports what does not fit, returns whether the field can be relied on.
     std::function<bool(const SceneNode&, T&)> read;
     std::function<std::string(const T&)> write = {};  ///< JSON of a default; empty: no default is published
 };
@@ -37,7 +37,7 @@ Value<std::uint32_t> one_of(std::vector<std::uint32_t> allowed);
 Value<std::array<double, 2>> two_numbers(const Range& range);
 Value<std::array<std::uint32_t, 2>> two_integers(std::uint32_t low, std::uint32_t high);
 Value<Vec3> three_numbers(const Range& range);
-/// A vector that is not zero; the field becomes its unit vector.
+/// Reads a vector that is not zero; the field becomes its unit vector.
 Value<Vec3> unit_vector();
 Value<bool> boolean();
 Value<std::string> text();
@@ -78,7 +78,7 @@ Value<T> without_default(Value<T> value) {
     return value;
 }
 
-/// An array of `least` to `most`; `what` is what an error says was expected, `fresh` what an element is without keys.
+/// An array of `least` to `most` items; an error says that `what` was expected; `fresh` is an element without keys.
 template <class T>
 Value<std::vector<T>> list(const Value<T>& item, std::string_view what, std::size_t least, std::size_t most,
                            const T& fresh = {}) {
@@ -103,7 +103,7 @@ Value<std::vector<T>> list(const Value<T>& item, std::string_view what, std::siz
     return value;
 }
 
-/// A value with a name of its own, which several keys have. Lives as long as the format.
+/// A value with a name of its own, which several keys have. It lives as long as the format.
 template <class T>
 struct Named {
     Named(std::string_view name, std::string_view help, const Value<T>& form)
@@ -118,13 +118,13 @@ struct Named {
     Value<T> value;
 };
 
-/// The members of an object, as its rule sees them: read already.
+/// The members of an object as its rule sees them: they are read already.
 class Members {
   public:
     explicit Members(const SceneNode& object) : object_(object) {}
     const SceneNode& object() const { return object_; }
     SceneNode operator[](std::string_view key) const { return object_.member(key); }
-    /// Whether the fields of all these keys can be relied on.
+    /// Returns whether the fields of all these keys can be relied on.
     bool fit(std::initializer_list<std::string_view> keys) const;
     bool all_fit() const { return unfit_.empty(); }
     void add_unfit(std::string_view key) { unfit_.push_back(key); }
@@ -138,7 +138,7 @@ template <class Object>
 struct Key {
     using Read = std::function<bool(const SceneNode&, Object&)>;
 
-    /// `required`: what is expected where the key is missing; empty: it may be.
+    /// An error says that `required` was expected where the key is missing; empty: it may be missing.
     template <class Base, class Field>
     requires std::derived_from<Object, Base> Key(std::string_view name, Field Base::*field,
                                                  const std::type_identity_t<Value<Field>>& value, std::string_view help,
@@ -159,7 +159,7 @@ struct Key {
         };
     }
 
-    /// The same key of an object around this one; `part` finds this one in it.
+    /// Returns the same key of an object around this one; `part` finds this one in it.
     template <class Whole, class Part>
     Key<Whole> within(Part part) const {
         Key<Whole> key(
@@ -175,11 +175,11 @@ struct Key {
     std::function<std::string(const Object&)> write = {};  ///< empty: the key has no default
 };
 
-/// An object of the format. Lives as long as the format.
+/// An object of the format. It lives as long as the format.
 template <class T>
 class Object {
   public:
-    /// Checks what concerns several keys, after they were read; whether the object can be relied on.
+    /// Checks what concerns several keys, after they were read; returns whether the object can be relied on.
     using Rule = bool (*)(const Members&, T&);
 
     Object(std::string_view name, std::string_view help, std::vector<Key<T>> keys, Rule rule = nullptr,
@@ -209,7 +209,7 @@ class Object {
     const Definition& definition() const { return definition_; }
 
   private:
-    /// The keys that have other values than their defaults.
+    /// Returns the keys that have other values than their defaults.
     std::string written(const T& object) const {
         std::string json;
         for (const Key<T>& key : keys_) {

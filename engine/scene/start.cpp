@@ -13,14 +13,14 @@ namespace drape {
 
 namespace {
 
-/// From the first particle of a row (or column) to its last.
+/// Returns the way from the first particle of a row (or column) to its last.
 Vec3 side(const Cloth& cloth, std::size_t axis) {
     const Vec3& way = axis == 0 ? cloth.placement.u : cloth.placement.v;
     const double length = cloth.placement.scale[axis] * cloth.size[axis];
     return {length * way[0], length * way[1], length * way[2]};
 }
 
-/// m, what single precision tells apart where the cloth starts, four times over.
+/// Returns four times what single precision tells apart where the cloth starts, m.
 double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -60,12 +60,12 @@ std::vector<bool> missing_cells(const Cloth& cloth) {
 
 bool leaves_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
-    if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > scene_particle_limit) return true;  // an error of its own
+    if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > scene_particle_limit) return true;  // another error reports it
     std::uint64_t covered = 0;
     for (const IndexBox& hole : cloth.holes)
         covered += std::uint64_t{hole.last[0] - hole.first[0]} * (hole.last[1] - hole.first[1]);
     if (covered < columns * rows) return true;
-    // By cell how many more holes there are than around it to the left and above: the sum says how many it is in.
+    // Summed from the left and from above, this array of differences says how many holes a cell is in.
     std::vector<std::int32_t> holes((columns + 1) * (rows + 1));
     for (const IndexBox& hole : cloth.holes)
         for (const auto& [column, row, sign] : {std::tuple{hole.first[0], hole.first[1], 1},

@@ -25,7 +25,7 @@ struct Sheet {
     std::vector<bool> missing;
     std::vector<Vec3> at;
     Vec3 lower, upper;
-    double doubt;  ///< m: less than single precision can tell
+    double doubt;  ///< m: single precision cannot tell less
 
     explicit Sheet(const Cloth& of)
         : cloth(&of), missing(missing_cells(of)), at(start_positions(of)), lower(at[0]), upper(at[0]) {
@@ -52,7 +52,7 @@ struct Sheet {
         return mesh;
     }
 
-    /// Whether a point is on the flat cloth, but for `doubt`.
+    /// Returns whether a point is on the flat cloth or up to `within` (m) off it.
     bool holds(const Vec3& point, double within) const {
         const Vec3 &origin = at.front(), &u_end = at[cloth->grid[0] - 1], &v_end = at[at.size() - cloth->grid[0]];
         const Vec3 from = minus(point, origin), u = minus(u_end, origin), v = minus(v_end, origin);
@@ -75,13 +75,13 @@ bool boxes_meet(const Sheet& a, const Sheet& b, double within) {
     return true;
 }
 
-/// Where a sheet goes to be off another one.
+/// The way that takes a sheet off another one.
 struct WayOff {
-    double depth;  ///< m; not finite: nowhere
+    double depth;  ///< m; not finite: there is none
     Vec3 way;      ///< unit
 };
 
-/// Of `b`: to that side of the plane of `a` on which it has more.
+/// Returns the way of `b` to the side of the plane of `a` to which it reaches farther.
 WayOff way_off(const Sheet& a, const Sheet& b) {
     const Vec3 normal = start_normal(*a.cloth);
     if (!(length(normal) > 0)) return {std::numeric_limits<double>::infinity(), {}};
@@ -106,7 +106,7 @@ bool touches(const Sheet& a, const Sheet& b, double within) {
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
 
-/// m, of its triangles.
+/// Returns the height of the cloth's triangles, m.
 double start_height(const Cloth& cloth) {
     double side[2];
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -115,13 +115,13 @@ double start_height(const Cloth& cloth) {
     return longest > 0 ? side[0] * side[1] / longest : 0;
 }
 
-/// Whether its triangles are lower than what rounding moves them by.
+/// Returns whether the sheet's triangles are lower than what rounding moves them by.
 bool is_gathered(const Sheet& sheet) {
     return !(start_height(*sheet.cloth) > sheet.doubt - sheet.cloth->placement.jitter);
 }
 
-/// Whether a cloth that should be flat is not: where jitter turns no triangle over, seen along the normal, none can
-/// cross another.
+/// Returns whether a cloth that should be flat crosses itself. Where jitter turns no triangle over, seen along the
+/// normal, none can cross another.
 bool crosses_itself(const Sheet& sheet) {
     return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) && TriangleCrossings({sheet.mesh()}).any();
 }

@@ -1,5 +1,5 @@
-// Signed distances in double precision, by methods other than the shaders': for where cloth starts, and the oracle
-// for contact tests.
+// Computes signed distances in double precision, by methods other than the shaders': for where cloth starts, and as the
+// oracle for contact tests.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline Vec3 to_local(const ColliderPose& pose, const Vec3& world) {
     return local;
 }
 
-/// Closest point of an ellipsoid by bisection of Eberly's equation in double precision.
+/// Returns the closest point of an ellipsoid, by bisection of Eberly's equation in double precision.
 inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
     const double smallest = *std::ranges::min_element(radii);
     Vec3 y = point;
@@ -49,7 +49,7 @@ inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
     return foot;
 }
 
-// Of a point in the shape's own frame, about its centre.
+// A shape's `local` is a point in its own frame, about its centre.
 inline double shape_distance(const Plane& plane, const Vec3& local) { return dot(local, plane.normal); }
 
 inline double shape_distance(const Sphere& sphere, const Vec3& local) { return norm(local) - sphere.radius; }
@@ -72,7 +72,7 @@ inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
     return level < 0 ? -gap : gap;
 }
 
-/// The ball among all of the sweep whose surface is nearest: its depth is convex along the segment.
+/// Finds the ball of the sweep whose surface is nearest: the distance is convex along the segment.
 inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foot = nullptr) {
     const double half = 0.5 * norm(minus(capsule.to, capsule.from));
     const auto radius = [&](double t) { return capsule.radii[0] + t * (capsule.radii[1] - capsule.radii[0]); };
@@ -101,7 +101,7 @@ inline double surface_distance(const Collider& collider, double time, const Vec3
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
 }
 
-/// Least distance of a point to all colliders.
+/// Returns the least distance of a point to all colliders.
 inline double surface_distance(const std::vector<Collider>& colliders, double time, const Vec3& x) {
     double least = 1e300;
     for (const Collider& collider : colliders) least = std::min(least, surface_distance(collider, time, x));

@@ -1,7 +1,7 @@
-// Which triangles of meshes cross each other: the judge of contact between cloths. In extended precision, over a tree
-// of bounding boxes; shares no code with the solver. Two triangles cross when an edge of one passes through the other's
-// inside; triangles that share an edge cannot, but for folding flat onto each other, and those that share a corner are
-// tried with the edges that do not touch it.
+// Finds which triangles of meshes cross each other: the judge of contact between cloths. It computes in extended
+// precision over a tree of bounding boxes and shares no code with the solver. Two triangles cross when an edge of one
+// passes through the other's inside. Triangles that share an edge cannot, except by folding flat onto each other; those
+// that share a corner are tried with the edges that do not touch it.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class TriangleCrossings {
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Pairs of triangles that cross, of those meshes for whose indices `counts` is true.
+    /// Counts the pairs of triangles that cross, of those meshes for whose indices `counts` is true.
     template <class Counts>
     std::size_t count(const Counts& counts) const {
         std::size_t crossings = 0;
@@ -46,7 +46,6 @@ class TriangleCrossings {
             crossings += crossings_of(0, triangle, box_of(triangle), counts);
         return crossings;
     }
-    /// Whether there is any.
     bool any() const {
         const auto all = [](std::size_t, std::size_t) { return true; };
         for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
@@ -72,7 +71,7 @@ class TriangleCrossings {
     };
     struct Node {
         Box box;
-        std::size_t begin, end, left = 0, right = 0;  ///< left 0: a leaf
+        std::size_t begin, end, left = 0, right = 0;  ///< left is 0 in a leaf
     };
     static constexpr std::size_t leaf_size = 4;
 
@@ -137,7 +136,7 @@ class TriangleCrossings {
         return false;
     }
 
-    /// Whether p - q goes through the inside of a triangle.
+    /// Returns whether p - q goes through the inside of a triangle.
     bool passes(const Point& p, const Point& q, const Triangle& wall) const {
         const Point &a = points_[wall[0]], &b = points_[wall[1]], &c = points_[wall[2]];
         const long double above = volume(a, b, c, p), below = volume(a, b, c, q);
@@ -146,7 +145,7 @@ class TriangleCrossings {
         return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
     }
 
-    /// Six times the signed volume of a tetrahedron.
+    /// Returns six times the signed volume of a tetrahedron.
     static long double volume(const Point& a, const Point& b, const Point& c, const Point& d) {
         long double u[3], v[3], w[3];
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// The few operations on double vectors that several rooms need.
+// Several rooms need these few operations on double vectors.
 #pragma once
 
 #include <cmath>

@@ -84,7 +84,7 @@ void FrameLoop::run_coarse(std::uint32_t frame, bool first, Judgement& judgement
     }
 }
 
-/// The estimated error over its limit, of the worst cloth.
+/// Returns the estimated error over its limit, of the worst cloth.
 double FrameLoop::motion_of(std::uint32_t slot) {
     const std::vector<double> differences = solver_.differences(*pool_, slot);
     double worst = motion_error_ = 0;
@@ -97,7 +97,7 @@ double FrameLoop::motion_of(std::uint32_t slot) {
     return worst;
 }
 
-/// The facts of the last frame that was run: the segment's last, unless one before it failed.
+/// Returns the facts of the last frame that was run: the segment's last, unless one before it failed.
 FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked) {
     const Segment& segment = control_->segment();
     const Finished& finished = segment.probes ? withhold_ : asked.finished;
@@ -111,7 +111,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
         if (k == 0) run.before = first && !segment.probes ? AttemptStep::keep : AttemptStep::restore;
         if (last && segment.probes) run.after = AttemptStep::compare;
         submit_run(slot, run);
-        deliver(next_slot_, finished);  // the frame before, while this one is simulated
+        deliver(next_slot_, finished);  // hands out the frame before while this one is simulated
         judged = take_judged(slot, run.substeps);
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_record);
@@ -127,7 +127,7 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
     return judged;
 }
 
-/// A frame that is the one before it.
+/// Hands out a frame that is the one before it.
 void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
     simulated_ = frame + 1;
     submit_output(frame, {attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}}, asked.wanted(frame),
@@ -150,7 +150,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (sleep_.asleep(frame)) return sleep_through(frame, asked);
     const Segment& begun = control_->begin(probe_room(model_, frame), drive_.eventful(frame));
     if (begun.probes) drive_.probed(frame, begun.frame_count);
-    if (begun.probes) deliver_all(asked.finished);  // then only what is withheld is in flight
+    if (begun.probes) deliver_all(asked.finished);  // then only withheld frames are in flight
     FrameEffort effort{.attempts = 0};
     Judged judged;
     for (bool first = true;;) {
@@ -174,7 +174,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     keep_segment(frame, std::move(judged), asked);
 }
 
-/// `single`: the frame, unless the segment is a probe; its effort is the segment's.
+/// `single` is the frame, unless the segment is a probe; its effort is the segment's.
 void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& asked) {
     const Segment& segment = control_->segment();
     for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, segment.substeps);
@@ -190,7 +190,7 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
 
 void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {
     control_->keep_anyway();
-    // What is not finite, or not plausible, is told of when it is handed out.
+    // A frame that is not finite, or not plausible, is told of when it is handed out.
     if (!options_.keep_promises || !std::isfinite(judgement.stretch) || !judgement.plausible) return;
     if (!control_->segment().probes) deliver_all(asked.finished);
     const bool stretch = judgement.stretch > 1;

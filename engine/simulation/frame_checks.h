@@ -1,4 +1,4 @@
-// What makes a frame no result.
+// Finds why a frame is no result.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace drape {
 
-/// The first of: a particle that is not finite, something not plausible (cloth/watch.h), a cloth whose RMS stretch
-/// error is above the scene's tolerance. Nothing where there are no statistics.
+/// Returns the first of: a particle that is not finite, something not plausible (cloth/watch.h), a cloth whose RMS
+/// stretch error is above the scene's tolerance. There is none without statistics.
 std::optional<FrameFailure> frame_failure(const SimulationModel& model, Watch& watch, const FinishedFrame& frame);
 
-/// Throws it: Diverged or ToleranceMissed.
+/// Throws it as Diverged or ToleranceMissed.
 [[noreturn]] void raise(const FrameFailure& failure);
 
 }  // namespace drape

@@ -74,7 +74,7 @@ void FrameLoop::allocate_and_record() {
 
 void FrameLoop::record() {
     for (const FrameKind kind : kinds()) {
-        // What a closed loop simulates is recorded by its rungs.
+        // The rungs record what a closed loop simulates.
         if (model_.closed_loop() && contents(kind).simulates) continue;
         Frame& frame = frames_[static_cast<std::size_t>(kind)];
         frame.recorded = recording(frame);
@@ -217,7 +217,7 @@ void FrameLoop::begin_anew() {
 }
 
 void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
-    deliver(next_slot_, finished);  // the frame before, while this one is simulated
+    deliver(next_slot_, finished);  // hands out the frame before while this one is simulated
     for (;;) {
         slots_.wait(slot);
         const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
@@ -266,7 +266,7 @@ std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::s
     return views;
 }
 
-/// What the statistics take for the velocity (end_velocity.h), over the substep.
+/// Returns what the statistics take for the velocity (end_velocity.h), over the substep.
 std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
     const auto moved = arrays(slot, "displacement"), excess = arrays(slot, "excess displacement");
     const double substeps_per_second = model_.scene.time.fps * substeps;

@@ -1,5 +1,5 @@
-// The frames of a scene on the device: graphs for each kind of frame, two frames in flight, results handed out
-// in order. With method `auto` the loop is closed: every frame is judged, and done again where it fails. The host never
+// Runs the frames of a scene on the device: graphs for each kind of frame, two frames in flight, results handed out in
+// order. With method `auto` the loop is closed: every frame is judged, and done again where it fails. The host never
 // reads positions to simulate; it reads them only where an export asks for them.
 #pragma once
 
@@ -40,15 +40,15 @@ struct FrameLoopOptions : PictureOptions {
     bool statistics = false;    ///< statistics of every frame handed out are wanted
     Kernels kernels = Kernels::automatic();
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
-    /// Told of every cut, with the cloth's topology after it.
+    /// Each cut is told here, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
     std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 
-/// What is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated; those in
-/// which a cutter is active are searched for cuts. A closed loop simulates until a frame is good and hands it out
-/// after.
+/// One of these is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated;
+/// those in which a cutter is active are searched for cuts. A closed loop simulates until a frame is good and hands it
+/// out after.
 enum class FrameKind {
     initial,
     simulate,
@@ -76,31 +76,30 @@ constexpr const FrameContents& contents(FrameKind kind) { return frame_contents[
 
 class FrameLoop {
   public:
-    /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over
-    /// budget, before anything is allocated), records them, and uploads the initial state. `device` and `model` must
-    /// outlive the loop.
+    /// Builds and plans the graphs of every kind of frame, allocates what they use (VulkanError when over budget,
+    /// before anything is allocated), records them, and uploads the initial state. `device` and `model` must outlive
+    /// the loop.
     FrameLoop(const vulkan::Device& device, const SimulationModel& model, const FrameLoopOptions& options);
     FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
 
-    /// Frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is asked
-    /// before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
+    /// Runs frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is
+    /// asked before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 
-    /// 0 in the beginning.
     std::uint32_t next_frame() const { return next_frame_; }
-    /// Every frame that was simulated was handed out.
+    /// Returns whether every frame that was simulated was handed out.
     bool can_save() const { return withheld_.empty() && (!control_ || next_frame_ >= simulated_); }
-    /// What next_frame() starts from; only then.
+    /// Returns what next_frame() starts from, where it can be saved.
     SimulationState save() const;
     /// Takes over what another loop of the same model saved. Throws Error when it is not that.
     void restore(const SimulationState& state);
-    /// What cuts have made of each cloth so far.
+    /// Returns what cuts have made of each cloth so far.
     const std::vector<CutTopology>& topologies() const { return solver_.topologies(); }
-    /// Three particles per triangle that no cut has split so far.
+    /// Returns three particles per triangle that no cut has split so far.
     std::vector<std::uint32_t> whole_triangles(std::size_t cloth) const;
 
-    /// Over the frames simulated so far; nothing: no cloth meets itself or another.
+    /// Returns the report on the frames simulated so far; nothing: no cloth meets itself or another.
     const std::optional<SelfContactReport>& self_contact() const { return self_contact_; }
 
     const graph::Graph& graph(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].graph; }
@@ -115,7 +114,7 @@ class FrameLoop {
         graph::Plan plan;
         std::unique_ptr<graph::RecordedPlan> recorded;
     };
-    /// What is handed out with a frame of a closed loop, known before it is drawn.
+    /// The results of a closed loop's frame are known before it is drawn.
     struct Judged {
         std::vector<ClothStatistics> statistics;
         FrameEffort effort;
@@ -126,7 +125,7 @@ class FrameLoop {
         std::uint32_t frame = 0;
         FrameKind kind = FrameKind::initial;
         bool output = false;
-        std::uint32_t substeps = 0;  ///< that the state's history is of
+        std::uint32_t substeps = 0;  ///< substeps of the state's history
         std::optional<Judged> judged;
     };
     /// A closed loop's frame at one number of substeps.
@@ -136,7 +135,7 @@ class FrameLoop {
     };
     using Finished = std::function<void(const FinishedFrame&)>;
 
-    /// Those that this scene and these options ever need.
+    /// Returns the kinds that this scene and these options ever need.
     std::vector<FrameKind> kinds() const;
     FrameNeeds needs(FrameKind kind) const;
     bool cutters_active_in(std::uint32_t frame) const;
@@ -149,7 +148,7 @@ class FrameLoop {
     template <class Archive>
     void transfer(Archive& archive);
     void restore_cuts(const SimulationState& state);
-    /// Whether what was read of a state is what a loop of this scene can come to: the next frame divides by it.
+    /// Returns whether a loop of this scene can come to the state that was read: the next frame divides by it.
     bool can_be() const;
     Frame build(FrameKind kind, const SimulationModel& run);
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
@@ -157,20 +156,20 @@ class FrameLoop {
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
     /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
     void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
-    /// A named method's frame whose lists of contact were too short is done again with longer ones.
+    /// Does a named method's frame again with longer lists of contact where they were too short.
     void fit_lists(std::uint32_t slot, const Finished& finished);
-    /// Back to what the frame or segment started from, with new resources. Nothing may be in flight.
+    /// Goes back to what the frame or segment started from, with new resources. Nothing may be in flight.
     void begin_anew();
     void deliver(std::uint32_t slot, const Finished& finished);
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
     void deliver_all(const Finished& finished);
-    /// The slot that is next, free.
+    /// Returns the slot that is next, free.
     std::uint32_t take_slot(const Finished& finished);
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
     // closed_loop.cpp
-    /// Those that the loop takes: all, or where only lists may be too short, keep and restore.
+    /// Returns the steps that the loop takes: all, or where only lists may be too short, keep and restore.
     std::span<const AttemptStep> attempt_steps() const;
     void build_attempts();
     Rung& rung(std::uint32_t substeps);
@@ -181,14 +180,14 @@ class FrameLoop {
     };
     struct Run {
         std::uint32_t frame, substeps;
-        std::optional<AttemptStep> before, after;  ///< the frame
-        bool begins;                               ///< a run of the segment: its step may change
+        std::optional<AttemptStep> before, after;  ///< done before and after the frame
+        bool begins;                               ///< it begins a run of the segment: its step may change
     };
     /// Simulates the frames from `frame` on that are judged together until the control keeps them, or throws
     /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
     void simulate_segment(std::uint32_t frame, const Asked& asked);
     void sleep_through(std::uint32_t frame, const Asked& asked);
-    /// Whether the segment's lists of contact were too short and now are longer, at its start.
+    /// Returns whether the segment's lists of contact were too short and now are longer, at its start.
     bool lengthen_lists();
     void drop_withheld();
     void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
@@ -213,21 +212,21 @@ class FrameLoop {
     Watch watch_;
     Sleep sleep_;
     Drive drive_;
-    /// Of the frames of the last attempt, in order.
+    /// The frames of the last attempt have these statistics, in order.
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
-    std::vector<glsl::SelfRecord> attempt_self_records_;  ///< likewise
+    std::vector<glsl::SelfRecord> attempt_self_records_;  ///< the records of the same frames
     glsl::SelfRecord fullest_{};                          ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
-    std::uint32_t state_substeps_;    ///< that the state's history is of
+    std::uint32_t state_substeps_;    ///< substeps of the state's history
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
-    double motion_error_ = 0;         ///< of the last probe
+    double motion_error_ = 0;         ///< the last probe's
     std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
     std::unique_ptr<graph::ResourcePool> pool_;
-    vulkan::FrameSlots slots_;  ///< goes first: it waits for what is in flight
+    vulkan::FrameSlots slots_;  ///< goes first, as it waits for what is in flight
     std::array<std::optional<InFlight>, vulkan::frame_slot_count> in_flight_;
     std::uint32_t next_frame_ = 0, next_slot_ = 0;
-    std::vector<std::vector<float>> velocities_;  ///< of the frame that is handed out
+    std::vector<std::vector<float>> velocities_;  ///< the frame's that is handed out
 };
 
 }  // namespace drape

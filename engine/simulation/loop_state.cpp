@@ -1,6 +1,6 @@
-// What a frame loop keeps from frame to frame, as the parts of a checkpoint: the state fields of every cloth by the
-// table (cloth/cloth_state.h), its cuts, and what the loop knows (engine/docs/checkpoint.md). What follows from the
-// scene and the frame alone, such as the bounds of the watch, is computed again.
+// A frame loop keeps these from frame to frame, as the parts of a checkpoint: the state fields of every cloth by the
+// table (cloth/cloth_state.h), its cuts, and what the loop knows (engine/docs/checkpoint.md). The rest follows from the
+// scene and the frame alone, such as the bounds of the watch, and is computed again.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void transfer_strain(Archive& archive, Strain& strain) {
     archive(strain.spring_count, strain.rms, strain.largest, strain.smallest);
 }
 
-/// The last frame's, which a sleeping one repeats.
+/// Transfers the last frame's statistics, which a sleeping one repeats.
 template <class Archive>
 void transfer_statistics(Archive& archive, ClothStatistics& s) {
     transfer_strain(archive, s.stretch);
@@ -39,7 +39,7 @@ void transfer_statistics(Archive& archive, ClothStatistics& s) {
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("the saved state is not of this scene: " + why); }
 
-/// Per particle and direction (cloth/directions.h) the fraction of its spring where it was cut, -1: not cut.
+/// Returns per particle and direction (cloth/directions.h) the fraction of its spring where it was cut, -1: not cut.
 std::vector<std::byte> cut_bytes(const CutTopology& topology) {
     ByteWriter writer;
     const std::size_t count = topology.cloth().grid.particle_count();
@@ -90,7 +90,7 @@ bool FrameLoop::can_be() const {
     if (!as_it_begins &&
         !(control_ && std::ranges::count(substep_rungs(row_of(model_.scene.solver.method)), state_substeps_) == 1))
         return false;
-    // The frame that a sleeping one repeats.
+    // A sleeping frame needs the one that it repeats.
     return !sleep_.remembers() || !attempt_statistics_.empty();
 }
 
@@ -103,7 +103,7 @@ void FrameLoop::restore_cuts(const SimulationState& state) {
         findings.fractions.resize(model_.cloths[cloth].grid.particle_count());
         if (part->second.size() != findings.fractions.size() * sizeof(glsl::vec4)) refuse(part->first);
         std::memcpy(findings.fractions.data(), part->second.data(), part->second.size());
-        topology.apply(findings);  // what is cut and what that splits does not depend on the order of the cuts
+        topology.apply(findings);  // the order of the cuts changes neither what is cut nor what that splits
     }
 }
 

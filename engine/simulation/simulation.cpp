@@ -30,7 +30,7 @@ struct Device::Parts {
           device(instance, selector) {}
     vulkan::Instance instance;
     vulkan::Device device;
-    std::unique_ptr<Parts> drawing;  ///< what pictures are drawn by, unless this device does it
+    std::unique_ptr<Parts> drawing;  ///< draws the pictures, unless this device does
 };
 
 Device::Device(const std::string& selector, Validation validation)
@@ -86,7 +86,7 @@ double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->dev
 
 namespace {
 
-/// By Timings.
+/// Timings index this.
 constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, graph::TimestampMode::stages,
                                                     graph::TimestampMode::passes};
 
@@ -118,7 +118,7 @@ bool is_box_of(const IndexBox& box, const Cloth& cloth) {
            box.last[1] < cloth.grid[1];
 }
 
-/// The scene, if it has what everything else takes for granted; one that was read has it.
+/// Returns the scene, if it has what everything else takes for granted; one that was read has it.
 const SceneDescription& checked(const SceneDescription& scene) {
     SceneResult result;
     const auto expect = [&result](bool fits, const std::string& pointer, const char* what) {
@@ -177,7 +177,7 @@ struct Simulation::Parts {
             pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
     }
 
-    /// Of the loop whose frames `pictures` draws.
+    /// Returns the options of the loop whose frames `pictures` draws.
     FrameLoopOptions beside_pictures() {
         FrameLoopOptions options = asked;
         options.draw = false;
@@ -196,7 +196,7 @@ struct Simulation::Parts {
         const graph::Graph& graph;
         const graph::Plan& plan;
     };
-    /// What a frame takes that is handed out: one graph, or two, one per device.
+    /// Returns what a frame takes that is handed out: one graph, or two, one per device.
     std::vector<Planned> output() const {
         constexpr FrameKind kind = FrameKind::simulate_and_output;
         std::vector<Planned> all{{loop.graph(kind), loop.plan(kind)}};
@@ -210,8 +210,8 @@ struct Simulation::Parts {
     Watch watch;
     FrameLoopOptions asked;
     FrameLoop loop;
-    std::unique_ptr<Pictures> pictures;  ///< where a device of their own draws them
-    Pictures::Finished give;             ///< to the caller, while one runs the simulation
+    std::unique_ptr<Pictures> pictures;  ///< draws pictures where they have a device of their own
+    Pictures::Finished give;             ///< gives to the caller, while one runs the simulation
     FrameCopy kept;
 };
 

@@ -1,5 +1,4 @@
-// The checks about how the cloth moves: free fall, energy, torque of the wind, mirror symmetry, friction's
-// carry.
+// These checks judge how the cloth moves: free fall, energy, torque of the wind, mirror symmetry, friction's carry.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,16 +26,15 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Damped ballistic flight: x0 + v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
+/// Returns the way of damped ballistic flight: v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
 Vec3 flown(const SceneDescription& scene, const Cloth& cloth, double t) {
     const double c = cloth.damping;
-    const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // by a unit start velocity
-    const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // by unit gravity
+    const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // way by a unit start velocity
+    const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // way by unit gravity
     return plus(times(gone, cloth.velocity), times(fallen, scene.gravity));
 }
 
-/// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error`
-/// metres.
+/// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error` metres.
 Verdict falls(const SceneRun& run, const Limits& limits) {
     const std::size_t index = limits.index("cloth"), last = std::min(limits.index("until_frame"), run.last_frame());
     const Cloth& cloth = run.scene.cloths.at(index);
@@ -57,7 +55,7 @@ struct Energy {
     double kinetic, potential;  ///< J, means over the frame that follows
 };
 
-/// The kinetic energy of the mean velocities is at most the mean kinetic energy.
+/// Returns energies of mean velocities, whose kinetic energy is at most the mean kinetic energy.
 Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, std::size_t cloth) {
     Energy energy{0, 0};
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
@@ -69,9 +67,9 @@ Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_
     return energy;
 }
 
-/// What gravity gives from `from_frame` on, less what damping takes (2 c times kinetic energy per second), is
-/// there as motion: at the fastest moment until `until_frame` the kinetic energy is `least` to `most` of it.
-/// No wind, nothing touched. The rest is strain and what the relaxation loses.
+/// All that gravity gives from `from_frame` on, less what damping takes (2 c times kinetic energy per second), is there
+/// as motion: at the fastest moment until `until_frame` the kinetic energy is `least` to `most` of it. There is no
+/// wind, nothing is touched; the rest is strain and what the relaxation loses.
 Verdict swing(const SceneRun& run, const Limits& limits) {
     const std::size_t cloth = limits.index("cloth"), first = limits.index("from_frame");
     const std::size_t last = std::min(limits.index("until_frame"), run.last_frame());
@@ -93,7 +91,7 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
                         limits["least"], limits["most"])};
 }
 
-/// Torque of the wind about the vertical through `pole`, N m: the scene format's force law on every triangle.
+/// Returns the torque of the wind about the vertical through `pole`, N m, by the scene format's force law.
 double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corners, std::size_t frame,
                    const Vec3& pole) {
     const Wind& wind = run.scene.wind;
@@ -120,7 +118,7 @@ double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corner
     return torque;
 }
 
-/// Angular momentum about the vertical through `pole`, kg m^2/s, between a frame and the next.
+/// Returns the angular momentum about the vertical through `pole`, kg m^2/s, between a frame and the next.
 double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, const Vec3& pole) {
     double sum = 0;
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
@@ -130,9 +128,9 @@ double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::s
     return sum;
 }
 
-/// A flag that is pinned along a vertical pole turns about it as the wind alone makes it: pins, springs and
-/// gravity have no torque about the pole, so dL/dt = torque - c L. From `from_frame` to `until_frame` the
-/// integral of that stays within `relative_error` of the impulse at stake, which is the integral of |torque|.
+/// A flag that is pinned along a vertical pole turns about it as the wind alone makes it: pins, springs and gravity
+/// have no torque about the pole, so dL/dt = torque - c L. From `from_frame` to `until_frame` the integral of that
+/// stays within `relative_error` of the impulse at stake, which is the integral of |torque|.
 Verdict torque(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const std::vector<std::uint32_t> corners = measure.grid.triangle_indices();
@@ -154,9 +152,9 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
                         impulse, 100 * limits["relative_error"])};
 }
 
-/// From `from_frame` on the flag streams along the wind: its centre lies, in the mean over time, within
-/// `degrees` of the wind's direction seen from the pole. And it flutters: the free edge's middle swings
-/// sideways by `flutter` metres (standard deviation) at least.
+/// From `from_frame` on the flag streams along the wind: its centre lies, in the mean over time, within `degrees` of
+/// the wind's direction seen from the pole. And it flutters: the free edge's middle swings sideways by `flutter` metres
+/// (standard deviation) at least.
 Verdict blown(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const Vec3 pole = run.at(0, 0, 0), wind = run.scene.wind.velocity;
@@ -182,9 +180,9 @@ Verdict blown(const SceneRun& run, const Limits& limits) {
                         limits["degrees"], flutter, limits["flutter"])};
 }
 
-/// What is mirrored in the plane x = 0 stays so until `until_frame`: RMS distance of a particle from its
-/// partner's mirror image, metres. (The order in which springs are relaxed is not symmetric; what differs is
-/// its error.)
+/// A cloth that is mirrored in the plane x = 0 stays so until `until_frame`: RMS distance of a particle from its
+/// partner's mirror image, metres. (The order in which springs are relaxed is not symmetric; what differs is its
+/// error.)
 Verdict mirror(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const Grid& grid = measure.grid;
@@ -204,8 +202,8 @@ Verdict mirror(const SceneRun& run, const Limits& limits) {
     return {worst <= limits["error"], fmt::format("RMS asymmetry {:.2e} m, allowed {:.2e} m", worst, limits["error"])};
 }
 
-/// The cap of cloth on top of the first sphere (rest distance from its middle under `radius` metres) turns
-/// with the sphere: never more than `lag` degrees behind or ahead.
+/// The cap of cloth on top of the first sphere (rest distance from its middle under `radius` metres) turns with the
+/// sphere: it is never more than `lag` degrees behind or ahead.
 Verdict carried(const SceneRun& run, const Limits& limits) {
     const Collider& collider = *std::ranges::find(run.scene.colliders, glsl::kind_sphere, &Collider::kind);
     const Sphere& sphere = std::get<Sphere>(collider.shape);

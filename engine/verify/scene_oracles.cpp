@@ -1,4 +1,4 @@
-// The table of checks, and those about where the cloth is: strain, pins, contact.
+// Judges oracles, and has the checks about where the cloth is: strain, pins, contact.
 #include "verify/scene_oracles.h"
 
 #include <fmt/format.h>
@@ -40,8 +40,7 @@ Verdict judge(const SceneRun& run, const Oracle& oracle) {
 
 namespace {
 
-/// Calls visit(cloth, pin, particle) for all pinned particles; a later pin takes what it shares with an
-/// earlier one.
+/// Calls visit(cloth, pin, particle) for all pinned particles; a later pin takes what it shares with an earlier one.
 template <class Visit>
 void for_each_pinned(const SceneDescription& scene, const Visit& visit) {
     for (std::size_t index = 0; index < scene.cloths.size(); ++index) {
@@ -60,7 +59,7 @@ bool same_place(const SceneRun& run, std::size_t frame, std::size_t cloth, std::
     return std::memcmp(&run.frames[frame][cloth][particle], &run.frames[0][cloth][particle], 3 * sizeof(float)) == 0;
 }
 
-/// Mean strain 0.65 and RMS strain 0.83 of the stretch law once the sheet hangs still (all eight passes).
+/// Once the sheet hangs still, its mean strain is 0.65 and its RMS strain 0.83 of the stretch law (all eight passes).
 Verdict stretch_law_holds(const SceneRun& run, const Limits& limits) {
     const std::vector<double> strains = spring_strains(run, run.last_frame(), 0, true);
     const double law = stretch_law(run.scene, 0);
@@ -71,7 +70,7 @@ Verdict stretch_law_holds(const SceneRun& run, const Limits& limits) {
                         100 * spread, 100 * allowed)};
 }
 
-/// RMS strain of all row and column springs in the worst frame, every cloth: what is real and what is error.
+/// The RMS strain of all row and column springs, be it real or error, is limited in every frame of every cloth.
 Verdict stretch_limited(const SceneRun& run, const Limits& limits) {
     Verdict verdict{true, fmt::format("allowed {}", limits["strain"])};
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
@@ -102,7 +101,7 @@ Verdict pins_hold(const SceneRun& run, const Limits&) {
     return {pinned > 0 && moved == 0, fmt::format("{} of {} pins moved", moved, pinned)};
 }
 
-/// Where a pin's path takes a point at a time, m: R (rest - pivot) + pivot + translation.
+/// Returns where a pin's path takes a point at a time, m: R (rest - pivot) + pivot + translation.
 Vec3 followed(const SceneRun& run, std::size_t cloth, const Pin& pin, const Vec3& rest, double time) {
     Vec3 pivot{};
     if (pin.pivot) {
@@ -170,8 +169,8 @@ Verdict drawn(const SceneRun& run, const Limits& limits) {
                         offset, limits["offset"], width, limits["width"])};
 }
 
-/// A pin holds to the bit until its release, and then its particle falls: `least` to `most` times what it
-/// would fall freely in `seconds`.
+/// A pin holds to the bit until its release, and then its particle falls: `least` to `most` times what it would fall
+/// freely in `seconds`.
 Verdict released(const SceneRun& run, const Limits& limits) {
     std::size_t count = 0, early = 0;
     double slowest = 1e300, fastest = -1e300;
@@ -203,8 +202,8 @@ Verdict cut_pieces(const SceneRun& run, const Limits& limits) {
                         limits["pieces"], run.cuts.back().crumbs)};
 }
 
-/// The particles that are not pinned weigh in the last frame what the uncut sheet gives them, by their
-/// inverse masses on the device, and as much cloth is drawn after every cut as before.
+/// The particles that are not pinned weigh in the last frame what the uncut sheet gives them, by their inverse masses
+/// on the device, and as much cloth is drawn after every cut as before.
 Verdict mass_kept(const SceneRun& run, const Limits& limits) {
     double worst = 0;
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
@@ -235,8 +234,8 @@ double size_of(const Box& box) { return *std::ranges::min_element(box.half_exten
 double size_of(const Capsule& capsule) { return std::min(capsule.radii[0], capsule.radii[1]); }
 double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
 
-/// Deepest particle below the surface that contact keeps (scene/contact_shape.h) and the cloth's thickness on top of
-/// it, in units of the collider's size (radius, least half extent; a plane's is 1 m).
+/// Returns how far the deepest particle is below the surface that contact keeps (scene/contact_shape.h) with the
+/// cloth's thickness on top, in units of the collider's size (radius, least half extent; a plane's is 1 m).
 double deepest(const SceneRun& run, const Collider& collider) {
     const double size = std::visit([](const auto& shape) { return size_of(shape); }, collider.shape);
     double depth = -std::numeric_limits<double>::infinity();
@@ -249,7 +248,7 @@ double deepest(const SceneRun& run, const Collider& collider) {
             for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
                 const Vec3 x = run.at(frame, cloth, particle);
-                if (norm(minus(x, center)) > reach + thickness) continue;  // told without the costly distance
+                if (norm(minus(x, center)) > reach + thickness) continue;  // spares the costly distance
                 depth = std::max(depth, (thickness - surface_distance(kept, time, x)) / size);
             }
         }
@@ -284,7 +283,7 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
-/// No triangle crosses another one; but of a cloth that does not meet itself, where others do, those of its own. What a
+/// No triangle crosses another one, except within a cloth that does not meet itself where others do. A triangle that a
 /// cutter split meets nothing.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
     const std::vector<Cloth>& cloths = run.scene.cloths;

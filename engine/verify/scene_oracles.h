@@ -1,5 +1,5 @@
-// The checks that scene files name as their oracles. Each is a statement of physics about the positions of
-// all frames, measured in double precision; its limits stand in the scene file.
+// Scene files name these checks as their oracles. Each is a statement of physics about the positions of all frames,
+// measured in double precision; its limits stand in the scene file.
 #pragma once
 
 #include <span>
@@ -12,16 +12,16 @@ namespace drape::verify {
 
 struct Verdict {
     bool met;
-    std::string text;  ///< what was measured, against which limit
+    std::string text;  ///< says what was measured, against which limit
 };
 
-/// The limits of one oracle by name: all that its check has (scene/oracle_kinds.h).
+/// An oracle has, by name, all limits of its check (scene/oracle_kinds.h).
 class Limits {
   public:
     explicit Limits(const Oracle& oracle) : oracle_(oracle) {}
-    /// Throws std::invalid_argument where there is none of that name.
+    /// Throws std::invalid_argument where no limit has that name.
     double operator[](const std::string& name) const;
-    /// A limit that counts something, frames or cloths.
+    /// Returns a limit that counts something, frames or cloths.
     std::size_t index(const std::string& name) const { return static_cast<std::size_t>((*this)[name]); }
 
   private:
@@ -29,11 +29,11 @@ class Limits {
 };
 
 struct SceneCheck {
-    std::string_view name;  ///< of an OracleKind
+    std::string_view name;  ///< name of an OracleKind
     Verdict (*judge)(const SceneRun&, const Limits&);
 };
 
-/// How each check is judged: those of shape and contact, and those of motion.
+/// These tables judge the checks: those of shape and contact, and those of motion.
 std::span<const SceneCheck> shape_checks();
 std::span<const SceneCheck> motion_checks();
 

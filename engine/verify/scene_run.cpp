@@ -51,7 +51,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     options.positions = wanted.positions;
     options.statistics = wanted.frame != nullptr;
     options.timestamps = graph::TimestampMode::none;
-    options.keep_promises = false;  // what broke them is what is judged
+    options.keep_promises = false;  // frames that break them are judged
     options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };

@@ -1,5 +1,5 @@
-// A scene simulated on the device, and what its promises are measured with: masses, velocities, strains in
-// double precision, from the position arrays alone.
+// Simulates a scene on the device, and measures its promises: masses, velocities, strains in double precision, from the
+// position arrays alone.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace drape::verify {
 
-/// A cloth after a cut (or, at frame 0, before any).
+/// The state of a cloth after a cut (or, at frame 0, before any).
 struct CutRecord {
     std::size_t frame, cloth;
     std::size_t springs;               ///< cut in this frame
-    std::size_t pieces;                ///< held together by springs, of at least 1 % of the particles
+    std::size_t pieces;                ///< parts held together by springs, of at least 1 % of the particles
     std::size_t crumbs;                ///< smaller ones: single particles that a blade passed on all sides
     double drawn_area;                 ///< m^2 at rest
     std::vector<std::uint32_t> whole;  ///< particles of the triangles that no cut has split, three each
 };
 
-/// Positions of every frame from 0 on. `scene` is the scene as it was read: whatever was done to the model
-/// that ran, it is judged by what the file says.
+/// The positions of every frame from 0 on. `scene` is the scene as it was read: whatever was done to the model that
+/// ran, it is judged by what the file says.
 struct SceneRun {
     SceneDescription scene;
     std::vector<std::vector<std::vector<glsl::vec4>>> frames;  ///< [frame][cloth][particle]
@@ -32,25 +32,25 @@ struct SceneRun {
     std::size_t last_frame() const { return frames.size() - 1; }
     double time(std::size_t frame) const { return static_cast<double>(frame) / scene.time.fps; }  ///< s
     Vec3 at(std::size_t frame, std::size_t cloth, std::size_t particle) const;                    ///< m
-    /// Mean velocity between a frame and the next one, m/s.
+    /// Returns the mean velocity between a frame and the next one, m/s.
     Vec3 velocity_after(std::size_t frame, std::size_t cloth, std::size_t particle) const;
-    /// The first `last` + 1 frames.
+    /// Returns the run of the first `last` + 1 frames.
     SceneRun until(std::size_t last) const;
 };
 
 struct RunOptions {
-    std::uint32_t last = 0;                                ///< frame, from 0 on
+    std::uint32_t last = 0;                                ///< last frame, from 0 on
     bool positions = true;                                 ///< false: SceneRun::frames stays empty
     std::function<void(const FinishedFrame&)> frame = {};  ///< told of every frame, with its statistics
     std::function<bool()> stop = {};                       ///< asked before each frame
 };
 
-/// A scene through the frame loop, without pictures; frames that fail are kept. `model` is the scene's, or what was
-/// made of it. Throws VulkanError.
+/// Runs a scene through the frame loop, without pictures; frames that fail are kept. `model` is the scene's, or what
+/// was made of it. Throws VulkanError.
 SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene, const SimulationModel& model,
                     const RunOptions& options);
 
-/// What the oracles need of a cloth, computed anew from the scene's numbers.
+/// The oracles' numbers about a cloth are computed anew from the scene's numbers.
 struct ClothMeasure {
     ClothMeasure(const SceneDescription& scene, std::size_t cloth);
     Grid grid;
@@ -58,12 +58,12 @@ struct ClothMeasure {
     std::vector<double> mass;  ///< kg; 0 for a particle without cells
 };
 
-/// Strains of the springs along columns (`down`) or along rows that exist.
+/// Returns the strains of the existing springs along columns (`down`) or along rows.
 std::vector<double> spring_strains(const SceneRun& run, std::size_t frame, std::size_t cloth, bool down);
 double mean(const std::vector<double>& values);
 double root_mean_square(const std::vector<double>& values);
 
-/// The relaxation's own mean strain of a hanging sheet of the cloth's N rows and height L, stretch springs
+/// Returns the relaxation's own mean strain of a hanging sheet of the cloth's N rows and height L, stretch springs
 /// only: N^2 g h^2 / (2 K L) (docs/physics.md 2).
 double stretch_law(const SceneDescription& scene, std::size_t cloth);
 

@@ -17,7 +17,7 @@ namespace drape::verify {
 
 namespace {
 
-/// The largest of what frames and cloths have, and where.
+/// The largest value in any frame and cloth, and its place.
 struct Worst {
     double value = 0;
     std::uint32_t frame = 0;
@@ -31,7 +31,7 @@ struct Worst {
     std::string place() const { return fmt::format("frame {}, cloth '{}'", frame, cloth); }
 };
 
-/// What is remembered of the frames.
+/// Remembers what is judged of the frames.
 class FrameWatch {
   public:
     explicit FrameWatch(const SimulationModel& model) : model_(model), watch_(model) {}
@@ -68,13 +68,13 @@ class FrameWatch {
 
 Finding limit(const char* name, const char* what, const Worst& worst, double allowed, const char* unit) {
     if (!worst.known) return {name, true, fmt::format("{}: nothing to measure", what)};
-    // Not `>`: what is not a number is no result.
+    // `>` is not asked, because a NaN is no result.
     return {name, worst.value <= allowed,
             fmt::format("{} at most {:.3g}{} ({}), allowed {:.3g}{}", what, worst.value, unit, worst.place(), allowed,
                         unit)};
 }
 
-/// What every run must keep.
+/// Every run must keep these.
 std::vector<Finding> common_findings(const Request& request, const SimulationModel& model, const FrameWatch& frames) {
     std::vector<Finding> findings;
     findings.push_back({"plausible", frames.nonsense.empty(),
@@ -94,7 +94,7 @@ std::vector<Finding> common_findings(const Request& request, const SimulationMod
     return findings;
 }
 
-/// "oracle/stretch", or "oracle/falls[2]" where the scene has several of it.
+/// Returns "oracle/stretch", or "oracle/falls[2]" where the scene has several of it.
 std::string oracle_name(const SceneDescription& scene, std::size_t index) {
     const std::string& check = scene.oracles[index].check;
     const auto same = [&](const Oracle& oracle) { return oracle.check == check; };
@@ -116,7 +116,7 @@ std::vector<Finding> oracle_findings(const SceneRun& run, bool finite) {
     return findings;
 }
 
-/// Oracles look at all frames at once.
+/// Oracles look at all frames at once, which must fit into memory.
 void check_memory(const SceneDescription& scene) {
     double particles = 0;
     for (const Cloth& cloth : scene.cloths) particles += static_cast<double>(cloth.grid[0]) * cloth.grid[1];

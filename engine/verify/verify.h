@@ -12,7 +12,7 @@ namespace drape::verify {
 
 struct Request {
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
-    std::string device;                  ///< selector; empty: the best there is
+    std::string device;                  ///< selects the device; empty: the best there is
     bool validate = true;                ///< core and synchronization validation, each message a failure
     /// Limits of every frame and cloth, where they are wanted: RMS strain of the stretch springs; their RMS stretch
     /// error; m below the surface that contact keeps free.
@@ -24,17 +24,17 @@ struct Request {
 struct Finding {
     std::string check;
     bool met = false;
-    std::string text;  ///< what was measured, against which limit
+    std::string text;  ///< says what was measured, against which limit
 };
 
 struct Report {
     std::string file;
-    std::vector<SceneError> errors;  ///< of the scene; then it was not run
+    std::vector<SceneError> errors;  ///< errors of the scene, which was then not run
     bool unreadable = false;         ///< the errors are of reading the file
-    std::uint32_t frame_count = 0;   ///< that were run
-    double seconds = 0;              ///< on the wall
+    std::uint32_t frame_count = 0;   ///< number of frames that were run
+    double seconds = 0;              ///< wall-clock time
     std::vector<Finding> findings;
-    bool stopped = false;  ///< by Request::stop, and not judged
+    bool stopped = false;  ///< Request::stop ended the run, which is not judged
 
     bool met() const;
 };
@@ -43,10 +43,10 @@ struct Report {
 /// DeviceError.
 Report verify_scene(const std::string& path, const Request& request);
 
-/// For people, a scene's lines.
+/// Returns a scene's lines, for people.
 std::string report_text(const Report& report);
 std::string reports_json(const std::vector<Report>& reports);
-/// JUnit's XML: a test suite per scene, a test case per check.
+/// Returns JUnit's XML: a test suite per scene, a test case per check.
 std::string reports_junit(const std::vector<Report>& reports);
 
 }  // namespace drape::verify

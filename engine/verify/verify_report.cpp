@@ -1,4 +1,4 @@
-// What was judged, for people, programs and test servers.
+// Reports what was judged to people, programs and test servers.
 #include <fmt/format.h>
 #include <json/json.h>
 

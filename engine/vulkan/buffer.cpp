@@ -86,7 +86,7 @@ Buffer::~Buffer() {
     if (!handle_) return;
     vkDestroyBufferView(device_->handle(), texels_, nullptr);
     vkDestroyBuffer(device_->handle(), handle_, nullptr);
-    device_->free(memory_, allocated_);  // freeing unmaps
+    device_->free(memory_, allocated_);  // freeing unmaps it
 }
 
 Buffer::Buffer(Buffer&& other) noexcept

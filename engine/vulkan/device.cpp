@@ -17,10 +17,10 @@ namespace drape::vulkan {
 
 namespace {
 
-/// Long enough to cost nothing, short enough that a lost device is noticed and a debugger can break in.
+/// A slice is long enough to cost nothing, and so short that a lost device is noticed and a debugger can break in.
 constexpr std::uint64_t wait_slice_nanoseconds = 1'000'000'000;
 
-/// Bytes the system could give now; the maximum where it does not say.
+/// Returns the bytes that the system could give now; the maximum where it does not say.
 std::uint64_t available_memory() {
     std::ifstream file("/proc/meminfo");
     std::string key, unit;
@@ -31,7 +31,7 @@ std::uint64_t available_memory() {
     return std::numeric_limits<std::uint64_t>::max();
 }
 
-/// A fence and a command buffer that go in every case, the queue being idle then.
+/// A fence and a command buffer are freed in every case, the queue being idle then.
 struct OnceCommands {
     const Device& device;
     VkCommandPool pool;
@@ -58,7 +58,7 @@ std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory
             heap = std::max<std::uint64_t>(heap, memory.memoryHeaps[i].size);
         }
     }
-    // Divided first, so that no size can wrap.
+    // The division comes first, so that no size can wrap.
     const std::uint64_t limit = heap / 10 * 9;
     return cpu ? std::min(limit, available_memory() / 4 * 3) : limit;
 }

@@ -1,4 +1,3 @@
-// One logical device, one queue, its limits and the memory budget.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace drape::vulkan {
 
-/// Bytes promised and bytes taken, in checked 64-bit. `reserve` throws VulkanError naming the object when
+/// Keeps account of bytes promised and taken, in checked 64-bit. `reserve` throws VulkanError naming the object when
 /// the limit would be exceeded (docs/devices.md: an image too large fails only at bind on lavapipe).
 class MemoryBudget {
   public:
@@ -30,11 +29,11 @@ class MemoryBudget {
     std::uint64_t used_ = 0;
 };
 
-/// 90 % of the largest device-local heap; on a CPU device, where that heap is the machine's memory, at most
-/// 75 % of what the system says is available.
+/// Returns 90 % of the largest device-local heap; on a CPU device, where that heap is the machine's memory, at most 75
+/// % of what the system says is available.
 std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu);
 
-/// What is used where a device has it. false: as on devices without, for tests of what is done there.
+/// Features are used where a device has them. false: as on devices without, for tests of what is done there.
 struct OptionalFeatures {
     bool wide_atomics = true;
     bool samples_in_shaders = true;
@@ -45,9 +44,8 @@ struct SpecializationConstant;
 
 class Device {
   public:
-    /// `selector`: empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive
-    /// part), UUID or "cpu". Throws VulkanError listing the devices and why each was rejected.
-    /// The instance must outlive the device.
+    /// `selector` is empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive part), UUID or
+    /// "cpu". Throws VulkanError listing the devices and why each was rejected. The instance must outlive the device.
     Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked = {});
     ~Device();
     Device(const Device&) = delete;
@@ -61,23 +59,23 @@ class Device {
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
-    /// Whether shaders have integers of 64 bits.
+    /// Returns whether shaders have integers of 64 bits.
     bool wide_integers() const { return wide_integers_; }
-    /// Whether they may add such integers in buffers atomically.
+    /// Returns whether they may add such integers in buffers atomically.
     bool wide_atomics() const { return wide_atomics_; }
-    /// Whether shaders may load each of four samples of storage images.
+    /// Returns whether shaders may load each of four samples of storage images.
     bool samples_in_shaders() const { return samples_in_shaders_; }
-    /// Whether subgroups of compute shaders have so many invocations and can shuffle.
+    /// Returns whether subgroups of compute shaders have so many invocations and can shuffle.
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
     std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
     std::uint64_t max_buffer_size() const { return max_buffer_size_; }
     std::uint64_t max_allocation_size() const { return max_allocation_size_; }
     MemoryBudget& budget() const { return budget_; }
 
-    /// First memory type of `type_bits` with all of `required`, preferring `preferred`.
+    /// Returns the first memory type of `type_bits` with all of `required`, preferring `preferred`.
     std::uint32_t memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags required,
                               VkMemoryPropertyFlags preferred) const;
-    /// A memory object of its own for one resource: reserved from the budget first, given back when the
+    /// Allocates memory for one resource: its bytes are reserved from the budget first, and given back when the
     /// allocation fails. `object` names the resource in errors.
     VkDeviceMemory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
                             VkMemoryPropertyFlags preferred, std::string_view object) const;
@@ -90,11 +88,12 @@ class Device {
     void submit(std::span<const VkCommandBuffer> commands, VkFence fence, std::string_view object) const;
     /// Records with `record`, submits, waits: for set-up and tests, never in the frame loop.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
-    /// Of a committed module and its constants: made when first asked for, which takes a driver 2 to 30 ms
-    /// (docs/devices.md), and kept as long as the device, for every run on it. Throws as ComputePipeline does.
+    /// Returns the pipeline of a committed module and its constants. It is made when first asked for, which takes a
+    /// driver 2 to 30 ms (docs/devices.md), and kept as long as the device, for every run on it. Throws as
+    /// ComputePipeline does.
     const ComputePipeline& compute_pipeline(const std::string& module,
                                             std::span<const SpecializationConstant> constants = {}) const;
-    /// VK_EXT_debug_utils name, when validation is on.
+    /// Sets the name of VK_EXT_debug_utils, when validation is on.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
   private:
@@ -119,7 +118,7 @@ class Device {
     bool wide_integers_ = false;
     bool wide_atomics_ = false;
     bool samples_in_shaders_ = false;
-    std::uint32_t shuffling_lanes_ = 0;  ///< of a subgroup; 0 where they cannot shuffle
+    std::uint32_t shuffling_lanes_ = 0;  ///< lanes of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;
     std::uint64_t max_allocation_size_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;

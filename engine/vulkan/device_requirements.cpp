@@ -45,7 +45,7 @@ bool has_extension(VkPhysicalDevice physical, const char* name) {
     });
 }
 
-/// Empty when every needed feature is there.
+/// Returns the first needed feature that is missing; empty when all are there.
 std::string missing_feature(VkPhysicalDevice physical) {
     auto features13 =
         structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
@@ -59,7 +59,7 @@ std::string missing_feature(VkPhysicalDevice physical) {
     return {};
 }
 
-/// Empty when every needed format can be used as needed (optimal tiling).
+/// Returns the first needed format that cannot be used as needed (optimal tiling); empty when all can.
 std::string missing_format(VkPhysicalDevice physical) {
     struct Need {
         VkFormat format;
@@ -82,9 +82,9 @@ std::string missing_format(VkPhysicalDevice physical) {
     return {};
 }
 
-/// The first requirement the device lacks; empty when it has them all.
+/// Returns the first requirement that the device lacks; empty when it has them all.
 std::string missing_requirement(VkPhysicalDevice physical, std::uint32_t api_version) {
-    // Asked first: the later questions use structures that an older device need not know.
+    // The version is asked first: the later questions use structures that an older device need not know.
     if (api_version < VK_API_VERSION_1_3) {
         return fmt::format("Vulkan 1.3 is needed, the device has {}", version_text(api_version));
     }

@@ -1,4 +1,4 @@
-// What Drape asks of a physical device, and what a device says of itself.
+// These functions ask a physical device what it is, and whether it has what Drape needs.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace drape::vulkan {
 
-/// Name, driver, UUID, and whether (and why not) the device can be used.
+/// Returns name, driver, UUID, and whether (and why not) the device can be used.
 DeviceInfo describe_device(VkPhysicalDevice physical, std::uint32_t index);
 
-/// First queue family with graphics and compute.
+/// Returns the first queue family with graphics and compute.
 std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical);
 
 }  // namespace drape::vulkan

@@ -82,7 +82,7 @@ std::string_view result_name(VkResult result) {
         case VK_ERROR_UNKNOWN:
             return "VK_ERROR_UNKNOWN";
         default:
-            return {};  // window-system and video results: Drape calls nothing that returns them
+            return {};  // these are window-system and video results: Drape calls nothing that returns them
     }
 }
 

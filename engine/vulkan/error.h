@@ -1,4 +1,3 @@
-// A Vulkan call that failed, a device that does not fit, a budget that is exceeded: always on, call named.
 #pragma once
 
 #include <string>
@@ -9,7 +8,8 @@
 
 namespace drape::vulkan {
 
-/// Exit code 4 of the command line. `what()` reads "vkCreateImage(banner/position): VK_ERROR_...".
+/// Thrown where a Vulkan call fails, a device does not fit or a budget is exceeded; the command line exits with code 4.
+/// `what()` reads "vkCreateImage(banner/position): VK_ERROR_...".
 class VulkanError : public DeviceError {
   public:
     VulkanError(VkResult result, std::string_view call, std::string_view object = {});
@@ -26,11 +26,11 @@ class VulkanError : public DeviceError {
 /// Throws VulkanError unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view call, std::string_view object = {});
 
-/// For destructors, which cannot throw: returns when nothing of the device runs any more. A lost device runs nothing,
-/// and without memory for waiting there is nothing better to do than to go on.
+/// Destructors, which cannot throw, call this: it returns when nothing of the device runs any more. A lost device runs
+/// nothing, and without memory for waiting there is nothing better to do than to go on.
 void let_finish(VkDevice device) noexcept;
 
-/// "VK_ERROR_DEVICE_LOST" and so on.
+/// Returns "VK_ERROR_DEVICE_LOST" and so on.
 std::string_view result_name(VkResult result);
 
 }  // namespace drape::vulkan

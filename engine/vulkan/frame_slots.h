@@ -1,4 +1,4 @@
-// Two frames in flight behind one small type: fences, one queue, no timeline semaphores (docs/devices.md).
+// Two frames are in flight behind one small type with fences and one queue, no timeline semaphores (docs/devices.md).
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ class FrameSlots {
     FrameSlots(const FrameSlots&) = delete;
     FrameSlots& operator=(const FrameSlots&) = delete;
 
-    /// Blocks until the last submit of the slot has finished (at once when there was none). Throws
-    /// VulkanError on device loss.
+    /// Blocks until the last submit of the slot has finished (at once when there was none). Throws VulkanError on
+    /// device loss.
     void wait(std::uint32_t slot);
-    /// Whether `wait` would return at once. Throws likewise.
+    /// Returns whether `wait` would return at once. Throws like it.
     bool is_done(std::uint32_t slot) const;
     /// Throws VulkanError when the slot's last submit was not waited for.
     void submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands);

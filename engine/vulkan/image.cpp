@@ -31,8 +31,8 @@ VkImageCreateInfo create_info(const ImageDescription& description) {
     return info;
 }
 
-/// Throws unless the device and its memory budget can take the image: asked before anything is created,
-/// since drivers find out as late as when the memory is bound, or never.
+/// Throws unless the device and its memory budget can take the image. This is asked before anything is created, since
+/// drivers find out as late as when the memory is bound, or never.
 void require_possible(const Device& device, const ImageDescription& description) {
     if (description.width == 0 || description.height == 0) refuse(description, "both sides must be at least 1");
     const std::uint32_t side = device.limits().maxImageDimension2D;

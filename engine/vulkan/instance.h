@@ -1,4 +1,3 @@
-// Instance, validation log and the list of devices.
 #pragma once
 
 #include <array>
@@ -15,9 +14,9 @@
 
 namespace drape::vulkan {
 
-/// Counts validation messages (warnings and errors) and keeps their texts; thread-safe. The performance
-/// warning about copies and clears in GENERAL is filtered (the design keeps storage images in GENERAL on
-/// purpose). Every message counts; the texts of the first `kept_message_count` are kept.
+/// Counts validation messages (warnings and errors) and keeps the texts of the first `kept_message_count`; thread-safe.
+/// The performance warning about copies and clears in GENERAL is filtered, because storage images stay in GENERAL on
+/// purpose.
 class ValidationLog {
   public:
     static constexpr std::size_t kept_message_count = 1000;
@@ -41,8 +40,8 @@ using drape::DeviceInfo;
 
 class Instance {
   public:
-    /// Throws VulkanError without a loader, a driver or (when asked for) the validation layer. Several
-    /// instances may live at once.
+    /// Throws VulkanError without a loader, a driver or (when asked for) the validation layer. Several instances may
+    /// live at once.
     explicit Instance(const InstanceOptions& options);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -51,8 +50,8 @@ class Instance {
     VkInstance handle() const { return handle_; }
     bool validation() const { return validation_; }
     ValidationLog& validation_log() const { return *log_; }
-    /// Every physical device, in the loader's order, with the reason a device cannot be used. Asked of the
-    /// driver once, when the instance is made.
+    /// Returns every physical device, in the loader's order, with the reason why one cannot be used. The driver was
+    /// asked once, when the instance was made.
     std::vector<DeviceInfo> devices() const { return devices_; }
     VkPhysicalDevice physical_device(std::uint32_t index) const { return physical_devices_.at(index); }
 

@@ -15,7 +15,7 @@ std::string size_text(std::uint64_t bytes) {
 }  // namespace
 
 void MemoryBudget::require(std::uint64_t bytes, std::string_view what) const {
-    // Subtracting cannot wrap (used_ <= limit_ always), adding the request could.
+    // Subtracting cannot wrap (used_ <= limit_ always), while adding the request could.
     if (bytes <= limit_ - used_) return;
     throw VulkanError(fmt::format("{} needs {}, but {} of the memory budget of {} are left", what, size_text(bytes),
                                   size_text(limit_ - used_), size_text(limit_)));

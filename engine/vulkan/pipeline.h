@@ -1,4 +1,4 @@
-// Compute and graphics pipelines with push descriptors (set 0); their layouts come from the modules themselves.
+// Pipelines use push descriptors (set 0); their layouts come from the modules themselves.
 #pragma once
 
 #include <array>
@@ -14,23 +14,23 @@
 
 namespace drape::vulkan {
 
-/// A constant by its name in GLSL -> 32-bit value (floats by std::bit_cast).
+/// A constant has its name in GLSL and a 32-bit value (floats by std::bit_cast).
 struct SpecializationConstant {
     std::string_view name;
     std::uint32_t value;
 };
 
-/// A module by its name in spirv/.
+/// A module is found by its name in spirv/.
 struct Shader {
     std::string module;                         ///< "spring_masked.comp"; empty: none
-    std::span<const std::uint32_t> words = {};  ///< tests: this SPIR-V instead of the committed module
+    std::span<const std::uint32_t> words = {};  ///< tests use this SPIR-V instead of the committed module
 };
 
 VkDescriptorType descriptor_type(DescriptorKind kind);
 
 class ShaderStage;
 
-/// What every pipeline has; descriptors are pushed at record time (VK_KHR_push_descriptor), so no pools.
+/// Compute and graphics pipelines share this. Descriptors are pushed at record time (VK_KHR_push_descriptor).
 class Pipeline {
   public:
     virtual ~Pipeline();
@@ -40,14 +40,14 @@ class Pipeline {
     VkPipelineLayout layout() const { return layout_; }
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
-    /// Union over the stages, sorted by binding.
+    /// Returns the union over the stages, sorted by binding.
     const std::vector<ReflectedDescriptor>& descriptors() const { return descriptors_; }
     const std::optional<ReflectedStruct>& push_constants() const { return push_constants_; }
     VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
 
   protected:
     Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point);
-    /// Set layout and pipeline layout of the stages together; throws VulkanError where they contradict each other.
+    /// Makes set and pipeline layout of the stages together; throws VulkanError where they contradict each other.
     void make_layout(std::span<const ShaderStage* const> stages);
 
     const Device& device_;
@@ -67,11 +67,11 @@ class Pipeline {
 
 class ComputePipeline : public Pipeline {
   public:
-    /// Throws VulkanError when the module is missing, is no compute shader, uses what Drape does not,
-    /// has no constant of a given name, or goes beyond the device's limits.
+    /// Throws VulkanError when the module is missing, is no compute shader, uses what Drape does not, has no constant
+    /// of a given name, or goes beyond the device's limits.
     ComputePipeline(const Device& device, std::string name, const Shader& shader,
                     std::span<const SpecializationConstant> constants);
-    /// As specialised.
+    /// Returns the size as specialised.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
@@ -80,7 +80,7 @@ class ComputePipeline : public Pipeline {
 
 struct GraphicsState {
     Shader vertex;
-    Shader fragment;                                  ///< an empty module name: none (depth-only passes)
+    Shader fragment;                                  ///< an empty module name means none (depth-only passes)
     std::vector<SpecializationConstant> constants;    ///< each for the stages that have it
     VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;  ///< VK_FORMAT_UNDEFINED: no colour attachment
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
@@ -88,10 +88,10 @@ struct GraphicsState {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
 };
 
-/// Triangle list, no vertex buffers, dynamic viewport and scissor, dynamic rendering, depth LESS.
+/// Draws triangle lists without vertex buffers; viewport and scissor are dynamic, so is rendering, and depth is LESS.
 class GraphicsPipeline : public Pipeline {
   public:
-    /// Throws as ComputePipeline does; and descriptors of these stages must be read only, and mean the same in both.
+    /// Throws like ComputePipeline, and when descriptors are not read only or do not mean the same in both stages.
     GraphicsPipeline(const Device& device, std::string name, const GraphicsState& state);
 };
 

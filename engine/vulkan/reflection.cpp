@@ -64,7 +64,7 @@ struct ResourceKind {
     std::optional<DescriptorKind> kind;
 };
 
-/// Everything that has a set and a binding; those without a DescriptorKind are reported as mismatches.
+/// Each of these has a set and a binding; those without a DescriptorKind are reported as mismatches.
 constexpr ResourceKind resource_kinds[] = {
     {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, "storage image", DescriptorKind::storage_image},
     {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, "storage buffer", DescriptorKind::storage_buffer},
@@ -92,7 +92,7 @@ std::string member_difference(const ReflectedStruct& shader, const glsl::StructL
     return {};
 }
 
-/// One parse of one module.
+/// Parses one module once.
 class Reflector {
   public:
     Reflector(std::span<const std::uint32_t> words, std::string_view module) : module_(module) {
@@ -126,7 +126,7 @@ class Reflector {
         require(spvc_compiler_get_specialization_constants(compiler_, &constants, &count));
         for (const auto& constant : std::span(constants, count)) {
             const std::string name = spvc_compiler_get_name(compiler_, constant.id);
-            if (!name.empty()) result.constants.emplace(name, constant.constant_id);  // a workgroup's size has none
+            if (!name.empty()) result.constants.emplace(name, constant.constant_id);  // workgroup sizes have none
         }
         if (result.stage == VK_SHADER_STAGE_COMPUTE_BIT) read_local_size(result);
         if (result.stage == VK_SHADER_STAGE_VERTEX_BIT)
@@ -235,7 +235,7 @@ class Reflector {
         }
     }
 
-    /// Up to the last that any of these takes.
+    /// Returns the locations up to the last that any of these takes.
     std::uint32_t locations(std::span<const spvc_reflected_resource> resources) const {
         std::uint32_t end = 0;
         for (const spvc_reflected_resource& resource : resources)
@@ -244,7 +244,7 @@ class Reflector {
         return end;
     }
 
-    /// That a variable takes (Vulkan 1.3, 15.1.4, "Location Assignment"): one for each vector of 32-bit numbers.
+    /// Returns a variable's locations (Vulkan 1.3, 15.1.4, "Location Assignment"): one per vector of 32-bit numbers.
     std::uint32_t locations_of(spvc_type_id id) const {
         const spvc_type type = spvc_compiler_get_type_handle(compiler_, id);
         std::uint32_t each = spvc_type_get_columns(type);
@@ -263,7 +263,7 @@ class Reflector {
     };
     std::string_view module_;
     std::unique_ptr<spvc_context_s, Destroy> context_;
-    spvc_compiler compiler_ = nullptr;  // the context's
+    spvc_compiler compiler_ = nullptr;  // belongs to the context
 };
 
 }  // namespace

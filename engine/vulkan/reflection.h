@@ -1,5 +1,5 @@
-// What a SPIR-V module says of itself, read once with SPIRV-Cross: descriptors and push constants by the names that
-// GLSL gives them, so that C++ binds by name and nobody repeats a binding's number.
+// SPIRV-Cross reads once what a SPIR-V module says of itself: descriptors and push constants by the names that GLSL
+// gives them, so that C++ binds by name and nobody repeats a binding's number.
 #pragma once
 
 #include <array>
@@ -34,50 +34,51 @@ struct ReflectedStruct {
 /// A descriptor that the entry point statically uses.
 struct ReflectedDescriptor {
     std::uint32_t set = 0, binding = 0;
-    std::string name;                    ///< GLSL's variable: of an image, or of a buffer's runtime array
+    std::string name;                    ///< GLSL's variable: an image, or a buffer's runtime array
     std::string kind_name;               ///< "storage image", "uniform buffer", ...
     std::optional<DescriptorKind> kind;  ///< none: a kind that Drape does not use
-    bool is_array = false;               ///< of descriptors
+    bool is_array = false;               ///< the descriptor is an array of them
     bool readable = true, writable = true;
     VkFormat format = VK_FORMAT_UNDEFINED;   ///< images, texel buffers
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
-    std::uint32_t stride = 0;                ///< of that array, bytes
+    std::uint32_t stride = 0;                ///< bytes of an element of that array
     std::optional<ReflectedStruct> element;  ///< when that array's elements are structs
-    VkShaderStageFlags stages = 0;           ///< that use it
+    VkShaderStageFlags stages = 0;           ///< the stages that use it
     bool operator==(const ReflectedDescriptor&) const = default;
 };
 
-/// What the constant of a workgroup size given by local_size_x_id is called.
+/// The constants of a workgroup size given by local_size_x_id, ... have these names.
 inline constexpr std::array<std::string_view, 3> local_size_names = {"local_size_x", "local_size_y", "local_size_z"};
 
 struct ReflectedModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_ALL;
     std::vector<ReflectedDescriptor> descriptors;
-    /// The block; when its only member is a struct, that struct.
+    /// The block, or the struct that is its only member.
     std::optional<ReflectedStruct> push_constants;
-    /// Specialization constants, name -> id; those of the workgroup's size by local_size_names.
+    /// Specialization constants, name -> id; the workgroup's size has the names of local_size_names.
     std::map<std::string, std::uint32_t, std::less<>> constants;
-    std::array<std::uint32_t, 3> local_size{};  ///< by default
-    /// Locations, of four components each, from the first to the last that goes from vertices to fragments.
+    std::array<std::uint32_t, 3> local_size{};  ///< the default
+    /// Number of locations, of four components each, up to the last that goes from vertices to fragments.
     std::uint32_t varying_locations = 0;
 };
 
 /// Throws VulkanError naming `module` when SPIRV-Cross cannot read the words.
 ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view module);
 
-/// In which way the C++ struct is not the shader's; empty when it is. `shader` none: a scalar or a vector.
+/// Returns in which way the C++ struct is not the shader's; empty when it is. `shader` none: a scalar or a vector.
 std::string element_difference(const ReflectedDescriptor& shader, const glsl::StructLayout& layout);
-/// Likewise; C++ may round the size up to 16 bytes.
+/// Returns the same for push constants, whose size C++ may round up to 16 bytes.
 std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const glsl::StructLayout* layout);
 
-/// The committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
+/// Returns the committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
-/// What the committed module of that name says of itself; read once. Throws as `reflect` and `spirv_module` do.
+/// Returns what the committed module of that name says of itself; it is read once. Throws as `reflect` and `spirv_module`
+/// do.
 const ReflectedModule& module_interface(const std::string& name);
 
-/// Name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true}, {"tension", false}}
-/// -> "line_masked.comp". In the order of the shader's pragma.
+/// Returns the name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true},
+/// {"tension", false}} -> "line_masked.comp". Variants stand in the order of the shader's pragma.
 std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants);
 
 }  // namespace drape::vulkan

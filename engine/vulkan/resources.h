@@ -1,4 +1,4 @@
-// Images and buffers: memory, one view, a name; RAII, movable. Host-visible buffers stay mapped.
+// Images and buffers own memory, one view and a name; they can be moved. Host-visible buffers stay mapped.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace drape::vulkan {
 
-/// Bytes of one texel; throws VulkanError for a format Drape does not use.
+/// Returns the bytes of one texel; throws VulkanError for a format that Drape does not use.
 std::uint32_t texel_size(VkFormat format);
 
 struct ImageDescription {
@@ -20,21 +20,21 @@ struct ImageDescription {
     std::uint32_t width = 1, height = 1;
     VkImageUsageFlags usage = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// The same memory is a storage buffer too: texels row by row, `row_pitch` apart. LINEAR tiling, so not every
-    /// device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
+    /// The same memory is a storage buffer too, with texels row by row, `row_pitch` apart. Its tiling is LINEAR, so not
+    /// every device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
     bool buffer_view = false;
-    /// Names of bands of equally many rows, from the top: each is an image with a buffer view of its own in this one's
-    /// memory (Image::slices). Only with a buffer view, since only LINEAR images may share memory.
+    /// Bands of equally many rows, from the top, have these names: each is an image with a buffer view of its own in
+    /// this one's memory (Image::slices). They need a buffer view, since only LINEAR images may share memory.
     std::vector<std::string> slices = {};
 };
 
 class Image {
   public:
-    /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is
-    /// beyond the device, or the texels beyond the memory budget.
+    /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is beyond the
+    /// device, or the texels beyond the memory budget.
     Image(const Device& device, const ImageDescription& description);
-    /// Why the device or its budget cannot have such an image; empty when they can. `row_pitch`, where it is not 0, is
-    /// what that of its buffer view must be.
+    /// Returns why the device or its budget cannot have such an image; empty when they can. The row pitch of its buffer
+    /// view must be `row_pitch`, where that is not 0.
     static std::string obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch = 0);
     ~Image();
     Image(Image&& other) noexcept;
@@ -44,18 +44,18 @@ class Image {
     VkImageView view() const { return view_; }
     VkImageAspectFlags aspect() const;
     const ImageDescription& description() const { return description_; }
-    std::uint64_t byte_count() const { return byte_count_; }  ///< as allocated
-    /// Of an image with a buffer view: the buffer, and texels of it from one row to the next.
+    std::uint64_t byte_count() const { return byte_count_; }  ///< bytes allocated
+    /// Return, for an image with a buffer view, the buffer and its texels from one row to the next.
     VkBuffer buffer() const { return buffer_; }
     std::uint32_t row_pitch() const { return row_pitch_; }
-    /// By ImageDescription::slices. Made with it, and gone with it.
+    /// Returns the images of ImageDescription::slices, which are made with this one and gone with it.
     const std::vector<Image>& slices() const { return slices_; }
 
   private:
     struct Empty {};
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Image(const Device& device, const ImageDescription& description, Empty);
-    /// Image and buffer without memory; what both need of it.
+    /// Makes image and buffer without memory; returns what both need of it.
     VkMemoryRequirements make_handles();
     void make_buffer(VkMemoryRequirements& requirements);
     VkDeviceSize slice_byte_count() const;
@@ -89,8 +89,8 @@ struct BufferDescription {
 
 class Buffer {
   public:
-    /// Throws VulkanError, before anything is created, when the size is zero, beyond the device's limits (a
-    /// storage buffer must be bindable whole) or beyond the memory budget.
+    /// Throws VulkanError, before anything is created, when the size is zero, beyond the device's limits (a storage
+    /// buffer must be bindable whole) or beyond the memory budget.
     Buffer(const Device& device, const BufferDescription& description);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -98,10 +98,10 @@ class Buffer {
 
     VkBuffer handle() const { return handle_; }
     const BufferDescription& description() const { return description_; }
-    /// Of a buffer with the usage STORAGE_TEXEL_BUFFER: rgba32f texels, all of it. On the default device they are
-    /// loaded several times as fast as what is in a storage buffer (docs/devices.md).
+    /// Returns all of a buffer with the usage STORAGE_TEXEL_BUFFER as rgba32f texels. The default device loads these
+    /// several times as fast as what is in a storage buffer (docs/devices.md).
     VkBufferView texels() const { return texels_; }
-    /// The mapped bytes; empty for BufferHome::device.
+    /// Returns the mapped bytes; empty for BufferHome::device.
     std::span<std::byte> mapped() const { return {mapped_, mapped_ ? description_.byte_count : 0}; }
 
   private:
@@ -119,14 +119,14 @@ class Buffer {
     std::uint64_t allocated_ = 0;
 };
 
-/// Set-up and test transfers, each its own submit and wait. Images are taken to (and left in) GENERAL;
-/// `bytes` is tightly packed rows. An upload discards what the image held. The sizes must be equal, and the
-/// resource made with the transfer usage (mapped buffers need none); VulkanError naming it otherwise.
+/// Set-up and tests transfer with these, each with its own submit and wait. Images are taken to (and left in) GENERAL;
+/// `bytes` is tightly packed rows. An upload discards what the image held. The sizes must be equal, and the resource
+/// made with the transfer usage (mapped buffers need none); VulkanError names it otherwise.
 void upload(const Device& device, const Image& image, std::span<const std::byte> bytes);
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
-/// Rows of an image from `first_row` on; the rest of its contents stays. It must be in GENERAL.
+/// Uploads rows of an image from `first_row` on; the rest of its contents stays. It must be in GENERAL.
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes);
-/// Bytes of a buffer from `offset` on; the rest stays.
+/// Uploads bytes of a buffer from `offset` on; the rest stays.
 void upload_range(const Device& device, const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes);
 void download(const Device& device, const Image& image, std::span<std::byte> bytes);
 void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);

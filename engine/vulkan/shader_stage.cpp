@@ -24,7 +24,7 @@ std::string_view stage_name(VkShaderStageFlagBits stage) {
     }
 }
 
-/// Throws VulkanError naming what of the module Drape does not use.
+/// Throws a VulkanError that names all of the module that Drape does not use.
 void require_known(const std::string& pipeline, const std::string& module, const ReflectedModule& reflected) {
     std::string unknown;
     for (const ReflectedDescriptor& descriptor : reflected.descriptors) {
@@ -62,7 +62,7 @@ ShaderStage::ShaderStage(const Device& device, const std::string& pipeline, cons
     auto info = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = words.size_bytes();
     info.pCode = words.data();
-    // Last, so that nothing can throw while the module is owned and the destructor not yet in charge.
+    // This comes last, so that nothing can throw while the module is owned and the destructor not yet in charge.
     create_handle(vkCreateShaderModule, device.handle(), info, module_, "vkCreateShaderModule", name_);
 }
 
@@ -70,7 +70,7 @@ void ShaderStage::specialise(std::span<const SpecializationConstant> constants) 
     local_size_ = reflected_.local_size;
     for (const SpecializationConstant& constant : constants) {
         const auto found = reflected_.constants.find(constant.name);
-        if (found == reflected_.constants.end()) continue;  // another stage's
+        if (found == reflected_.constants.end()) continue;  // it is another stage's
         const auto offset = static_cast<std::uint32_t>(values_.size() * sizeof(std::uint32_t));
         entries_.push_back({found->second, offset, sizeof(std::uint32_t)});
         values_.push_back(constant.value);

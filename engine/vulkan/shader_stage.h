@@ -1,4 +1,3 @@
-// One specialised stage of a pipeline that is being made.
 #pragma once
 
 #include <array>
@@ -12,8 +11,8 @@
 
 namespace drape::vulkan {
 
-/// Finds the module, checks that it is of the stage and uses nothing that Drape does not, makes the VkShaderModule and
-/// keeps it as long as the pipeline's creation needs it.
+/// One specialised stage of a pipeline that is being made. It finds the module, checks that it is of the stage and uses
+/// nothing that Drape does not, makes the VkShaderModule and keeps it while the pipeline is created.
 class ShaderStage {
   public:
     ShaderStage(const Device& device, const std::string& pipeline, const Shader& shader, VkShaderStageFlagBits stage,
@@ -22,11 +21,11 @@ class ShaderStage {
     ShaderStage(const ShaderStage&) = delete;
     ShaderStage& operator=(const ShaderStage&) = delete;
 
-    /// Points into this object.
+    /// Returns a structure that points into this object.
     VkPipelineShaderStageCreateInfo create_info() const;
     const ReflectedModule& reflected() const { return reflected_; }
     const std::string& module() const { return name_; }
-    /// As specialised.
+    /// Returns the size as specialised.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:

@@ -1,11 +1,11 @@
-// What every Vulkan structure and every vkCreate call have in common, said once.
+// Every Vulkan structure and every vkCreate call have this in common.
 #pragma once
 
 #include "vulkan/error.h"
 
 namespace drape::vulkan {
 
-/// A zeroed structure with its sType set.
+/// Returns a zeroed structure with its sType set.
 template <class T>
 T structure(VkStructureType type) {
     T value{};
@@ -13,8 +13,8 @@ T structure(VkStructureType type) {
     return value;
 }
 
-/// Calls `function` (vkCreateX) and stores the handle only on success: what a failed call leaves in its
-/// output is undefined, and must not reach a destructor. Throws VulkanError.
+/// Calls `function` (vkCreateX) and stores the handle only on success: what a failed call leaves in its output is
+/// undefined, and must not reach a destructor. Throws VulkanError.
 template <class Function, class Info, class Handle>
 void create_handle(Function function, VkDevice device, const Info& info, Handle& handle, std::string_view call,
                    std::string_view object) {

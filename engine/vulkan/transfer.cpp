@@ -1,4 +1,4 @@
-// Set-up and test transfers: each its own submit and wait, through a staging buffer.
+// Each transfer is its own submit and wait, through a staging buffer: they are for set-up and tests.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -34,8 +34,8 @@ void require_transferable(const Buffer& buffer, std::uint64_t bytes, VkBufferUsa
     }
 }
 
-/// Waits for all earlier work on the queue and makes it visible to all later work, the host included: plain
-/// and strong, since these transfers are not in the frame loop.
+/// Waits for all earlier work on the queue and makes it visible to all later work, the host included. It is plain and
+/// strong, since these transfers are not in the frame loop.
 void full_barrier(VkCommandBuffer commands) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -48,7 +48,7 @@ void full_barrier(VkCommandBuffer commands) {
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-/// UNDEFINED -> GENERAL: the contents are lost, and no earlier use need be waited for but in execution.
+/// Takes UNDEFINED to GENERAL: the contents are lost, and earlier uses are waited for in execution only.
 void discard_to_general(VkCommandBuffer commands, const Image& image) {
     auto barrier = structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -68,7 +68,7 @@ void discard_to_general(VkCommandBuffer commands, const Image& image) {
 }
 
 VkBufferImageCopy whole(const Image& image) {
-    VkBufferImageCopy region{};  // row length 0: tightly packed
+    VkBufferImageCopy region{};  // row length 0 means tightly packed
     region.imageSubresource = {image.aspect(), 0, 0, 1};
     region.imageExtent = {image.description().width, image.description().height, 1};
     return region;

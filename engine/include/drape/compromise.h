@@ -1,4 +1,3 @@
-// What a scene asks for and gets only in part.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +7,8 @@ namespace drape {
 
 /// Something that the scene asks for and that the method follows only in part.
 struct Compromise {
-    std::string what, reason;       ///< the reason with numbers: what is followed, and what would help
-    std::uint32_t enough_substeps;  ///< per frame, that would follow all of it; 0: none would
+    std::string what, reason;       ///< the reason says how much is followed, and what would help
+    std::uint32_t enough_substeps;  ///< substeps per frame that would follow all of it; 0: no number would
 };
 
 }  // namespace drape

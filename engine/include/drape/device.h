@@ -1,4 +1,3 @@
-// The device that cloth is simulated on.
 #pragma once
 
 #include <array>
@@ -14,40 +13,40 @@ struct DeviceInfo {
     std::string name, type, driver, driver_version, api_version;  ///< type: discrete, integrated, virtual, cpu, other
     std::array<std::uint8_t, 16> uuid{};
     bool usable = true;
-    std::string unusable_reason;  ///< which requirement it lacks
+    std::string unusable_reason;  ///< the requirement that it lacks
 
     std::string uuid_text() const;
 };
 
-/// Core and synchronization validation by the Khronos layer, which must be installed.
-enum class Validation { off, count, print };  ///< print: each message on stderr, too
-/// What a program's --validate asks for.
+/// The Khronos layer, which must be installed, does core and synchronization validation.
+enum class Validation { off, count, print };  ///< print: each message goes to stderr, too
+/// Returns what a program's option --validate asks for.
 constexpr Validation validation_if(bool asked) { return asked ? Validation::print : Validation::off; }
 
 struct SceneDescription;
 
-/// An opened device; copies share it.
+/// An opened device that cloth is simulated on; copies share it.
 class Device {
   public:
-    /// `selector`: empty (the best there is), INDEX, UUID, a unique part of the NAME, or "cpu". Throws DeviceError that
-    /// lists the devices.
+    /// `selector` is empty (the best device there is), an INDEX, a UUID, a unique part of the NAME, or "cpu". Throws a
+    /// DeviceError that lists the devices.
     explicit Device(const std::string& selector = {}, Validation validation = Validation::off);
 
-    /// The device as it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread. On a CPU
-    /// what it `draws` is drawn by a second device with worker threads, while this one simulates the next frames. For
-    /// that the environment variable LP_NUM_THREADS is set while devices are opened; where it is set already, and on a
-    /// GPU, this is the constructor. To be called before other threads run.
+    /// Opens the device so that it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread
+    /// says so. If it `draws` on a CPU, a second device with worker threads draws while this one simulates the next
+    /// frames. To that end the environment variable LP_NUM_THREADS is set while devices are opened; where it is set
+    /// already, and on a GPU, this is the constructor. Call it before other threads run.
     static Device for_scene(const SceneDescription& scene, bool draws, const std::string& selector = {},
                             Validation validation = Validation::off);
 
-    /// Every Vulkan device. Throws DeviceError without a Vulkan driver.
+    /// Returns every Vulkan device. Throws DeviceError without a Vulkan driver.
     static std::vector<DeviceInfo> list();
 
     const DeviceInfo& info() const;
-    std::uint64_t validation_count() const;  ///< messages so far
-    std::uint64_t memory_used() const;       ///< bytes, by this library
+    std::uint64_t validation_count() const;  ///< number of messages so far
+    std::uint64_t memory_used() const;       ///< bytes that this library uses
     std::uint64_t memory_limit() const;      ///< bytes
-    /// Bytes per second that a copy of 64 MiB reads and writes, median of several; 0 where the device has no
+    /// Returns the bytes per second that a copy of 64 MiB reads and writes, the median of several; 0 without
     /// timestamps.
     double copy_bandwidth() const;
 
@@ -57,8 +56,8 @@ class Device {
     std::shared_ptr<Parts> parts_;
 };
 
-/// Lavapipe hands every dispatch to its worker threads, which takes about 30 us. Whether a scene's simulation is done
-/// sooner on one thread: no cloth, and no cloths that are simulated together, have more than 72 x 72 particles (with
+/// Returns whether a scene's simulation is done sooner on one thread, as lavapipe takes about 30 us to hand a dispatch
+/// to its worker threads: no cloth, and no cloths that are simulated together, have more than 72 x 72 particles (with
 /// self-collision, whose passes are many, 85 x 85).
 bool prefers_calling_thread(const SceneDescription& scene);
 

@@ -1,5 +1,5 @@
-// Fabrics by name: what a cloth of that kind weighs and how it resists. A scene names one ("fabric": "cotton"), and its
-// own keys override single values.
+// A fabric gives a cloth's density, stiffness and friction a name. A scene names one ("fabric": "cotton"), and its own
+// keys override single values.
 #pragma once
 
 #include <string_view>
@@ -13,12 +13,12 @@ struct Fabric {
     double areal_density;  ///< kg/m^2
     Stiffness stiffness;
     double friction;          ///< Coulomb coefficient of the cloth's side
-    std::string_view source;  ///< where the numbers come from; what is estimated is said to be
+    std::string_view source;  ///< says where the numbers come from, and which are estimated
 };
 
-// Measured: H. Wang, J. F. O'Brien, R. Ramamoorthi, "Data-driven elastic models for cloth: modeling and measurement",
-// ACM Transactions on Graphics 30(4):71, 2011, the first measuring points of the published material files. One momme is
-// 4.34 g/m^2. Bending of a homogeneous sheet: E t^3 / 12; stretch E t.
+// The measured values are the first measuring points of the material files published with H. Wang, J. F. O'Brien, R.
+// Ramamoorthi, "Data-driven elastic models for cloth: modeling and measurement", ACM Transactions on Graphics 30(4):71,
+// 2011. One momme is 4.34 g/m^2. A homogeneous sheet bends with E t^3 / 12 and stretches with E t.
 inline constexpr Fabric fabrics[] = {
     {"cotton",
      0.22,
@@ -45,14 +45,13 @@ inline constexpr Fabric fabrics[] = {
      "estimated, as a homogeneous sheet of 10 MPa and 700 kg/m^3."},
 };
 
-/// Nothing when there is none of that name.
+/// Returns null when no fabric has that name.
 constexpr const Fabric* find_fabric(std::string_view name) {
     for (const Fabric& fabric : fabrics)
         if (fabric.name == name) return &fabric;
     return nullptr;
 }
 
-/// Density, stiffness and friction of the fabric.
 inline void set_fabric(Cloth& cloth, const Fabric& fabric) {
     cloth.areal_density = fabric.areal_density;
     cloth.stiffness = fabric.stiffness;

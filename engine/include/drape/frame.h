@@ -1,4 +1,4 @@
-// What a simulation hands out: a frame, what it took, and the cuts found at its end.
+// These are the values that a simulation hands out: frames, what each took, and the cuts found at its end.
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,19 @@ struct StageTime {
     double milliseconds = 0;
 };
 
-/// What a frame took.
+/// The work that a frame took.
 struct FrameEffort {
     std::uint32_t substeps = 0;
-    std::uint32_t attempts = 1;  ///< method `auto`: 1 where the first was kept
-    /// Method `auto`: estimated error of the motion in this frame, the worst cloth's, m per second of simulated time;
-    /// NaN where it was not estimated.
+    std::uint32_t attempts = 1;  ///< method `auto`: 1: the first was kept
+    /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
+    /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
-    /// Method `auto`: false where that is above its limit because more substeps do not reduce it. Cloth that crumples
-    /// parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
+    /// Method `auto` sets false where motion_error is above its limit and more substeps do not reduce it. Cloth that
+    /// crumples parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;
-    /// Method `auto`: everything lies still, and the frame is the one before it; nothing was simulated.
+    /// Method `auto` found that everything lies still: the frame is the one before it, and nothing was simulated.
     bool asleep = false;
-    /// Method `auto`: false where the most substeps that it tries miss a limit (handed out without keep_promises only).
+    /// Method `auto` sets false where its largest number of substeps misses a limit (only without keep_promises).
     bool within_limits = true;
 };
 
@@ -46,7 +46,7 @@ struct FinishedFrame {
     std::vector<std::span<const float>> normals;     ///< per cloth, when wanted: unit x y z of the front, and 0
     std::vector<ClothStatistics> statistics;         ///< per cloth, when wanted
     FrameEffort effort;
-    std::optional<FrameFailure> failure;  ///< with statistics
+    std::optional<FrameFailure> failure;  ///< set only where statistics are wanted
     std::vector<StageTime> timings;       ///< empty where the device has no timestamps
 };
 
@@ -54,8 +54,8 @@ struct FinishedFrame {
 struct Cut {
     std::uint32_t frame = 0;
     std::size_t cloth = 0;
-    std::uint32_t springs = 0, triangles = 0;  ///< cut and split now
-    std::uint32_t crumbs = 0;                  ///< pieces there are now of less than four triangles of the grid
+    std::uint32_t springs = 0, triangles = 0;  ///< cut and split in this frame
+    std::uint32_t crumbs = 0;                  ///< pieces that now have less than four triangles of the grid
     std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is drawn whole
 };
 

@@ -1,5 +1,5 @@
-// The plain values a scene file holds. No Vulkan, no parsing: `scene_reader.h` fills these by the rows of
-// `scene_format.cpp`, everything else reads them. SI units, degrees, y up; every default here is the published one.
+// These are the plain values of a scene file: `scene_reader.h` fills them by the rows of `scene_format.cpp`, everything
+// else reads them. Units are SI and degrees, y is up; every default is the published one.
 #pragma once
 
 #include <array>
@@ -33,16 +33,16 @@ constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T val
     return {};
 }
 
-/// One key of a key-framed rigid motion. Angles in degrees about x, then y, then z; several turns are
-/// allowed because paths interpolate the angles component by component.
+/// One key of a key-framed rigid motion. It turns about x, then y, then z; several turns are allowed, because paths
+/// interpolate the angles component by component.
 struct MotionKey {
-    double time = 0.0;  ///< seconds
+    double time = 0.0;  ///< s
     Vec3 translate{0, 0, 0};
     Vec3 rotate{0, 0, 0};
     bool operator==(const MotionKey&) const = default;
 };
 
-/// Catmull-Rom through the keys with zero end slopes; holds its ends. Empty = at rest.
+/// The path is a Catmull-Rom spline through the keys with zero end slopes; it holds its ends, and rests without keys.
 struct MotionPath {
     std::vector<MotionKey> keys;  ///< strictly increasing in time
     bool moves() const { return keys.size() > 1; }
@@ -55,7 +55,7 @@ struct TimeSettings {
     bool operator==(const TimeSettings&) const = default;
 };
 
-/// Gust: an extra wind along `velocity`'s direction, a function of time and seed written in the schema.
+/// An extra wind along `velocity`'s direction; the schema gives it as a function of time and seed.
 struct Gust {
     double amplitude = 0.0;  ///< m/s
     double period = 1.0;     ///< s
@@ -73,19 +73,19 @@ struct Wind {
     bool operator==(const Wind&) const = default;
 };
 
-/// Where the flat cloth starts: particle (column 0, row 0) and the unit directions of growing column, row.
+/// The flat cloth starts with particle (column 0, row 0) at `origin`; columns grow along unit `u`, rows along `v`.
 struct Placement {
     Vec3 origin{0, 0, 0};
     Vec3 u{1, 0, 0};
     Vec3 v{0, -1, 0};
     std::array<double, 2> scale{1, 1};  ///< distances at the start over those at rest, along u and v
-    double jitter = 0;                  ///< m, along each axis, of particles that no pin holds
-    std::uint32_t seed = 0;             ///< of the jitter
+    double jitter = 0;                  ///< m, along each axis; moves particles that no pin holds
+    std::uint32_t seed = 0;             ///< decides the jitter
     bool operator==(const Placement&) const = default;
 };
 
 struct Stiffness {
-    bool rigid = false;        ///< stretch and shear inextensible: the slides' springs
+    bool rigid = false;        ///< stretch and shear are inextensible, like the springs of the 2004 slides
     double stretch = 1000.0;   ///< N/m
     double shear = 100.0;      ///< N/m
     double bend = 0.0;         ///< N m
@@ -100,13 +100,13 @@ struct IndexBox {
     bool operator==(const IndexBox&) const = default;
 };
 
-/// Particles held by the scene. `edge`, `corner` and `at` of the scene file are resolved to an IndexBox by
-/// the reader, so that nothing later needs to know the four spellings.
+/// Particles held by the scene. The reader resolves `edge`, `corner` and `at` of the scene file to an IndexBox, so that
+/// nothing later needs to know the four spellings.
 struct Pin {
     IndexBox particles;
     std::optional<double> release;  ///< s; from then on the particle is free and keeps its velocity
     MotionPath path;
-    std::optional<Vec3> pivot;  ///< metres; rotation centre; default: centroid of the pinned particles
+    std::optional<Vec3> pivot;  ///< m; rotation centre; default: centroid of the pinned particles
     bool operator==(const Pin&) const = default;
 };
 
@@ -118,11 +118,11 @@ struct Appearance {
     Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
     Vec3 back{0.60, 0.10, 0.10};
     Pattern pattern = Pattern::checker;
-    Vec3 second{0.93, 0.89, 0.80};  ///< of the pattern's other squares or stripes, on both sides
+    Vec3 second{0.93, 0.89, 0.80};  ///< colour of the pattern's other squares or stripes, on both sides
     bool operator==(const Appearance&) const = default;
 };
 
-/// Thickness that contact of a cloth with itself can keep: shares of the grid's smaller spacing.
+/// Contact of a cloth with itself keeps a thickness of at least and at most these shares of the grid's smaller spacing.
 inline constexpr double least_self_thickness = 0.1, most_self_thickness = 1.0;
 
 /// Contact of a cloth with itself.
@@ -132,7 +132,7 @@ struct SelfCollision {
     bool operator==(const SelfCollision&) const = default;
 };
 
-/// What contact keeps out of colliders: all that is drawn of a cloth, or only its particles.
+/// Contact keeps either all that is drawn of a cloth out of colliders, or only its particles.
 enum class ContactOf { surface, particles };
 inline constexpr Spelling<ContactOf> contact_spellings[] = {{"surface", ContactOf::surface},
                                                             {"particles", ContactOf::particles}};
@@ -177,8 +177,8 @@ struct Ellipsoid {
     bool operator==(const Ellipsoid&) const = default;
 };
 
-/// A sphere swept from `from` to `to`, its radius going from the first to the second: two balls and the cone that
-/// touches both. One ball inside the other leaves the larger. It turns about the segment's middle.
+/// A sphere is swept from `from` to `to`, its radius going from the first to the second: two balls and the cone that
+/// touches both. If one ball contains the other, the larger is left. It turns about the segment's middle.
 struct Capsule {
     Vec3 from{-0.5, 0, 0};
     Vec3 to{0.5, 0, 0};
@@ -186,13 +186,13 @@ struct Capsule {
     bool operator==(const Capsule&) const = default;
 };
 
-/// In the order of the collider kinds (shaders/shared/collider_types.h).
+/// The alternatives stand in the order of the collider kinds (shaders/shared/collider_types.h).
 using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid, Capsule>;
-/// The lists of the scene file.
+/// The scene file has one list per shape, in the same order.
 inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids", "capsules"};
 static_assert(std::size(collider_lists) == std::variant_size_v<ColliderShape>);
 
-/// `rotate` and `path` rotate about the collider's own centre (a plane's: the foot point normal * offset); a path is
+/// `rotate` and `path` rotate about the collider's own centre (a plane's is the foot point normal * offset); a path is
 /// applied on top of the rest pose.
 struct Collider {
     ColliderShape shape;
@@ -210,7 +210,7 @@ struct Cutter {
     std::array<Vec3, 3> triangle{};
     double begin = 0.0, end = 0.0;  ///< s; active from begin to end, both included
     MotionPath path;
-    bool crumbs = false;  ///< small pieces that are cut off are drawn; of all cutters when one has it
+    bool crumbs = false;  ///< small pieces that are cut off are drawn, those of all cutters when one has it
     bool operator==(const Cutter&) const = default;
 };
 
@@ -218,22 +218,22 @@ enum class CollideWhen { iteration, substep };
 inline constexpr Spelling<CollideWhen> collide_spellings[] = {{"iteration", CollideWhen::iteration},
                                                               {"substep", CollideWhen::substep}};
 
-/// What becomes of cloth that starts inside a collider: contact moves it out, without speed; or the scene is an error.
+/// Cloth that starts inside a collider is moved out by contact, without speed (resolve), or is an error (refuse).
 enum class Overlap { resolve, refuse };
 inline constexpr Spelling<Overlap> overlap_spellings[] = {{"resolve", Overlap::resolve}, {"refuse", Overlap::refuse}};
 
 struct SolverSettings {
-    SolverMethod method = SolverMethod::automatic;  ///< `auto`: solver_choice.h
+    SolverMethod method = SolverMethod::automatic;  ///< solver_choice.h resolves `auto`
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
-    /// Largest RMS stretch error of a frame (cloth_statistics.h), 0 = no promise. Ends iterations once it is met.
+    /// Largest RMS stretch error of a frame (cloth_statistics.h); 0 promises nothing. Iterations end once it is met.
     double tolerance = 0;
-    /// Method `auto`: largest stretch error of a spring, 0 = solver_choice.h's; largest error of the motion, in metres
-    /// per second of simulated time, 0 = a share of the cloth's size.
+    /// Method `auto` keeps the largest stretch error of a spring (0: solver_choice.h's limit) and the largest error of
+    /// the motion, in m per second of simulated time (0: a share of the cloth's size).
     double tolerance_worst = 0, tolerance_motion = 0;
     CollideWhen collide = CollideWhen::iteration;
-    bool tethers = false;         ///< no particle leaves where the cloth is held farther than the cloth reaches
-    double strain_damping = 0.2;  ///< explicit: damping of each spring's strain rate, in units of its stiffness times h
+    bool tethers = false;         ///< no particle gets farther from where the cloth is held than the cloth reaches
+    double strain_damping = 0.2;  ///< method `explicit`: damping of a spring's strain rate over its stiffness times h
     bool operator==(const SolverSettings&) const = default;
 };
 
@@ -245,13 +245,13 @@ struct Camera {
 };
 
 struct DirectionalLight {
-    Vec3 direction{0.75, -0.9, -0.5};  ///< the way the light travels; unit length after reading
+    Vec3 direction{0.75, -0.9, -0.5};  ///< direction in which the light travels; unit length after reading
     Vec3 color{1, 0.97, 0.91};         ///< sRGB 0..1
     double intensity = 1.2;
     bool operator==(const DirectionalLight&) const = default;
 };
 
-/// A warm key light from the left, high and a little in front, and a cool fill from the right.
+/// Returns a warm key light from the left, high and a little in front, and a cool fill light from the right.
 inline std::vector<DirectionalLight> default_lights() {
     return {DirectionalLight{}, {{-0.8, -0.35, -0.5}, {0.72, 0.84, 1}, 0.22}};
 }
@@ -260,12 +260,11 @@ struct ImageSettings {
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 4;          ///< 1 or 4
     Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
-    bool fixtures = true;               ///< poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
+    bool fixtures = true;  ///< draws poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
     bool operator==(const ImageSettings&) const = default;
 };
 
-/// A check the scene promises to meet: judged by `drape verify`, ignored by the simulation. The name picks
-/// the check, the numbers are its limits.
+/// A check that the scene promises to meet. `drape verify` judges it, the simulation ignores it.
 struct Oracle {
     std::string check;
     std::vector<std::pair<std::string, double>> limits;
@@ -282,10 +281,10 @@ struct SceneDescription {
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
     SolverSettings solver;
-    std::optional<Camera> camera;                             ///< without one: picture/framing.h finds one
+    std::optional<Camera> camera;                             ///< without one picture/framing.h finds one
     std::vector<DirectionalLight> lights = default_lights();  ///< at most 4
-    Vec3 ambient{0.36, 0.40, 0.47};                           ///< of the sky, linear radiance factor 0..1
-    Vec3 ambient_ground{0.20, 0.17, 0.14};                    ///< of the ground
+    Vec3 ambient{0.36, 0.40, 0.47};                           ///< light of the sky, linear radiance factor 0..1
+    Vec3 ambient_ground{0.20, 0.17, 0.14};                    ///< light of the ground, in the same unit
     ImageSettings image;
     std::vector<Oracle> oracles;
     bool operator==(const SceneDescription&) const = default;

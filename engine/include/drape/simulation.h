@@ -1,4 +1,4 @@
-// The face of the library: a scene on a device, frame by frame. It writes no file, reads none but a scene's, prints
+// The face of the library runs a scene on a device, frame by frame. It writes no file, reads none but a scene's, prints
 // nothing (but validation messages, where they are asked for), and knows no command line.
 #pragma once
 
@@ -22,73 +22,73 @@
 
 namespace drape {
 
-/// How finely FinishedFrame::timings tells the device's time. Each bracket costs about 10 us on a CPU.
+/// FinishedFrame::timings tells the device's time this finely. Each bracket costs about 10 us on a CPU.
 enum class Timings { none, stages, passes };
 
 struct SimulationOptions {
-    bool draw = false;  ///< pictures of the scene's size and samples
-    PictureView view;   ///< of them
+    bool draw = false;  ///< make pictures of the scene's size and samples
+    PictureView view;   ///< the pictures' view
     bool positions = true;
-    bool velocities = false;  ///< at the frames' ends, as the statistics' energies are; implies statistics
+    bool velocities = false;  ///< at the frames' ends, like the statistics' energies; implies statistics
     bool normals = false;
     bool statistics = true;
-    bool keep_promises =
-        true;  ///< with statistics: throw Diverged and ToleranceMissed instead of handing out a frame that failed
+    /// With statistics: throws Diverged and ToleranceMissed instead of handing out a frame that failed.
+    bool keep_promises = true;
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
     Timings timings = Timings::stages;
     Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
 };
 
-/// What a scene became.
+/// These facts tell how a simulation runs its scene.
 struct SimulationFacts {
     struct Skipped {
         std::string what, reason;
     };
-    std::string method;         ///< in use
-    std::string kernels;        ///< in use, beside the plain ones
-    std::string asked_method;   ///< the scene's
-    std::string choice_reason;  ///< why that method, where it was chosen
-    double tolerance = 0;       ///< of the RMS stretch error, that no frame may miss; 0: none
-    /// What `auto` would keep in every frame, or keeps: largest stretch error, RMS and of a single spring.
+    std::string method;         ///< the method in use
+    std::string kernels;        ///< those in use, beside the plain ones
+    std::string asked_method;   ///< the method that the scene asks for
+    std::string choice_reason;  ///< the reason for that method, if it was chosen
+    double tolerance = 0;       ///< RMS stretch error that no frame may miss; 0: none
+    /// Largest stretch error, RMS and of a single spring, that `auto` keeps in every frame or, without
+    /// `limits_are_kept`, would.
     double tolerance_rms = 0, tolerance_worst = 0;
     bool limits_are_kept = false;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
-    /// In a frame that is handed out, and in one that is only simulated.
+    /// Counts in a frame that is handed out, and in one that is only simulated.
     std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
 };
 
-/// What was proved of the cloths of a scene in which one meets itself, and all each other, of all frames simulated so
-/// far.
+/// The proof about all frames simulated so far, of a scene in which a cloth meets itself, and all meet each other.
 struct SelfContactReport {
-    /// Frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; 0 where
-    /// a cloth started through itself; nothing: no triangle that meets another passed through it in any substep.
+    /// The frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; 0
+    /// where a cloth started through itself. Nothing: no triangle that meets another passed through it in any substep.
     std::optional<std::uint32_t> first_unproved;
-    std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, near each other
-    std::uint64_t truncated = 0;   ///< motions cut short because they would have crossed
-    /// Cloths that started through each other: these do not meet before they have come apart, and of them nothing is
-    /// proved until then.
+    std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, that were near each other
+    std::uint64_t truncated = 0;   ///< motions that were cut short because they would have crossed
+    /// Cloths that started through each other. They do not meet before they have come apart, and until then nothing is
+    /// proved of them.
     std::vector<std::pair<std::size_t, std::size_t>> crossed = {};
-    /// Last frame that ended with some of them through each other; nothing: none can tell, because some start on each
-    /// other and never meet.
+    /// The last frame that ended with some of them through each other. Nothing: it cannot be told, because some start
+    /// on each other and never meet.
     std::optional<std::uint32_t> last_crossed = {};
 };
 
-/// What a kind of pass does in a frame that is handed out, of the substeps that the scene begins with.
+/// The work of one kind of pass in a frame that is handed out, with the substeps that the scene begins with.
 struct PassWork {
-    std::string name, stage;  ///< as in FinishedFrame::timings: of passes, of stages
+    std::string name, stage;  ///< the names in FinishedFrame::timings of passes and of stages
     std::size_t count = 0;
-    std::uint64_t bytes = 0;  ///< of all of them, when each reads and writes all it declares once
-    double flops = 0;         ///< of all of them: + - * / sqrt of what they compute for each element; 0: not known
+    std::uint64_t bytes = 0;  ///< all passes together, when each reads and writes all it declares once
+    double flops = 0;         ///< + - * / sqrt that all passes compute, counted for each element; 0: not known
 };
 
 struct ResourceMemory {
     std::string name;
-    std::uint64_t bytes = 0;  ///< all copies
+    std::uint64_t bytes = 0;  ///< all copies together
 };
 
-/// What the frames of a simulation from some frame on depend on, besides its scene: named parts
+/// The named parts that a simulation's frames from some frame on depend on, besides its scene
 /// (engine/docs/checkpoint.md).
 using SimulationState = std::map<std::string, std::vector<std::byte>>;
 
@@ -101,41 +101,41 @@ class Simulation {
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
-    /// Computes the next frame, the first time frame 0, for `frame`; false, doing nothing, after the scene's last.
-    /// Throws Diverged, ToleranceMissed, DeviceError, after any of which this simulation is over.
+    /// Computes the next frame, the first time frame 0, for `frame`; returns false and does nothing after the scene's
+    /// last. Throws Diverged, ToleranceMissed or DeviceError, after which this simulation is over.
     bool step();
-    /// That of the last step, valid until the next.
+    /// Returns the frame of the last step, which is valid until the next.
     const FinishedFrame& frame() const;
 
-    /// The same for all frames from the next one to `last`, which may be after the scene's: the device computes frames
-    /// while `finished` is told of those before, in order; of the frames that are not `wanted` nothing is read back.
-    /// What `finished` gets is valid during the call. `stop` is asked before each frame; true ends after what has
-    /// begun. Returns whether it came to `last`.
+    /// Computes all frames from the next one to `last`, which may be after the scene's, and throws like `step`. The
+    /// device computes frames while `finished` is told of those before, in order; frames that are not `wanted` are not
+    /// read back. What `finished` gets is valid during the call. `stop` is asked before each frame; true ends after
+    /// what has begun. Returns whether it came to `last`.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 
-    /// That the next step or run begins with; 0 in the beginning.
+    /// Returns the frame that the next step or run begins with; 0 in the beginning.
     std::uint32_t next_frame() const;
-    /// Whether `save` can be called: not while method `auto` has frames that it handed out in part. Within `stop` this
-    /// says whether it can be once `run` has returned.
+    /// Returns whether `save` can be called: it cannot while method `auto` has frames that it handed out in part.
+    /// Within `stop` this says whether it can once `run` has returned.
     bool can_save() const;
-    /// For a simulation of the same scene, options and device to go on from here to the same bits.
+    /// Returns what a simulation of the same scene, options and device needs to go on from here to the same bits.
     SimulationState save() const;
-    /// Takes over what another one saved. Throws Error, after which this simulation is over, when it was not of such a
-    /// scene.
+    /// Takes over what another simulation saved. Throws Error, after which this simulation is over, when it was not of
+    /// such a scene.
     void restore(const SimulationState& state);
 
-    /// As it runs: a method and substeps that it left to choose are chosen.
+    /// Returns the scene as it runs, with the method and substeps that it left to choose.
     const SceneDescription& scene() const;
-    /// Three particles per triangle: those that no cut has split so far.
+    /// Returns three particles per triangle, for those that no cut has split so far.
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
     SimulationFacts facts() const;
-    /// One for each cloth that meets itself.
+    /// Returns what was proved of contact between cloths; nothing when no cloth meets itself.
     std::optional<SelfContactReport> self_contact() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
-    /// What runs in a frame that is handed out, what was skipped, and why: "text", "json" or "dot"; of two devices
-    /// (Device::for_scene) one after the other.
+    /// Describes what runs in a frame that is handed out, what was skipped, and why, as "text", "json" or "dot"; two
+    /// devices (Device::for_scene) follow one after the other.
     std::string describe_plan(const std::string& format) const;
 
   private:

@@ -1,5 +1,5 @@
-// The solver methods by the names that a scene gives them. What each does to a cloth is told by its row in
-// cloth/method.h.
+// The solver methods have the names that a scene gives them. A method's row in cloth/method.h tells what it does to a
+// cloth.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@ enum class SolverMethod { automatic, relax, explicit_steps, line };
 struct SolverMethodName {
     SolverMethod method;
     std::string_view name;
-    std::string_view help;                ///< for the schema
-    std::string_view ignores_iterations;  ///< why it does; empty where a substep is iterated
-    bool damps_strain = false;            ///< minds `strain_damping`
+    std::string_view help;                ///< text of the schema
+    std::string_view ignores_iterations;  ///< the reason; empty: it iterates a substep
+    bool damps_strain = false;            ///< obeys `strain_damping`
 
     constexpr bool iterates() const { return ignores_iterations.empty(); }
 };

@@ -1,5 +1,5 @@
-// What is said about a cloth at the end of a frame: how far its springs are from their rest lengths, its energies, how
-// deep it is in the colliders, whether it is finite.
+// The statistics tell of a cloth at the end of a frame how far its springs are from their rest lengths, its energies,
+// how deep it is in the colliders, and whether it is finite.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// Strain = (length - rest length) / rest length, over every existing spring of a family, each counted once.
+/// Strain is (length - rest length) / rest length, over every existing spring of a family, each counted once.
 struct StrainStatistics {
     std::uint32_t spring_count = 0;  ///< 0: the other members mean nothing
     double rms = 0;
@@ -16,29 +16,29 @@ struct StrainStatistics {
     double smallest = 0;  ///< most compressed (negative)
 };
 
-/// SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a number may
-/// overflow to infinity before the positions do.
+/// Values are in SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a
+/// number may overflow to infinity before the positions do.
 struct ClothStatistics {
-    StrainStatistics stretch, shear;  ///< of the state; soft cloth may stretch truly
-    /// Of the stretch springs: strain - tension/(k l) with the tension that the solver applied in the last substep, RMS
-    /// and largest magnitude. A perfect solve makes it zero; `tolerance` bounds the RMS.
+    StrainStatistics stretch, shear;  ///< strain of the positions; soft cloth may stretch truly
+    /// RMS and largest magnitude of strain - tension/(k l) over the stretch springs, with the tension that the solver
+    /// applied in the last substep. A perfect solve makes it zero; `tolerance` bounds the RMS.
     double stretch_error_rms = 0, stretch_error_max = 0;
-    /// J, of the velocities at the frame's end: those of the last substep and half its acceleration.
+    /// J, from the velocities at the frame's end: those of the last substep and half its acceleration.
     double kinetic_energy = 0;
     double potential_energy = 0;             ///< J, gravity's; 0 at the origin
     double elastic_energy = 0;               ///< J, of the stretch and shear springs; rigid ones store none
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
-    /// m, of the deepest particle in the zone that contacts keep free, thickness included; nothing without colliders.
+    /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.
     std::optional<double> penetration;
     double largest_distance = 0;  ///< m from the origin
     double largest_speed = 0;     ///< m/s
-    /// Iterations that the frame ran, over all its substeps; nothing when none can be skipped.
+    /// Number of iterations that the frame ran over all its substeps; nothing when none can be skipped.
     std::optional<std::uint32_t> iteration_count;
     std::uint32_t non_finite_count = 0;  ///< particles whose position or displacement is not finite
     std::uint32_t first_non_finite = 0;  ///< index (row * columns + column) when there is one
-    /// Indices of the particles that are farthest, fastest and deepest, and of the first of the spring with the largest
-    /// stretch error; the lowest where several are; nothing where there is none.
+    /// Indices of the farthest, fastest and deepest particle, and of the first particle of the spring with the largest
+    /// stretch error; the lowest of several, nothing where there is none.
     std::optional<std::uint32_t> farthest, fastest, deepest, most_stretched;
 };
 

@@ -1,4 +1,4 @@
-// What pictures show of the cloths.
+// Pictures show one of these views of the cloths.
 #pragma once
 
 #include "drape/scene.h"
@@ -8,7 +8,7 @@ namespace drape {
 enum class View {
     shaded,   ///< lit, with the cloths' colours
     stretch,  ///< the strain of the most stretched stretch spring at each particle, as a heat map
-    warp,     ///< strain along the cloth's u (growing column), of the spring at each particle that has most
+    warp,     ///< strain along the cloth's u (growing column), of the most strained spring at each particle
     weft,     ///< the same along its v (growing row)
     wire,     ///< lit, with the edges of the triangles
     normals,  ///< 0.5 + 0.5 n as sRGB, n: the world's x y z of the normal of the side that faces the camera
