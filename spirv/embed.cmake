@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file with the words of every module in MODULES. Run by spirv/CMakeLists.txt.
+# Writes OUTPUT, a C++ file with the words of every module in MODULES, for spirv/CMakeLists.txt.
 set(code "#include \"spirv_modules.h\"\n\nnamespace drape {\nnamespace {\n")
 set(rows "")
 list(SORT MODULES)
