@@ -41,7 +41,7 @@ std::string check_override(const std::string& text) {
     return fmt::format("expected /json/pointer=value, got '{}'", text);
 }
 
-/// A paragraph per format that --export takes.
+/// Returns a paragraph per format that --export takes.
 std::string format_help(bool drawn) {
     std::string text;
     for (const OutputFormat* format : output_formats())
@@ -70,14 +70,14 @@ void add_formats(CLI::App& command, const std::string& help, bool drawn,
     };
     command.add_option_function<std::vector<std::string>>("--export", set, help + format_help(drawn))
         ->delimiter(',')
-        ->allow_extra_args(false)  // what follows is the scene
+        ->allow_extra_args(false)  // the next word is the scene
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("FORMAT,...")
         ->check(check, "");
 }
 
-/// --export: beside the pictures, or instead of what `request` has.
+/// Adds --export, whose formats come beside the pictures, or instead of what `request` has.
 void add_export_option(CLI::App& command, RunRequest& request) {
     const bool drawn = request.draws();
     const auto set = [&request, drawn](const std::vector<std::string>& names) {
@@ -99,7 +99,7 @@ std::string set_range(const std::string& text, double& range) {
     return {};
 }
 
-/// --view, --view-range
+/// Adds --view, --view-range.
 void add_view_options(CLI::App& command, PictureView& view) {
     std::string words;
     for (const auto& [name, kind] : view_spellings) words += (words.empty() ? "" : "|") + std::string(name);

@@ -1,6 +1,6 @@
-// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. TENSION: of
-// the stretch springs, from zero on; it is stored. CARRIED: of all, from where the iteration before left it, in other
-// images than those it is stored to: what strips or tiles have in common each of them reads.
+// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. TENSION stores that of
+// the stretch springs, from zero on. CARRIED stores that of all springs, from where the iteration before left it, in
+// other images than it reads: the part that strips or tiles have in common each of them reads.
 #if defined(TENSION) || defined(CARRIED)
 SCALAR_OUT(4, TensionRowOut, tension_row_out);
 SCALAR_OUT(5, TensionColumnOut, tension_column_out);
@@ -19,7 +19,7 @@ layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_row_in;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column_in;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right_in;
 layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left_in;
-/// Within the grid: rows that a strip or tile lacks have no spring.
+/// Clamps to the grid: rows that a strip or tile lacks have no spring.
 ivec2 tension_place(ivec2 owner) { return max(min(owner, push.grid - 1), ivec2(0)); }
 #define CARRIED_TENSION(name, owner) (first_iteration ? 0.0f : LOAD(name, tension_place(owner)).x)
 #define TENSION_ROW(owner) CARRIED_TENSION(tension_row_in, owner)

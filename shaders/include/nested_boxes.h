@@ -1,6 +1,6 @@
-// Sweeps over boxes around lone pins: a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
-// pin that has let go is left alone. MASKED: as in line.comp. SHEARED: there are diagonal springs. Whoever includes
-// this defines how the lines of a direction are solved.
+// Sweeps over boxes around lone pins, a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
+// pin that has let go is left alone. MASKED is that of line.comp; SHEARED: there are diagonal springs. The includer
+// defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
 PUSH_CONSTANTS(NestedPush)
 #include "include/state_store.h"
@@ -26,16 +26,16 @@ layout(set = 0, binding = 15, r32ui) uniform readonly uimage2D line_control;
 /// A line of a direction within a box.
 struct NestedLine {
     ivec2 box_first, step;
-    int columns;                       // of the box
-    int index, direction, seam, last;  // last: of its particles
-    float share;                       // of all its springs, where no image has them
+    int columns;                       // columns of the box
+    int index, direction, seam, last;  // last: index of its last particle
+    float share;                       // share of all its springs, where no image has them
     float rest_length, compliance, followed, per_followed, compression;
-    float shared_compliance;  // of springs that have `share`
+    float shared_compliance;  // for springs that have `share`
 };
 
 struct NestedParticle {
-    ivec2 in_box, at;  // at: in the sheet
-    vec4 position;     // w: as its springs feel it, with the wind's drag
+    ivec2 in_box, at;  // at: texel in the sheet
+    vec4 position;     // w: inverse mass that its springs feel, with the wind's drag
     vec4 displacement;
 };
 
@@ -74,7 +74,6 @@ NestedParticle load_particle(NestedLine line, ivec2 in_box) {
     return NestedParticle(in_box, at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved);
 }
 
-/// The particle `step` further.
 NestedParticle next_particle(NestedLine line, NestedParticle particle, ivec2 step) {
     return load_particle(line, next_on_line(particle.in_box, step, line.columns));
 }
@@ -85,7 +84,7 @@ LineSpring spring_between(NestedLine line, NestedParticle first, NestedParticle 
         line.rest_length);
 }
 
-/// Any line of a direction, but for its index and share.
+/// Returns a line of a direction that lacks its index and its share.
 NestedLine line_of(NestedBox box, int direction, bool second_order) {
     ivec2 step = nested_step(direction);
     float followed = second_order ? push.followed_bdf2[direction] : push.followed[direction];
@@ -97,13 +96,13 @@ NestedLine line_of(NestedBox box, int direction, bool second_order) {
 
 int line_count(NestedBox box, NestedLine line) { return line.step.y == 0 ? box.size.y : box.size.x; }
 
-/// What the springs of line `line.index` share.
+/// Sets the share of the springs of line `line.index`.
 void find_share(inout NestedLine line) {
     line.share = border_share(line.box_first + line_start(line.index, line.step), line.step, push.grid);
     line.shared_compliance = shared_compliance(line.compliance, line.share);
 }
 
-/// Solves all lines of a direction. Every invocation of the workgroup gets here.
+/// Solves all lines of a direction. Every invocation of the workgroup must call it.
 void sweep_direction(NestedBox box, NestedLine line);
 
 void sweep_order(NestedBox box, int order, bool second_order) {
@@ -122,7 +121,7 @@ void main() {
         NestedBox box = nested_box(pin, nested_boxes[block].xy, push.grid);
         int sweep = 0;
         do {
-            // Not a loop: compiled for one direction at a time, a sweep looks at its own tension alone.
+            // This is no loop: compiled for one direction at a time, a sweep looks at its own tension alone.
             sweep_order(box, 0, second_order);
             sweep_order(box, 1, second_order);
             sweep_order(box, 2, second_order);

@@ -1,4 +1,4 @@
-// A user's scene against its own refined runs: the reference is right within what it says, and disagreement is seen.
+// A user's scene is judged by its own refined runs: the reference errs by its estimate, and disagreement is seen.
 #include "bench/scene_problem.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 namespace drape::bench {
 namespace {
 
-/// A sheet that swings from its upper edge, 0.2 s.
+/// A sheet swings from its upper edge for 0.2 s.
 SceneDescription swinging_sheet() {
     SceneDescription scene = model_scenes::sheet(9, 7, 1, 0.8, 1);
     Cloth& cloth = scene.cloths[0];

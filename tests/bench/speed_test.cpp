@@ -1,4 +1,4 @@
-// Cases, tables, fits and plots of `drape bench speed`, on made-up times.
+// Cases, tables, fits and plots of `drape bench speed` are checked on made-up times.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(SpeedResults, RatiosAreOfMediansAndNoneWithoutBoth) {
 
 TEST(SpeedResults, ScalingIsFittedToMillisecondsPerSubstepFrom64On) {
     std::vector<SpeedResult> results{sheet_result(32, 100, 100)};
-    // Twice as many substeps a frame below 1024: what counts is the substep.
+    // Frames below 1024 have twice as many substeps, since the fit is to the time per substep.
     for (const std::uint32_t size : {64u, 256u, 1024u}) {
         const double particles = double(size) * size, substeps = size < 1024 ? 8 : 2;
         results.push_back(sheet_result(size, substeps * 1e-4 * particles, substeps * 1e-6 * std::pow(particles, 1.2)));
@@ -142,7 +142,7 @@ TEST(SpeedReport, PlotsHaveUnitsAndASeriesPerSide) {
 TEST(Budget, LetsBeginWhatWillEndInTime) {
     Budget free(std::nullopt, 1);
     EXPECT_TRUE(free.allows(1e9));
-    Budget budget(1, 0.1);  // a minute; a tenth of a second per unit at first
+    Budget budget(1, 0.1);  // a minute in all, and a tenth of a second per unit at first
     EXPECT_TRUE(budget.allows(500));
     EXPECT_FALSE(budget.allows(700));
     budget.done(100, 100);

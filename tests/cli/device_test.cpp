@@ -1,4 +1,4 @@
-// Devices, drivers and the validation layer: found, missing, unknown.
+// Devices, drivers and the validation layer are found, missing or unknown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -26,7 +26,7 @@ Json::Value devices() {
     return list;
 }
 
-// Newer loaders read the second name.
+// Older loaders read the first name, newer ones the second.
 const std::vector<std::string> no_driver = {"VK_ICD_FILENAMES=/nowhere/driver.json",
                                             "VK_DRIVER_FILES=/nowhere/driver.json"};
 
@@ -72,7 +72,7 @@ TEST(Devices, WithoutADriverTheErrorSaysWhereOneIs) {
         EXPECT_THAT(outcome.out, IsEmpty());
     }
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
-    // What needs no device works without one.
+    // Commands that need no device work without one.
     EXPECT_EQ(drape({"check", folder.scene()}, {.environment = no_driver}).code, 0);
     EXPECT_EQ(drape({"schema"}, {.environment = no_driver}).code, 0);
 }

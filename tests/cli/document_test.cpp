@@ -1,4 +1,4 @@
-// What the documents promise a reader who follows them.
+// The documents keep their promises to a reader who follows them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 const std::filesystem::path repository = DRAPE_SOURCE_DIR;
 
-/// The fenced blocks of a document in one language.
+/// Returns the fenced blocks of a document in one language.
 std::vector<std::string> blocks(const std::string& document, const std::string& language) {
     std::vector<std::string> found;
     const std::string open = "\n```" + language + "\n", close = "\n```\n";
@@ -49,7 +49,7 @@ TEST(FirstScene, EveryDocumentsSceneIsGoodAndRendersToItsEnd) {
     }
 }
 
-/// The names of all members, without the cloth that a statistic is of.
+/// Collects the names of all members, without the cloth that a statistic belongs to.
 void collect_names(const Json::Value& value, std::set<std::string>& names) {
     if (value.isObject()) {
         for (const std::string& name : value.getMemberNames()) {

@@ -1,4 +1,4 @@
-// `drape profile` and `drape compare` as a user runs them.
+// `drape profile` and `drape compare` run as a user runs them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

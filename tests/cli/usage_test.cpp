@@ -1,4 +1,4 @@
-// The command line: help, and what is refused as wrong usage (exit code 2).
+// The command line gives help, and refuses wrong usage with exit code 2.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(Help, ExplainsEveryExitCode) {
     EXPECT_THAT(read_text(DRAPE_SOURCE_DIR "/engine/docs/command_line.md"), HasSubstr(exit_code_table()));
 }
 
-/// Those of the list that a help text gives.
+/// Returns the subcommands that a help text lists.
 std::vector<std::string> subcommands(const std::string& help) {
     std::vector<std::string> names;
     const std::size_t begin = help.find("\nSubcommands:\n");

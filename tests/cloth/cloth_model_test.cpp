@@ -1,4 +1,4 @@
-// What a cloth's model holds, and what it leaves out.
+// A cloth's model holds what its scene needs and leaves out the rest.
 #include "cloth/cloth_model.h"
 
 #include <gmock/gmock.h>
@@ -101,7 +101,7 @@ TEST(FrameStepsTest, ExplicitFramesAreMicroSteps) {
     EXPECT_EQ(SimulationModel(scene).method().name, "relax");
 }
 
-/// First substeps and counts of a scene's explicit steps with four in flight.
+/// Returns first substeps and counts of a scene's explicit steps with four in flight.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> in_flight(const SceneDescription& scene, std::size_t cloth = 0) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
     for (const Step& step :
@@ -116,7 +116,7 @@ TEST(FrameStepsTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 11, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
-    // Were the last step not kept apart, 5 to 8 would be one.
+    // If the last step were not kept apart, 5 to 8 would be one.
     SceneDescription nine = scene;
     nine.solver.substeps = 9;
     EXPECT_THAT(in_flight(nine), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1), Pair(6, 1), Pair(7, 1), Pair(8, 1)));
@@ -140,7 +140,7 @@ TEST(FrameStepsTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     EXPECT_THAT(in_flight(bending), alone);
 }
 
-/// Of a scene's sweeps: the iteration of each, and of its predictions: whether they turn.
+/// Returns the iteration of each of a scene's sweeps, and for each of its predictions whether it turns.
 std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDescription& scene) {
     std::pair<std::vector<std::uint32_t>, std::vector<bool>> found;
     for (const Step& step :
@@ -232,13 +232,13 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
         const ClothModel model(scene, 0);
         ASSERT_EQ(model.plan.compromises.size(), 1u);
         EXPECT_EQ(model.plan.compromises[0].what, "sheet/stiffness");
-        // Of the least compliance in units of (4/9) h^2/m, or of h^2/m.
+        // The least compliance is in units of (4/9) h^2/m, or of h^2/m.
         const double factor = collides ? 1 : 2.25,
                      used = factor / least_line_compliance * model.inner_mass * 1200 * 1200;
         EXPECT_NEAR(model.plan.used_stiffness[0], used, 1e-6 * used);
         const glsl::LinePush push = test::pushes<glsl::LinePush>(model.plan)[2];
         EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, float(least_line_compliance));
-        // So many substeps soften nothing, and one less does.
+        // With so many substeps nothing is softened, with one less something is.
         scene.solver.substeps = model.plan.compromises[0].enough_substeps;
         EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
         --scene.solver.substeps;
@@ -275,7 +275,7 @@ TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
     cloth.pins = {test::pin_top(cloth)};
     EXPECT_TRUE(nested().empty());
     EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested boxes"));
-    // Two corners whose boxes share no particle; between them one that shares some with the first, so it waits.
+    // Two corners have boxes that share no particle; a pin between them whose box shares some with the first waits.
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(64, 0, 64, 0), test::pin_box(30, 0, 30, 0)};
     ASSERT_EQ(nested().size(), 2u);
     const std::vector<glsl::ivec4> table = ClothModel(scene, 0).plan.nested_table;
@@ -283,14 +283,14 @@ TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
     EXPECT_EQ(table[first].z, 2);
     EXPECT_EQ(table[first + 1].x, 64);
     EXPECT_EQ(table[static_cast<std::size_t>(nested()[1].first_pin)].x, 30);
-    // A strip around a pin's column goes from end to end; so two in a column take turns.
+    // A strip around a pin's column goes from end to end, so two in a column take turns.
     EXPECT_TRUE(std::ranges::any_of(table, [](const glsl::ivec4& block) { return block.x == 7 && block.y >= 64; }));
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(0, 64, 0, 64)};
     EXPECT_EQ(nested().size(), 2u);
-    // A pair holds each other.
+    // Two pins beside each other hold each other, and are not lone.
     cloth.pins = {test::pin_box(0, 0, 1, 0)};
     EXPECT_TRUE(nested().empty());
-    // A hundred of them.
+    // A hundred lone pins are too many.
     cloth.pins.clear();
     for (std::uint32_t k = 0; k < 100; ++k)
         cloth.pins.push_back(test::pin_box(6 * (k % 10), 6 * (k / 10), 6 * (k % 10), 6 * (k / 10)));
@@ -298,7 +298,7 @@ TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
 }
 
 TEST(ClothModelTest, NestedBoxesEndBeforeTheDeviceBreaksOff) {
-    // So large that no block around the pin in its middle is cut short by an edge.
+    // The sheet is so large that no block around the pin in its middle is cut short by an edge.
     SceneDescription scene = test::sheet(270, 4200, 1, 1, 1);
     scene.solver.method = SolverMethod::line;
     scene.cloths[0].pins = {test::pin_box(135, 2100, 135, 2100)};

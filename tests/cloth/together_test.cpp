@@ -1,4 +1,4 @@
-// Which cloths are simulated together, and how their steps become one.
+// Cloths that are alike are simulated together, and their steps become one.
 #include "cloth/together.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(TogetherTest, CutsOwnIterationsSelfContactAndSizeKeepThemApart) {
     }));
 }
 
-/// Steps of one cloth within a list, by itself or together.
+/// Returns the steps of one cloth within a list, by itself or together.
 std::vector<StepKind> kinds_of(std::size_t cloth, const std::vector<Step>& steps, const Lists& lists) {
     std::vector<StepKind> kinds;
     for (const Step& step : steps) {
@@ -83,7 +83,7 @@ TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
     const std::vector<Step> steps = frame_steps(model), merged = steps_together(steps, lists);
     for (std::size_t cloth = 0; cloth < 4; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
-    // Control, predict, pins, four directions and collision of each of three substeps.
+    // Each of three substeps has control, predict, pins, four directions and collision.
     EXPECT_EQ(count_of(merged, true), 3u * 8);
     EXPECT_EQ(count_of(merged, false), 3u * 8 + 1);
 }

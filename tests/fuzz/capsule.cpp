@@ -1,5 +1,5 @@
-// A failed run's capsule, raw and with its checksum repaired: an error, or settings that hold, and a scene that can be
-// loaded or says why not.
+// A failed run's capsule, raw and with its checksum repaired, gives an error, or settings that hold and a scene that
+// can be loaded or says why not.
 #include "output/output_error.h"
 #include "run/failure_capsule.h"
 #include "section_input.h"

@@ -1,5 +1,5 @@
-// A small scene of everything on the device and on the C++ twin: every bit of the state after every frame, and nothing
-// from the validation layer. Needs a device with IEEE arithmetic, as lavapipe is.
+// A small scene of everything gives every bit of the state after every frame on the device as on the C++ twin, and no
+// message of the validation layer. It needs a device with IEEE arithmetic, as lavapipe is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 using fuzz::require;
 
-/// With core and synchronization validation.
+/// A device with core and synchronization validation.
 struct Gpu {
     vulkan::Instance instance{vulkan::InstanceOptions{.validation = true, .print_messages = false}};
     vulkan::Device device{instance, selector()};
@@ -59,8 +59,8 @@ bool is_finite(std::span<const std::byte> texels) {
     return std::ranges::all_of(test::texels_of<float>(texels), [](float number) { return std::isfinite(number); });
 }
 
-/// Whether the frame is a result at all: where it is none a run ends. What a comparison or a conversion makes of
-/// numbers that are none is nobody's; nor are pairs that found no room in the device's lists, where the twin tries all.
+/// Returns whether the frame is a result at all; a run ends where it is none. Comparisons and conversions of numbers
+/// that are none may differ, and so may pairs that found no room in the device's lists, where the twin tries all.
 bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceRun& device) {
     bool twin_finite = true, device_finite = true;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
@@ -73,7 +73,7 @@ bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceR
     return twin_finite;
 }
 
-/// Every field of the state.
+/// Compares every field of the state.
 void compare_states(const SimulationModel& model, const Kernels& kernels) {
     Twin twin(model);
     test::DeviceRun device(gpu().device, model, {}, kernels);
@@ -87,7 +87,7 @@ void compare_states(const SimulationModel& model, const Kernels& kernels) {
     }
 }
 
-/// Positions, with what the cutters cut.
+/// Compares positions, with what the cutters cut.
 void compare_cut(const SceneDescription& scene, const Kernels& kernels) {
     test::TwinWithCuts twin(scene);
     FrameLoopOptions options;
@@ -126,7 +126,7 @@ void check_messages() {
 
 #ifdef DRAPE_FUZZ_SANITIZED
 extern "C" {
-/// As in gpu_test.cpp: drivers and layers stay loaded, so that their leaks can be told from ours.
+/// Drivers and layers stay loaded, as in gpu_test.cpp, so that their leaks can be told from ours.
 int dlclose(void*) noexcept { return 0; }
 }
 #endif

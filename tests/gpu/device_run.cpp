@@ -14,7 +14,6 @@ namespace {
 
 std::string normal_buffer(const ClothModel& cloth) { return cloth.name + "/normals on the host"; }
 
-/// Keeps the normals alive and fetches them.
 void add_normal_readback(graph::Graph& graph, const ClothState& state) {
     const Grid& grid = state.model->grid;
     const graph::Handle empty =

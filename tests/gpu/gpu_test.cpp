@@ -10,8 +10,8 @@
 
 #ifdef __SANITIZE_ADDRESS__
 extern "C" {
-/// Layers and drivers stay loaded, so that the leak report can name their frames, and so that leaks of theirs
-/// (a suppression matches loaded modules only) are told apart from ours.
+/// Layers and drivers stay loaded, so that the leak report can name their frames, and so that leaks of theirs (a
+/// suppression matches loaded modules only) are told apart from ours.
 int dlclose(void*) noexcept { return 0; }
 const char* __lsan_default_suppressions() { return "leak:libVkLayer_khronos_validation.so\n"; }
 /// The driver's freed images would otherwise stay in quarantine.

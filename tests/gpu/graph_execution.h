@@ -1,4 +1,4 @@
-// A graph on the device with a pass that copies an image, and the ways in and out of its images.
+// A graph on the device with a pass that copies an image, and functions that fill and read its images.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Random numbers of a sweep: the published generator, and values that follow their distributions.
+// Random numbers of a sweep are the published generator's, and values follow their distributions.
 #include "sweep/distribution.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace drape::sweep {
 namespace {
 
-// The known answers that its authors publish with Random123 (kat_vectors).
+// The answers are known: the authors publish them with Random123 (kat_vectors).
 TEST(Philox, GivesTheKnownAnswers) {
     using Words = std::array<std::uint32_t, 4>;
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
@@ -41,7 +41,7 @@ Moments moments(
     return result;
 }
 
-// 20,000 values: a mean is off by 0.007 standard deviations (one sigma); limits are four times that.
+// The mean of 20,000 values is off by 0.007 standard deviations (one sigma); limits are four times that.
 constexpr double sigmas = 4 / 141.0;
 
 TEST(Distributions, HaveTheirMoments) {
