@@ -1,4 +1,4 @@
-// embed.cmake writes this table of every committed module by name.
+// Every committed module by name.
 #pragma once
 
 #include <cstdint>

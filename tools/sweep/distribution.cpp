@@ -1,5 +1,6 @@
 #include "sweep/distribution.h"
 
+#include <Random123/philox.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +8,6 @@
 #include <stdexcept>
 
 #include "output/atomic_file.h"
-#include "sweep/philox.h"
 
 namespace drape::sweep {
 
@@ -25,7 +25,8 @@ class Numbers {
 
     /// Returns two numbers in [0, 1), of 53 bits each.
     std::array<double, 2> pair() {
-        const std::array<std::uint32_t, 4> words = philox({index_, attempt_++, pointer_[0], pointer_[1]}, key_);
+        const r123::Philox4x32::ctr_type words =
+            r123::Philox4x32{}({{index_, attempt_++, pointer_[0], pointer_[1]}}, {{key_[0], key_[1]}});
         return {fraction(words[0], words[1]), fraction(words[2], words[3])};
     }
 
