@@ -1,4 +1,4 @@
-// Which passes make a frame, in which order, as a plain list. Pure.
+// The steps of a frame in their order, as a plain list. Pure.
 #pragma once
 
 #include <vector>

@@ -18,13 +18,13 @@ using graph::Lifetime;
 
 namespace {
 
-/// Of the pins of cloths together.
+/// Returns the name of the buffer with all pins of cloths together.
 std::string pins_name(const ClothState& whole, Field field) {
     return fmt::format("{}/{}", whole.name, row_of(field).name);
 }
 
-/// Alike, of the same contact with colliders, which depends on where cloth is placed, and where steps go to and fro
-/// between two sets of images, together in each of them.
+/// Returns lists of cloths that are alike, have the same contact with colliders, which depends on where they are
+/// placed, and turn at the same steps where steps go to and fro between two sets of images.
 std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {

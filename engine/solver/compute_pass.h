@@ -26,7 +26,7 @@ struct PassResources {
     ContactHandles* contact = nullptr;
     SceneInputs inputs = {};
     std::vector<std::pair<std::string_view, graph::Handle*>> own = {};
-    /// What a name means in this pass, where that is another resource (asked first when it is set).
+    /// Returns the name of the resource that a name means in this pass; unset: every name means itself.
     std::function<std::string(std::string_view name, bool written)> alias = {};
 
     /// Throws std::logic_error where there is none of that name.

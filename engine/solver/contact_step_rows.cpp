@@ -16,10 +16,10 @@ bool buffered(Place p) { return p.cloth->buffered; }
 bool sheet_is_buffered(Place p) { return p.contact->buffered; }
 bool second_order(Place p) { return p.cloth->model->plan.second_order; }
 bool wide_atomics(Place p) { return p.device.wide_atomics(); }
-/// Some cloths started through each other.
+/// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<SelfContactPush>().crossed_count > 0; }
 
-/// The push constants of a step of all cloths, with the room that the lists have.
+/// Returns the push constants of a step of all cloths, with the capacity of the lists.
 graph::PushConstants contact_push(Place p) {
     SelfContactPush push = p.step.push<SelfContactPush>();
     push.pair_capacity = static_cast<int>(p.contact->capacity.pairs);
@@ -42,7 +42,7 @@ DispatchSize over_parts(Place p, const ComputePipeline&) {
     const auto [across, down] = p.device.over_parts(p.model.self_contact->largest);
     return {across, down, static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
 }
-/// As far as the passes before found something to do for it.
+/// The size that the passes before wrote: as far as they found something to do.
 DispatchSize of_slot(Place p, int slot) {
     return {.sizes = (*p.contact)[ContactField::sizes], .slot = static_cast<std::size_t>(slot)};
 }
@@ -58,7 +58,7 @@ DispatchSize found_at_level(Place p, const ComputePipeline&) {
     return of_slot(p, glsl::self_size_levels + p.step.push<SelfContactPush>().level - 1);
 }
 
-/// What those that search in the tree call boxes are the boxes of the last search; blocks are in the list that will
+/// Shaders that search in the tree call the boxes of the last search boxes; they put blocks into the list that will
 /// hold cells.
 std::string tree_alias(Place, std::string_view name, bool) {
     return name == "boxes" ? "kept" : name == "blocks" ? "cells" : "";

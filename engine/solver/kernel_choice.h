@@ -1,4 +1,4 @@
-// Which kernels (drape/kernels.h) a device takes for a model, and why.
+// The choice of kernels (drape/kernels.h) that a device takes for a model, and the reasons.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace drape {
 
-/// What method `auto` has to know of a device.
+/// Returns what method `auto` has to know of a device.
 DeviceKind device_kind(const vulkan::DeviceInfo& device);
 
-/// The kernels asked for, with those that they need; automatic: those that suit the device and the model. Throws
+/// Returns the kernels asked for, with those that they need; automatic: those that suit the device and model. Throws
 /// VulkanError, naming the kernel, where the device has not what one needs.
 Kernels possible_kernels(const vulkan::Device& device, const SimulationModel& model, const Kernels& asked);
 
-/// Those that some step of a frame uses.
+/// Returns those of the kernels that some step of a frame uses.
 Kernels used_kernels(const SimulationModel& model, const Kernels& kernels);
 
 /// Kernels that belong together, for tests and benchmarks that compare them.
@@ -32,7 +32,7 @@ inline const KernelSet all_kernel_sets[] = {
     {"tile", tile_kernels},
     {"cyclic", cyclic_kernels},
 };
-/// Whether a method, not `automatic`, may have a step that such kernels do.
+/// Returns whether a method, not `automatic`, may have a step that such kernels do.
 bool concerns(const KernelSet& set, SolverMethod method);
 
 /// A kernel and whether a model's steps use it on a device, and why (not).
@@ -44,7 +44,7 @@ struct KernelVerdict {
 std::vector<KernelVerdict> kernel_verdicts(const vulkan::Device& device, const SimulationModel& model,
                                            const Kernels& asked);
 
-/// Why cloths of this size, `count` of them below each other, cannot store to the state through buffer views
+/// Returns why cloths of this size, `count` of them below each other, cannot store to the state through buffer views
 /// (shaders/include/state_store.h); empty when they can.
 std::string buffer_store_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count = 1);
 

@@ -11,7 +11,7 @@
 
 namespace drape {
 
-/// A step and where it is taken: what the functions of a row look at.
+/// A step and where it is taken, which the functions of a row look at.
 struct StepPlace {
     const Step& step;
     const ClothState* cloth;        ///< null where contact is of all cloths at once
@@ -35,10 +35,10 @@ struct KernelRow {
     DispatchSize (*size)(const StepPlace&, const vulkan::ComputePipeline&);
 };
 
-/// Which of the state's images are spare ones after a step, because it wrote those.
+/// The images that a step writes instead of those that it reads: they then are the state, and the others spare.
 enum class Turn { nothing, displacement, state };
 
-/// What the pass of a step is called: a text, or a function of the step.
+/// The name of a step's pass: a text, or a function of the step.
 class StepLabel {
   public:
     StepLabel(const char* text) : text_(text) {}                          // NOLINT(google-explicit-constructor)
@@ -56,9 +56,9 @@ struct StepRow {
     std::vector<KernelRow> kernels;
     /// Push constants; null: the step's own.
     graph::PushConstants (*push)(const StepPlace&) = nullptr;
-    /// The images that the step writes instead of those that it reads.
+    /// Null: the step updates its images in place.
     Turn (*turn)(const StepPlace&) = nullptr;
-    /// What a resource's name means in this step, where that is another one; empty: itself.
+    /// Returns the name of the resource that a name means in this step; empty: itself.
     std::string (*alias)(const StepPlace&, std::string_view name, bool written) = nullptr;
 };
 

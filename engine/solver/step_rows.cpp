@@ -19,7 +19,7 @@ std::size_t channel_of(Place p) {
 const MethodPlan& plan_of(Place p) { return p.cloth->model->plan; }
 bool has(Place p, Field field) { return (*p.cloth)[field].valid(); }
 
-// What the variants of the shaders stand for.
+// The variants of the shaders stand for these.
 bool masked(Place p) { return p.cloth->masked(); }
 bool buffered(Place p) { return p.cloth->buffered; }
 bool windy(Place p) { return has(p, Field::wind_force); }
@@ -44,9 +44,6 @@ bool stores_stretch_tension(Place p) {
     return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
            p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
 }
-const std::vector<VariantRow> stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
-    cut{{"masked", masked}, {"buffered", buffered}};
-
 std::string spring_label(Place p) {
     const auto& push = p.step.push<glsl::SpringPush>();
     return fmt::format("spring {} {}", spring_directions[static_cast<std::size_t>(push.channel)].name,
@@ -107,7 +104,7 @@ Turn turns_if_asked(Place p) { return p.step.turns ? Turn::displacement : Turn::
 Turn turns_home(Place p) { return p.cloth->away ? Turn::state : Turn::nothing; }
 
 std::string variable_of(Field field) { return row_of(field).variable(); }
-/// `tension` is the one of the step's direction.
+/// The name `tension` means the tension of the step's direction.
 template <class Push>
 std::string tension_alias(Place p, std::string_view name, bool) {
     return name == "tension" ? variable_of(tension_of(channel_of<Push>(p))) : std::string();
@@ -129,70 +126,50 @@ std::string box_edges_alias(Place p, std::string_view name, bool written) {
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
 }
 
-/// The rows of what predicts, bends and holds pins.
-std::vector<StepRow> motion_rows() {
+// clang-format off: every kernel is a line.
+/// Returns the rows by StepKind, but for contact's between cloths: label, kernels, push constants, turn, aliases.
+std::vector<StepRow> cloth_rows() {
     using enum Kernel;
+    using Variants = std::vector<VariantRow>;
+    const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
+        cut{{"masked", masked}, {"buffered", buffered}},
+        release{{"tension", releases_tension}, {"masked", releases_masked_tension}, {"second_order", second_order}},
+        predict{{"wind", windy}, {"buffered", buffered}},
+        force{{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
+        explicit_step{{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
+        all_twist{{"masked", masked}, {"second_order", second_order}},
+        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}},
+        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
+        springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
+        line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}},
+        nested_reduced{{"masked", masked}, {"sheared", shears}},
+        nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
+        collide{{"history", second_order}, {"led", after_edges}, {"buffered", buffered}},
+        advance{{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}};
     return {
-        {StepKind::release,
-         "pin release",
-         {{Kernel::plain,
-           "pin_release.comp",
-           {{"tension", releases_tension}, {"masked", releases_masked_tension}, {"second_order", second_order}},
-           over_pins}},
-         release_push},
-        {StepKind::wind, "wind", {{Kernel::plain, "wind.comp", cut, over_wide_columns}}, wind_push},
-        {StepKind::control, "line control", {{Kernel::plain, "line_control.comp", {}, one_invocation}}},
-        {StepKind::predict,
-         "predict",
-         {{Kernel::plain, "predict.comp", {{"wind", windy}, {"buffered", buffered}}, over_strips}},
-         nullptr,
-         turns_if_asked},
-        {StepKind::force,
-         "force",
-         {{Kernel::plain,
-           "force.comp",
-           {{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
-           over_strips}},
-         nullptr,
-         turns_if_asked},
+        {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
+        {StepKind::wind, "wind", {{plain, "wind.comp", cut, over_wide_columns}}, wind_push},
+        {StepKind::control, "line control", {{plain, "line_control.comp", none, one_invocation}}},
+        {StepKind::predict, "predict", {{plain, "predict.comp", predict, over_strips}}, nullptr, turns_if_asked},
+        {StepKind::force, "force", {{plain, "force.comp", force, over_strips}}, nullptr, turns_if_asked},
         {StepKind::explicit_step,
          explicit_label,
-         {{Kernel::plain,
-           "explicit.comp",
-           {{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
-           over_particles},
+         {{plain, "explicit.comp", explicit_step, over_particles},
           {explicit_stream, "explicit_stream.comp", masked_only, over_explicit_stream},
           {explicit_tile, "explicit_tile.comp", masked_only, over_tiles}},
          nullptr,
          turns_state},
-        {StepKind::pin, "pin motion", {{Kernel::plain, "pin_motion.comp", {}, over_pins}}, pin_push},
-        {StepKind::bend, bend_label, {{Kernel::plain, "bend.comp", cut, over_bends}}},
-        {StepKind::twist,
-         twist_label,
-         {{Kernel::plain,
-           "twist.comp",
-           {{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}},
-           over_twists}}},
+        {StepKind::pin, "pin motion", {{plain, "pin_motion.comp", none, over_pins}}, pin_push},
+        {StepKind::bend, bend_label, {{plain, "bend.comp", cut, over_bends}}},
+        {StepKind::twist, twist_label, {{plain, "twist.comp", twist, over_twists}}},
         {StepKind::all_twist,
          "twist of all cells",
-         {{twist_stream, "twist_stream.comp", {{"masked", masked}, {"second_order", second_order}}, over_twist_stream}},
+         {{twist_stream, "twist_stream.comp", all_twist, over_twist_stream}},
          nullptr,
          turns_displacement},
-    };
-}
-
-/// The rows of springs.
-std::vector<StepRow> spring_rows() {
-    using enum Kernel;
-    const std::vector<VariantRow> springs{
-        {"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}};
-    return {
         {StepKind::spring,
          spring_label,
-         {{Kernel::plain,
-           "spring.comp",
-           {{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
-           over_springs}},
+         {{plain, "spring.comp", spring, over_springs}},
          spring_push,
          nullptr,
          tension_alias<glsl::SpringPush>},
@@ -205,62 +182,40 @@ std::vector<StepRow> spring_rows() {
          all_springs_alias},
         {StepKind::line,
          line_label,
-         {{Kernel::plain, "line.comp", {{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, over_lines},
-          {line_cyclic, "line_cyclic.comp", masked_only, over_line_particles}},
+         {{plain, "line.comp", line, over_lines}, {line_cyclic, "line_cyclic.comp", masked_only, over_line_particles}},
          nullptr,
          nullptr,
          tension_alias<glsl::LinePush>},
         {StepKind::nested,
          "nested boxes",
-         {{Kernel::plain,
-           "nested.comp",
-           {{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-           over_nested_pins},
-          {nested_cyclic, "nested_cyclic.comp", {{"masked", masked}, {"sheared", shears}}, over_nested_pins}}},
-    };
-}
-
-/// The rows of what ends an iteration or a substep.
-std::vector<StepRow> ending_rows() {
-    return {
-        {StepKind::tether, "tethers", {{Kernel::plain, "tether.comp", stored, over_strips}}, grid_push},
+         {{plain, "nested.comp", nested, over_nested_pins},
+          {nested_cyclic, "nested_cyclic.comp", nested_reduced, over_nested_pins}}},
+        {StepKind::tether, "tethers", {{plain, "tether.comp", stored, over_strips}}, grid_push},
         {StepKind::box_edges,
          box_edges_label,
-         {{Kernel::plain, "box_edges.comp", cut, over_columns}},
+         {{plain, "box_edges.comp", cut, over_columns}},
          box_edges_push,
          nullptr,
          box_edges_alias},
-        {StepKind::collide,
-         "collision",
-         {{Kernel::plain,
-           "collision.comp",
-           {{"history", second_order}, {"led", after_edges}, {"buffered", buffered}},
-           over_columns}},
-         collision_push},
-        {StepKind::residual,
-         "residual",
-         {{Kernel::plain, "residual.comp", masked_only, over_residual_strips}},
-         residual_push},
+        {StepKind::collide, "collision", {{plain, "collision.comp", collide, over_columns}}, collision_push},
+        {StepKind::residual, "residual", {{plain, "residual.comp", masked_only, over_residual_strips}}, residual_push},
         {StepKind::decide,
          "iteration decision",
-         {{Kernel::plain, "iteration_decision.comp", {}, one_invocation}},
+         {{plain, "iteration_decision.comp", none, one_invocation}},
          decide_push},
         {StepKind::advance,
          "advance",
-         {{Kernel::plain,
-           "advance.comp",
-           {{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}},
-           over_strips}},
+         {{plain, "advance.comp", advance, over_strips}},
          grid_push,
          turns_home,
          advance_alias},
     };
 }
+// clang-format on
 
 std::vector<StepRow> all_rows() {
     std::vector<StepRow> rows;
-    for (const auto& some : {motion_rows(), spring_rows(), ending_rows(), contact_step_rows()})
-        rows.insert(rows.end(), some.begin(), some.end());
+    for (const auto& some : {cloth_rows(), contact_step_rows()}) rows.insert(rows.end(), some.begin(), some.end());
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].kind != static_cast<StepKind>(k)) throw std::logic_error("rows of steps are not by StepKind");
     return rows;

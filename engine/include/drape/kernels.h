@@ -1,5 +1,5 @@
-// Which kernels, shaders that do a step's work, a simulation may use. Every step has a plain kernel; a faster one gives
-// the same bits, except by cyclic reduction, which rounds otherwise.
+// The kernels, shaders that do a step's work, that a simulation may use. Every step has a plain kernel; faster ones
+// give the same bits, except those of cyclic reduction, which rounds otherwise.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ enum class Kernel : std::uint8_t {
     nested_cyclic,    ///< nested boxes by cyclic reduction: other rounding
 };
 
-/// What it is called on the command line, in manifests and in `drape graph`.
+/// The name of a kernel on the command line, in manifests and in `drape graph`.
 struct KernelName {
     std::string_view name;
     Kernel kernel;
@@ -41,7 +41,8 @@ inline constexpr KernelName kernel_names[] = {
 };
 inline constexpr std::string_view name_of(Kernel kernel) { return kernel_names[static_cast<std::size_t>(kernel)].name; }
 
-/// Those that a simulation may use beside the plain ones; or `auto`: those that suit the device and the scene.
+/// A set of kernels that a simulation may use beside the plain ones; `auto` stands for those that suit the device and
+/// the scene.
 class Kernels {
   public:
     Kernels() = default;
@@ -53,7 +54,7 @@ class Kernels {
         kernels.automatic_ = true;
         return kernels;
     }
-    /// "auto", or names joined by commas; nothing where one is no name.
+    /// Reads "auto", or names joined by commas; returns nothing where one is no kernel's.
     static std::optional<Kernels> parse(std::string_view text) {
         if (text == "auto") return automatic();
         Kernels kernels;
@@ -66,7 +67,7 @@ class Kernels {
             text.remove_prefix(name.size() + 1);
         }
     }
-    /// As `parse` takes it.
+    /// Returns the text that `parse` reads.
     std::string text() const {
         if (automatic_) return "auto";
         std::string names;
