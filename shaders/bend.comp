@@ -1,5 +1,5 @@
-// Relaxes one colour of the bending elements of one axis, plain schedule: one invocation per element, so no particle is
-// touched twice. MASKED: the spring shares come from an image (holes, cuts).
+// This plain kernel relaxes one colour of the bending elements of one axis with an invocation per element. Elements of
+// one colour share no particle. MASKED takes the spring shares from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED

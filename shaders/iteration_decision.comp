@@ -1,6 +1,6 @@
-// Whether a substep gets another iteration: joins the workgroups' residuals (lane l takes every 64th from the l-th on,
-// then the tree) and writes the sizes of its dispatches, or zeros. Once zero, the later decisions of the substep are
-// not dispatched either.
+// This pass decides whether a substep gets another iteration: it joins the workgroups' residuals (lane l takes every
+// 64th from the l-th on, then a tree joins the lanes) and writes the sizes of the iteration's dispatches, or zeros.
+// Once they are zero, the later decisions of the substep are not dispatched either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,4 +1,4 @@
-// Decides of each cloth of a dispatch whether the coming substep is BDF2 or backward Euler.
+// This pass decides for each cloth of a dispatch whether the coming substep is BDF2 or backward Euler.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"

@@ -1,4 +1,4 @@
-// Moves held particles along their key-framed motion: d = target - X, so that X + d is the target itself.
+// This pass moves held particles along their key-framed motion: d = target - X, so that X + d is the target itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

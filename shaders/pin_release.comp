@@ -1,7 +1,7 @@
-// Frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass. The
-// substep that follows is the first without the pin's force (include/pin.h). TENSION: the springs' last pull is taken
-// from their stored tension. MASKED: it is too, and the spring shares come from an image (holes, cuts). SECOND_ORDER:
-// the control is asked for backward Euler substeps.
+// This pass frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass.
+// The substep that follows is the first without the pin's force (include/pin.h). TENSION takes the springs' last pull
+// from their stored tension. MASKED does too, and takes the spring shares from an image (holes, cuts). SECOND_ORDER
+// asks the control for backward Euler substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants TENSION|MASKED SECOND_ORDER
@@ -52,7 +52,7 @@ float share_of(ivec2 owner, ivec2 offset, int direction) {
 #endif
 }
 
-/// What the springs' tension would move an inner particle at `texel` by in a substep, m.
+/// Returns the displacement by which the springs' tension would move an inner particle at `texel` in a substep, m.
 vec3 pull_of_springs(ivec2 texel) {
     vec3 start = imageLoad(position_in, texel).xyz, moved = imageLoad(displacement_in, texel).xyz;
     vec3 sum = vec3(0.0f, 0.0f, 0.0f);

@@ -1,5 +1,6 @@
-// Stretch error within a substep: an invocation per residual_rows particles of a column, a record per workgroup. A
-// particle answers for the stretch springs whose first particle it is. MASKED: spring shares from an image (holes, cuts).
+// This pass measures the stretch error within a substep. An invocation takes residual_rows particles of a column, each
+// with the stretch springs whose first particle it is, and a workgroup leaves a record. MASKED takes the spring shares
+// from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED

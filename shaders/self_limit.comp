@@ -1,7 +1,8 @@
-// Of every listed pair: the share of its motion that each corner may make and still be on its side of the plane between the
-// two. A particle keeps the least of all its pairs'; positive floats order as their bits do. The first round begins
-// with nobody moving, each next one with what the round before found to cross nothing: then the planes have moved too,
-// and layers that move together are not held back by each other. It runs only where that left a motion short.
+// This pass finds, for every listed pair, the share of its motion that each corner may make and still be on its side of
+// the plane between the two. A particle keeps the least share of all its pairs; positive floats order as their bits do.
+// In the first round nobody moves yet. Each next round begins with the motions that the round before found to cross
+// nothing: then the planes have moved too, and layers that move together do not hold each other back. It runs only
+// where the round before cut a motion short.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -27,7 +28,7 @@ struct Corner {
     int place;
     vec3 x;
     bool held;
-    float along, share;  // of its motion: m along the normal, and what it makes already
+    float along, share;  // its motion along the normal, m, and the share of it that it makes already
 };
 
 vec3 motion(Corner corner, uint which, float thickness) {

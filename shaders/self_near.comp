@@ -1,5 +1,5 @@
-// Lists the pairs of cells, none close in their cloth, whose triangles and edges this substep may bring together: of the
-// candidates those whose boxes are near enough.
+// This pass lists the pairs of cells, none close in their cloth, whose triangles and edges this substep may bring
+// together: the candidates whose boxes are near enough.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,6 +1,6 @@
-// Lists the pairs of primitives that this substep may bring together, of those whose boxes are near each other: particles
-// and triangles from the list's begin on, edges from its end on, so that a pass that goes through it knows each one's
-// kind.
+// This pass lists the pairs of primitives that this substep may bring together, among those whose boxes are near each
+// other. Particles and triangles fill the list from its begin, edges from its end, so that the passes that go through
+// it know each pair's kind.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,6 +1,6 @@
-// Relaxes one parity of one spring direction, plain schedule: one invocation per spring, so no particle is touched
-// twice. MASKED: the spring shares come from an image (holes, cuts). TENSION: the springs' tension is stored, for the next
-// iteration of the substep and for the stretch error.
+// This plain kernel relaxes the springs of one direction and parity with an invocation per spring. Such springs share
+// no particle. MASKED takes the spring shares from an image (holes, cuts). TENSION stores the springs' tension, for the
+// next iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED TENSION BUFFERED

@@ -1,6 +1,6 @@
-// Relaxes all springs of an iteration at once, to the bits of the eight passes of spring.comp: each subgroup streams
-// down the rows of a strip of columns, two rows at a time, and keeps in registers those that later passes of theirs
-// still await. With rows 2k and 2k + 1 loaded, every pass takes the rows whose turn it is:
+// This stream is a step of all springs, to the bits of the eight passes of spring.comp. Each subgroup goes down the
+// rows of a strip of columns, two rows at a time, and keeps in registers the rows that have passes left. With rows 2k
+// and 2k + 1 loaded, every pass takes the rows whose turn it is:
 //
 //   row          2k-5   2k-4   2k-3   2k-2   2k-1    2k    2k+1
 //   along                                            *      *
@@ -11,10 +11,11 @@
 //   down-left           e-------e
 //                o------o
 //
-// and then the first two are done. A ghost beside an invocation's columns is the first one of the invocation on the right;
-// what a spring moves of it goes back by shuffle. MASKED: the spring shares come from an image. TENSION: the stretch
-// springs' tension is stored, for the stretch error; it starts from zero. CARRIED: that of all springs is, for the next
-// iteration or the release of a pin, and starts from what the iteration before left in other images.
+// Then the first two rows are done. A ghost beside an invocation's columns is the first column of the invocation on the
+// right; its displacement goes back there by shuffle. MASKED takes the spring shares from an image. TENSION stores the
+// tension of the stretch springs, for the stretch error, and starts it from zero. CARRIED stores that of all springs,
+// for the next iteration or the release of a pin, and starts from the tension that the iteration before left in other
+// images.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -63,8 +64,8 @@ bool exists(ivec2 owner, ivec2 offset) {
            owner.x + offset.x < push.grid.x;
 }
 
-/// The spring that `owner` is the first particle of. Where the grid has none, nothing moves, not even a zero's sign.
-/// Takes and returns its tension.
+/// Relaxes the spring whose first particle is `owner`. Where the grid has none, nothing moves, not even a zero's sign.
+/// Takes and returns the spring's tension.
 float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel, float tension) {
     vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
     precise float weight_sum = first.weight + second.weight;
@@ -131,7 +132,7 @@ void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[col
 }
 
 void main() {
-    Particle rows[window][columns + 1];  // of the figure above, from the left
+    Particle rows[window][columns + 1];  // rows of the figure above, from the left
     for (int r = 0; r < window; ++r)
         for (int c = 0; c <= columns; ++c) rows[r][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
     band = row_band();

@@ -1,8 +1,7 @@
-// Relaxes all springs of an iteration at once, to the bits of the eight passes of spring.comp, where invocations are many:
-// a workgroup holds a tile of particles in shared memory and takes the passes in turn. What its outermost particles lack
-// their neighbours for spreads inwards by one particle a pass, so tiles overlap by 2 * `halo`; one that holds the whole
-// cloth needs none. MASKED: the spring shares come from an image. TENSION: the stretch springs' tension is stored, for
-// the stretch error; it starts from zero. CARRIED: that of all springs is, as by spring_stream.comp.
+// This kernel is a step of all springs, to the bits of the eight passes of spring.comp, for devices that run many
+// invocations: a workgroup holds a tile of particles in shared memory and takes the passes in turn. The outermost
+// particles lack neighbours, so their error spreads inwards by one particle a pass; therefore tiles overlap by 2 *
+// `halo`, and one that holds the whole cloth needs none. MASKED, TENSION and CARRIED are those of spring_stream.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED TENSION|CARRIED
@@ -27,7 +26,7 @@ layout(constant_id = 0) const int directions = 15;  // bit d: there are springs 
 layout(constant_id = 1) const int halo = 0;
 #include "include/tile.h"
 
-// Of every particle of the tile: position and inverse mass; displacement.
+// The tile's particles have their position and inverse mass in one array and their displacement in the other.
 shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
 
@@ -53,7 +52,7 @@ void store_tension(int channel, float tension) {
     if (channel == 3) STORE_TENSION_DOWN_LEFT(own_texel(), tension);
 }
 
-/// One pass: the springs of one direction and parity, each by the invocation of its first particle.
+/// Takes one pass: it relaxes the springs of one direction and parity, each by the invocation of its first particle.
 void relax(ivec2 offset, int channel, int parity) {
     barrier();
     ivec2 first = own_texel(), second = first + offset;

@@ -1,6 +1,6 @@
-// Relaxes the twist of one colour of the cells: one invocation per cell, so no particle is touched twice.
-// MASKED: whether the cell is whole comes from the spring shares (holes, cuts). SECOND_ORDER: the control says whether
-// this substep is BDF2.
+// This plain kernel relaxes the twist of one colour of the cells with an invocation per cell. Cells of one colour share
+// no particle. MASKED sees by the spring shares whether a cell is whole (holes, cuts). SECOND_ORDER asks the control
+// whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SECOND_ORDER BUFFERED

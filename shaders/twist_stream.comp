@@ -1,7 +1,7 @@
-// Relaxes the twist of all cells at once, to the bits of the four passes of twist.comp: each subgroup streams down the
-// rows of a strip of columns, two rows at a time. With rows 2k and 2k + 1 loaded, the cells between those two are
-// relaxed, even columns first, then those between the rows 2k - 1 and 2k, which are done then. MASKED: whether a cell is
-// whole comes from the spring shares. SECOND_ORDER: the control says whether this substep is BDF2.
+// This stream is a step of all twist, to the bits of the four passes of twist.comp. Each subgroup goes down the rows of
+// a strip of columns, two rows at a time. With rows 2k and 2k + 1 loaded, it relaxes the cells between those two, even
+// columns first, then those between the rows 2k - 1 and 2k, which are done then. MASKED and SECOND_ORDER are those of
+// twist.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -46,7 +46,7 @@ float share_of(ivec2 cell) {
 #endif
 }
 
-/// The cell between four particles, the first of which is `corner`. Where the grid has none, nothing moves.
+/// Relaxes the cell between four particles, the first of which is `corner`. Where the grid has no cell, nothing moves.
 void relax(inout Particle upper_left, inout Particle upper_right, inout Particle lower_left, inout Particle lower_right,
            ivec2 corner) {
     bool is_there =
@@ -67,7 +67,7 @@ void relax(inout Particle upper_left, inout Particle upper_right, inout Particle
     lower_right.displacement = is_there ? moved_11 : lower_right.displacement;
 }
 
-/// The cells between two rows.
+/// Relaxes the cells between two rows.
 void relax_between(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
     for (int c = 0; c < columns; c += 2)
         relax(upper[c], upper[c + 1], lower[c], lower[c + 1], ivec2(first_column() + c, y));

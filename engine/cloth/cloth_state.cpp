@@ -60,10 +60,10 @@ std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
 }
 
-/// Through either view, as the schedule says.
+/// Shaders see these fields as images and, where their BUFFERED variants write, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-/// The rows up to the cells.
+/// Returns the rows up to the cells.
 std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -81,7 +81,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
         {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
          particles},
-        // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
+        // The scratch is the device's, not the frame's: an invocation reads what it wrote itself, and nothing in it
+        // outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
         {Field::nested_boxes, "nested boxes", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
@@ -102,7 +103,7 @@ std::vector<FieldRow> motion_rows() {
     };
 }
 
-/// The rows from the tensions on.
+/// Returns the rows from the tensions on.
 std::vector<FieldRow> other_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -121,7 +122,7 @@ std::vector<FieldRow> other_rows() {
          particles},
         {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive, residual_list},
         {Field::iterations, "iterations", buffer, sizes, device, adaptive, iteration_list},
-        // The solver knows them once it has added the passes.
+        // These sizes have no start, since the solver knows them only once it has added the passes.
         {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive, size_list},
         {Field::triangles, "triangles", buffer, integer, constant, drawn,
          [](Context c) { return FieldExtent{draw_list_room(c, c.topology.indices().size())}; },

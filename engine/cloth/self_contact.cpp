@@ -7,8 +7,8 @@ namespace drape {
 
 namespace {
 
-/// m, by how much more than it needs to the search for cells looks. Cells of flat cloth that are no neighbours are a
-/// spacing apart, and shall not be found.
+/// Returns by how much (m) the search for cells looks farther than it needs to. Cells of flat cloth that are no
+/// neighbours are a spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
 double smaller_spacing(const ClothModel& model) { return std::min(model.spacing[0], model.spacing[1]); }
@@ -28,20 +28,20 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     constants.thickness = static_cast<float>(asked.thickness.value_or(
         std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing)));
     constants.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
-    // A corner and the diagonal beside it.
+    // In flat cloth the nearest primitives that share no corner are a cell's corner and the diagonal beside it.
     constants.least_flat =
         static_cast<float>(model.spacing[0] * model.spacing[1] / std::hypot(model.spacing[0], model.spacing[1]));
     return constants;
 }
 
-/// kg, of an inner particle.
+/// Returns the mass of an inner particle, kg.
 double particle_mass(const Cloth& cloth, const ClothModel& model) {
     return cloth.areal_density * model.spacing[0] * model.spacing[1];
 }
 
-/// How soon cloths that started through each other part at parting_speed, m/s^2.
+/// Cloths that started through each other come to part at parting_speed with this acceleration, m/s^2.
 constexpr double parting_acceleration = 40;
-/// More than this many pairs of cloths are not looked after: one invocation goes through all of them.
+/// Only so many pairs of cloths are worked apart, as one invocation goes through all of them; more of them never meet.
 constexpr std::size_t most_crossed = 4096;
 
 bool is_held(const Cloth& cloth) { return !cloth.pins.empty(); }
@@ -63,7 +63,7 @@ glsl::SelfCrossed parted(const SceneDescription& scene, const std::vector<ClothM
 
 int stepped(int length) { return (length + self_sheet_step) / self_sheet_step * self_sheet_step; }
 
-/// Lays the cloths on shelves of a sheet about as wide as high. Returns its columns and rows.
+/// Lays the cloths on shelves of a sheet that is about as wide as high. Returns the sheet's columns and rows.
 glsl::ivec2 lay_out(std::vector<glsl::SelfCloth>& cloths) {
     double area = 0;
     int width = 0;
@@ -106,7 +106,7 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         push.thickness = std::max(push.thickness, constants.thickness);
         largest = {std::max(largest.x, constants.grid.x), std::max(largest.y, constants.grid.y)};
         particles += models[k].grid.particle_count();
-        // What they are pressed against must not seem to move.
+        // There is no common motion then: held particles that others are pressed against must not seem to move.
         if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;
         for (std::size_t other = 0; other < count; ++other)
             meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);

@@ -1,4 +1,4 @@
-// A row of a table of state: what a field is called, what it holds, how large it is, how long it lives, when it is
+// A row of a table of state says what a field is called, what it holds, how large it is, how long it lives, when it is
 // needed and what it starts with. Pure.
 #pragma once
 
@@ -18,36 +18,36 @@
 namespace drape {
 
 enum class FieldLife : std::uint8_t {
-    state,     ///< what the next frame starts from: carried over a cut, and the twin's to the bit
-    frame,     ///< written before it is read in every frame
-    device,    ///< kept on the device, of no meaning to anybody else
-    constant,  ///< the host's, from the start on or since a cut
-    input,     ///< the host's, of every frame
+    state,     ///< the next frame starts from it: it is carried over a cut and equals the twin's to the bit
+    frame,     ///< it is written before it is read in every frame
+    device,    ///< it stays on the device and means nothing to anybody else
+    constant,  ///< the host gives it at the start and after a cut
+    input,     ///< the host gives it for every frame
 };
 
-/// How shaders may see a field.
+/// Shaders may see a field in these ways.
 enum class FieldView : std::uint8_t { image, buffer, texel_buffer, image_and_buffer };
 
 struct FieldExtent {
-    std::uint64_t width, height = 1;  ///< texels; elements of a buffer
+    std::uint64_t width, height = 1;  ///< in texels, or in elements of a buffer
     std::uint64_t count() const { return width * height; }
 };
 
-/// `Name` is the enumeration of the table's fields, `Context` what its functions look at.
+/// `Name` is the enumeration of the table's fields; the functions of a row get a `Context`.
 template <class Name, class Context>
 struct StateRow {
     Name field;
     std::string_view name;  ///< the end of the resource's name
     FieldView view;
-    const glsl::StructLayout& element;  ///< of images vec4 (rgba32f), float (r32f) or uint (r32ui)
+    const glsl::StructLayout& element;  ///< an image's is vec4 (rgba32f), float (r32f) or uint (r32ui)
     FieldLife life;
     bool (*needed)(const Context&);
     FieldExtent (*extent)(const Context&);
-    /// Bytes at the start, or since the last cut, at most as many as the extent holds; null: zeros.
+    /// Returns the bytes at the start or after a cut, at most as many as the extent holds. Null stands for zeros.
     std::vector<std::byte> (*start)(const Context&) = nullptr;
 
     bool is_image() const { return view == FieldView::image || view == FieldView::image_and_buffer; }
-    /// What shaders call it: the name with underscores.
+    /// Returns the name in shaders, which has underscores.
     std::string variable() const {
         std::string text(name);
         std::ranges::replace_if(
@@ -56,7 +56,7 @@ struct StateRow {
     }
 };
 
-/// The fields of a table by what shaders call them.
+/// Returns the fields of a table by their names in shaders.
 template <class Name, class Context>
 std::map<std::string, Name, std::less<>> fields_by_variable(std::span<const StateRow<Name, Context>> rows) {
     std::map<std::string, Name, std::less<>> fields;
@@ -69,7 +69,7 @@ std::optional<Name> found_in(const std::map<std::string, Name, std::less<>>& fie
     return found == fields.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The bytes of a list, as a row's start gives them.
+/// Returns the bytes of a list, for a row's start.
 template <class T>
 std::vector<std::byte> bytes_of_list(const std::vector<T>& values) {
     const auto bytes = std::as_bytes(std::span(values));

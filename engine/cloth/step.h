@@ -1,5 +1,5 @@
-// What a frame is made of: a step is a kind and the constants that its pass gets. The device's solver adds graph passes
-// per step, the C++ twin runs one function per step.
+// A frame is made of steps, each a kind and the constants that its pass gets. The device's solver adds graph passes per
+// step, and the C++ twin runs one function per step.
 #pragma once
 
 #include <cstddef>
@@ -62,8 +62,8 @@ enum class StepKind {
 };
 inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
 
-/// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
-/// set per iteration.
+/// The push structure of a step whose constants are its method's own. `SpringPush::first_iteration` is set per
+/// iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
@@ -75,33 +75,35 @@ struct MethodStep {
     StepConstants constants;
 };
 
-/// `Step::cloth` of a step that is taken for every cloth of the scene, and of one of contact, for all of them at once.
+/// `Step::cloth` has the first value where the step is taken for every cloth of the scene, and the second where it is
+/// one of contact, taken once for all of them.
 inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1), between_cloths = all_cloths - 1;
 
-/// A step of a frame.
 struct Step {
     StepKind kind;
     std::size_t cloth;
     std::uint32_t substep;
     std::uint32_t iteration = 0;
     StepConstants constants{};
-    /// Of the frame's last substep; spring, line: of its last iteration too, after which its tension is the frame's.
+    /// It belongs to the frame's last substep; a spring or line step also to that substep's last iteration, after which
+    /// its tension is the frame's.
     bool last = false;
-    /// Explicit steps: how many substeps it takes at once, from `substep` on.
+    /// An explicit step takes so many substeps at once, from `substep` on.
     std::uint32_t count = 1;
-    /// Runs only when the decision before it was that the tolerance is not met: the device decides.
+    /// It runs only when the decision before it was that the tolerance is not met; the device decides.
     bool conditional = false;
-    /// Contact, a second `box_edges`: goes on from what `box_edges` left.
+    /// A collision, or a second `box_edges`, goes on from what `box_edges` left.
     bool after_edges = false;
-    /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back. Sweeps of springs
-    /// that carry tension: writes it to the spare images, from where the next one brings it back.
+    /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
+    /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it
+    /// back.
     bool turns = false;
-    /// The kernel of its row that does it (cloth/kernel_steps.h).
+    /// The kernel of its row that runs it (cloth/kernel_steps.h).
     Kernel kernel = Kernel::plain;
-    /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
+    /// It is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
 
-    /// Throws std::bad_variant_access when the step has others.
+    /// Returns the step's constants. Throws std::bad_variant_access when they are not a `Push`.
     template <class Push>
     const Push& push() const {
         return std::get<Push>(constants);

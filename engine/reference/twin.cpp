@@ -97,7 +97,7 @@ void Twin::change_step(const SimulationModel& run) {
 }
 
 void (Twin::*Twin::function_of(StepKind kind))(const Place&) {
-    // A step that does several plain ones at once has none.
+    // A joined step has no function: the twin takes plain steps only.
     static constexpr std::pair<StepKind, void (Twin::*)(const Place&)> rows[] = {
         {StepKind::release, &Twin::release},
         {StepKind::wind, &Twin::wind},

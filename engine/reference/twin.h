@@ -1,6 +1,6 @@
-// The C++ twin: every plain simulation pass in plain C++, with the shaders' own functions, in the shaders'
-// order of operations. On a device with IEEE arithmetic (lavapipe) its images equal the device's bit for bit;
-// that the passes are *right* is shown elsewhere, against closed forms in double precision.
+// The C++ twin runs every plain simulation pass in plain C++, with the shaders' own functions, in the shaders' order of
+// operations. On a device with IEEE arithmetic (lavapipe) its images equal the device's bit for bit. That the passes
+// are *right* is shown elsewhere, against closed forms in double precision.
 #pragma once
 
 #include <array>
@@ -14,14 +14,15 @@
 
 namespace drape {
 
-/// The fields of one cloth that the passes compute, row by row, and what cuts made of it. A field that the cloth does
-/// not need, or that holds something else, is empty.
+/// The fields of one cloth that the passes compute, row by row, and its topology after cuts. A field that the cloth
+/// does not need, or that holds something else, is empty.
 struct TwinCloth {
     TwinCloth(const SimulationModel& model, std::size_t cloth);
 
     std::vector<glsl::vec4>& operator[](Field field) { return vectors[static_cast<std::size_t>(field)]; }
     const std::vector<glsl::vec4>& operator[](Field field) const { return vectors[static_cast<std::size_t>(field)]; }
-    /// m, by first particle: what the tension applied in the last substep would stretch a spring by.
+    /// Returns the extension (m) by which the tension applied in the last substep would stretch each spring, by first
+    /// particle.
     std::vector<float>& tension(std::size_t direction) {
         return scalars[static_cast<std::size_t>(tension_of(direction))];
     }
@@ -32,33 +33,32 @@ struct TwinCloth {
     const std::vector<glsl::uint>& integers(Field field) const {
         return integer_fields[static_cast<std::size_t>(field)];
     }
-    /// N; w: drag, N/m.
+    /// Returns the wind's force on a particle (N) and, in w, its drag (N/m).
     glsl::vec4 force_on(std::size_t particle) const;
-    /// Writes displacement + increment, less the share `loss` that drag takes, and what rounding lost of the sum.
+    /// Writes displacement + increment, less the share `loss` that drag takes, and the rounding that the sum lost.
     void step_displacement(std::size_t particle, glsl::vec3 displacement, glsl::vec3 increment, float loss);
-    /// Inverse mass that springs and bending feel.
+    /// Returns the inverse mass that springs and bending feel.
     float dragged_weight_of(std::size_t particle) const;
-    /// A displacement that keeps what the prediction noted beside it.
+    /// Writes a displacement and keeps the mark that the prediction left beside it.
     void move_to(std::size_t particle, glsl::vec3 displacement);
-    /// Whatever the field holds.
     std::span<const std::byte> bytes(Field field) const;
 
     std::array<std::vector<glsl::vec4>, field_count> vectors;
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    glsl::ResidualRecord residual{};    ///< of the last residual step
-    bool iterates = true;               ///< the last decision: conditional steps run
-    std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
+    glsl::ResidualRecord residual{};    ///< result of the last residual step
+    bool iterates = true;               ///< last decision: whether conditional steps run
+    std::uint32_t iteration_count = 0;  ///< iterations of the frame, when adaptive
 };
 
 /// A pair of primitives that may meet.
 struct TwinPair {
-    bool edges;  ///< two, else a particle and a triangle
+    bool edges;  ///< whether it is two edges, else a particle and a triangle
     glsl::uvec4 corners;
 };
 
-/// What the passes of contact hand each other: by place on the sheet of all cloths, as on the device.
+/// The passes of contact hand each other these lists, by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);
 
@@ -68,37 +68,38 @@ struct TwinContact {
     std::vector<glsl::SelfBox> boxes;
     std::vector<TwinPair> pairs;
     std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
-    std::vector<glsl::vec3> led;                 ///< by cloth
+    std::vector<glsl::vec3> led;                 ///< displacement that leads each cloth apart from others, m
     std::vector<glsl::ivec4> corrections;
     std::vector<glsl::vec4> before;
-    std::vector<float> shares;  ///< of their motions that the particles make, after the last round
+    std::vector<float> shares;  ///< shares of their motions that the particles make, after the last round
     glsl::SelfRecord record{};
 };
 
 class Twin {
   public:
-    /// Only the kernels of cyclic reduction have bits of their own; all others are those of the plain ones.
+    /// Takes the kernels of cyclic reduction where `kernels` has them, as they round otherwise, and plain steps else:
+    /// all other kernels give the bits of the plain ones.
     explicit Twin(const SimulationModel& model, const Kernels& kernels = {});
 
-    /// Simulates from frame-1 to `frame`, step by step.
+    /// Simulates from frame - 1 to `frame`, step by step.
     void run_frame(std::uint32_t frame);
-    /// Goes on with other substeps: those of `run`, the same scene's, which must outlive this.
+    /// Goes on with the substeps of `run`, a model of the same scene, which must outlive this.
     void change_step(const SimulationModel& run);
-    /// One step, of one cloth or all of them.
+    /// Takes one step, of one cloth or of all of them.
     void run_step(const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);
-    /// explicit: the tension at a frame's end, for the statistics.
+    /// Computes the tension at a frame's end, for the statistics of an explicit method.
     void tension(std::size_t cloth);
 
     const TwinCloth& cloth(std::size_t index) const { return cloths_[index]; }
     TwinCloth& cloth(std::size_t index) { return cloths_[index]; }
-    /// Of a scene that has contact between cloths.
+    /// The scene must have contact between cloths.
     const TwinContact& contact() const { return *contact_; }
-    /// What cuts made of a cloth; cutting it acts from the next step on.
+    /// A cut of this topology acts from the next step on.
     CutTopology& topology(std::size_t index) { return cloths_[index].topology; }
 
   private:
-    /// A step of one cloth: what the functions of the steps get.
+    /// A step of one cloth, as the functions of the steps get it.
     struct Place {
         const ClothModel& model;
         TwinCloth& state;
@@ -106,7 +107,8 @@ class Twin {
         const FrameInputs& inputs;
         const std::vector<glsl::PinMotion>& motions;
     };
-    /// By StepKind, but for contact's steps of all cloths at once.
+    /// Returns the function of a kind of step. Throws std::logic_error for a kind that has none; contact's steps of all
+    /// cloths at once have theirs in run_contact.
     static void (Twin::*function_of(StepKind kind))(const Place&);
     void release(const Place& at);
     void wind(const Place& at);
@@ -128,7 +130,7 @@ class Twin {
     void advance(const Place& at);
     void self_gather(const Place& at);
     void self_return(const Place& at);
-    /// A step of all cloths at once.
+    /// Takes a step of contact, of all cloths at once.
     void run_contact(const Step& step);
 
     const SimulationModel* model_;

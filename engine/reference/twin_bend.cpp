@@ -1,4 +1,4 @@
-// Relaxation of bending in the twin.
+// The twin relaxes bending and twist.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"

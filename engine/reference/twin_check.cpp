@@ -1,4 +1,4 @@
-// The twin of what decides whether another iteration follows: the same records in the same order.
+// The twin decides whether another iteration follows, from the same records in the same order as the device.
 #include <array>
 
 #include "cloth/texels.h"

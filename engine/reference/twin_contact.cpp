@@ -1,4 +1,4 @@
-// The twin's passes of contact with colliders.
+// These passes of the twin are contact with colliders.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -12,11 +12,11 @@ using namespace glsl;
 
 namespace {
 
-/// What the triangles around a particle ask of it, and how it then moves.
+/// Finds the displacement by which the triangles around a particle ask it to leave a box.
 struct BoxEdges {
     const ClothModel& model;
     const TwinCloth& state;
-    Field from;  ///< where they are
+    Field from;  ///< field of the displacements to start from
     CollisionPush push;
 
     std::size_t place(ivec2 texel) const {

@@ -1,4 +1,4 @@
-// The explicit micro-step of the twin.
+// The twin takes explicit steps.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"
@@ -11,7 +11,7 @@ namespace {
 
 bool inside(ivec2 p, ivec2 grid) { return p.x >= 0 && p.y >= 0 && p.x < grid.x && p.y < grid.y; }
 
-/// The images that a micro-step reads.
+/// An explicit step reads the fields through this, as they are before it.
 struct Before {
     const TwinCloth& state;
     const ExplicitPush& push;

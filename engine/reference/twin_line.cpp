@@ -1,4 +1,4 @@
-// The twin's line solver: control, prediction in second order, tridiagonal solves.
+// The twin's line solver consists of the control, the prediction in second order and tridiagonal solves.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -57,15 +57,15 @@ void Twin::predict(const Place& where) {
 
 namespace {
 
-/// One line as the shader sees it.
+/// A line as the shader sees it.
 struct LineView {
     const ClothModel& model;
     const LinePush& push;
     const TwinCloth& state;
     std::vector<ivec2> particles;
-    std::vector<vec3> moved;       ///< displacements as the first system leaves them
-    std::vector<vec3> delta;       ///< what it changed
-    std::vector<float> tension{};  ///< likewise, by spring: extensions by the compliance in use
+    std::vector<vec3> moved;       ///< displacements as the first system leaves them, m
+    std::vector<vec3> delta;       ///< changes that the first system made, m
+    std::vector<float> tension{};  ///< by spring, as the first system leaves it: extension by the compliance in use, m
 
     LineView(const ClothModel& cloth, const LinePush& pass, const TwinCloth& images, int line)
         : model(cloth), push(pass), state(images), particles{line_start(line, pass.step)} {
@@ -91,7 +91,7 @@ struct LineView {
     }
 };
 
-/// The first system of a line: changes of its particles' displacements.
+/// Solves the first system of a line. Returns the changes of its particles' displacements, m.
 std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<vec4> eliminated;
     EliminatedParticle previous = unmoved_start();
@@ -112,7 +112,7 @@ std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>&
     return delta;
 }
 
-/// The first system by cyclic reduction.
+/// Solves the first system by cyclic reduction.
 std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<CyclicRow> rows;
     vec3 edge_before{0, 0, 0};
@@ -128,7 +128,7 @@ std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>&
     return reduced(rows);
 }
 
-/// The same of a line that bends.
+/// Solves the first system of a line that bends.
 std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
     std::vector<BentParticle> eliminated;
     BentLine bent = unbent_line();
@@ -168,7 +168,7 @@ void filter(LineView& line, float compliance, float followed, bool by_reduction,
         line.tension.push_back(filtered_tension(per_length[e], line.spring(e)));
 }
 
-/// The second system: changes of the multipliers; `largest` hears of the worst spring.
+/// Solves the second system. Returns the changes of the multipliers and raises `largest` to the worst spring's |C - T|.
 std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
                          float& largest) {
     std::vector<vec2> eliminated(springs.size());
@@ -189,7 +189,7 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     return change;
 }
 
-/// The same by cyclic reduction.
+/// Solves the second system by cyclic reduction.
 std::vector<float> reduced_changes(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
                                    float& largest) {
     const vec3 none{0, 0, 0};

@@ -1,4 +1,4 @@
-// The twin's nested boxes around lone pins.
+// The twin relaxes nested boxes around lone pins.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/reduced_system.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr vec3 none{0, 0, 0};
 
-/// One line of a box, in one direction, as the shader sees it.
+/// A line of a box, in one direction, as the shader sees it.
 struct NestedLine {
     const ClothModel& model;
     TwinCloth& state;
@@ -20,7 +20,7 @@ struct NestedLine {
     int direction, seam;
     float compliance, followed;
     ivec2 step;
-    std::vector<ivec2> particles;  // in the sheet
+    std::vector<ivec2> particles;  // columns and rows in the cloth
 
     std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
     float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
@@ -37,7 +37,7 @@ struct NestedLine {
     }
     float& stored(std::size_t e) const { return state.tension(static_cast<std::size_t>(direction))[index(e)]; }
 
-    /// The changes of its springs' multipliers.
+    /// Returns the changes of its springs' multipliers.
     std::vector<float> changes(const std::vector<LineSpring>& springs) const {
         const std::size_t count = springs.size();
         std::vector<vec2> eliminated(count);

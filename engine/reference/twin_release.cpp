@@ -1,4 +1,4 @@
-// The twin's released pins.
+// The twin releases pins.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -11,7 +11,7 @@ using namespace glsl;
 
 namespace {
 
-/// What the tension of a particle's springs would move an inner particle by in a substep, m.
+/// Returns the displacement by which the tension of a particle's springs would move an inner particle in a substep, m.
 vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here, bool advance) {
     const auto start = [&](ivec2 p) { return xyz(state[Field::position][at(model.grid, p)]); };
     const auto moved = [&](ivec2 p) { return xyz(state[Field::displacement][at(model.grid, p)]); };

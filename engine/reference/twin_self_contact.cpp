@@ -1,5 +1,5 @@
-// The twin of contact between cloths. Pairs are found by trying all boxes against all others: what the device's tree
-// may not miss.
+// The twin of contact between cloths finds pairs by trying all boxes against all others, so it shows any pair that the
+// device's tree misses.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 
 float corner_side(bool edges, int k) { return k == 0 || (edges && k == 1) ? 1.0f : -1.0f; }
 
-/// What the passes over the sheet do in one step.
+/// A step of contact: each function is a pass over the sheet.
 class ContactStep {
   public:
     ContactStep(TwinContact& contact, const SelfContactPush& push)
@@ -162,7 +162,7 @@ void ContactStep::boxes() {
         }
 }
 
-/// What is not there is not looked at.
+/// Returns a cell with zeros for corners beyond the cloth: no triangle or edge that exists has them.
 SelfCell ContactStep::cell(std::size_t place) const {
     const ivec2 own = texel_of(place);
     const SelfCloth& cloth = cloth_at(place);
@@ -202,7 +202,8 @@ void ContactStep::apart() {
     }
 }
 
-/// Whether what a cell and its neighbours to the right and below own is apart because the cloth is flat there.
+/// Returns whether primitives of a cell and of its neighbours to the right and below are kept apart because the cloth
+/// is flat there.
 bool ContactStep::lies_flat(ivec2 cell) const {
     const SelfCloth& cloth = cloth_at(place(cell));
     if (!inside(cloth, {cell.x + 2, cell.y + 2})) return false;
@@ -241,7 +242,7 @@ vec3 ContactStep::cell_normal(ivec2 own) const {
     return self_cell_normal(true, at(0, 0), at(1, 0), at(0, 1), at(1, 1));
 }
 
-/// The pairs of what two particles own.
+/// Adds the pairs of primitives that two particles own.
 void ContactStep::add_between(ivec2 a, ivec2 b) {
     const vec3 axis = cell_normal(a);
     add_triangles(a, b, axis);
@@ -353,7 +354,7 @@ void ContactStep::limit() {
 void ContactStep::move() {
     SelfRecord& record = contact_.record;
     record.most_pairs = std::max(record.most_pairs, record.point_count + record.edge_count);
-    // The device also counts what a search and boxes found.
+    // The device also counts the entries that a search and boxes found, in the same maxima.
     record.most_cells = std::max(record.most_cells, record.cell_count);
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (!owned(i)) continue;
