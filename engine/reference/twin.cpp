@@ -1,8 +1,7 @@
 #include "reference/twin.h"
 
 #include <cstring>
-#include <stdexcept>
-#include <utility>
+#include <map>
 
 #include "cloth/kernel_steps.h"
 #include "cloth/step_change.h"
@@ -96,47 +95,10 @@ void Twin::change_step(const SimulationModel& run) {
     }
 }
 
-void (Twin::*Twin::function_of(StepKind kind))(const Place&) {
-    // A joined step has no function: the twin takes plain steps only.
-    static constexpr std::pair<StepKind, void (Twin::*)(const Place&)> rows[] = {
-        {StepKind::release, &Twin::release},
-        {StepKind::wind, &Twin::wind},
-        {StepKind::control, &Twin::control},
-        {StepKind::predict, &Twin::predict},
-        {StepKind::force, &Twin::force},
-        {StepKind::explicit_step, &Twin::explicit_step},
-        {StepKind::pin, &Twin::pin},
-        {StepKind::bend, &Twin::bend},
-        {StepKind::twist, &Twin::twist},
-        {StepKind::spring, &Twin::spring},
-        {StepKind::line, &Twin::line},
-        {StepKind::nested, &Twin::nested},
-        {StepKind::tether, &Twin::tether},
-        {StepKind::box_edges, &Twin::box_edges},
-        {StepKind::collide, &Twin::collide},
-        {StepKind::residual, &Twin::residual},
-        {StepKind::decide, &Twin::decide},
-        {StepKind::advance, &Twin::advance},
-        {StepKind::self_gather, &Twin::self_gather},
-        {StepKind::self_gather_again, &Twin::self_gather},
-        {StepKind::self_return, &Twin::self_return},
-    };
-    for (const auto& [row, function] : rows)
-        if (row == kind) return function;
-    throw std::logic_error("the twin has no function for a step");
-}
+namespace {
 
-void Twin::run_step(const Step& step, const FrameInputs& inputs) {
-    if (step.cloth == between_cloths) return run_contact(step);
-    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
-        if (step.cloth != all_cloths && step.cloth != cloth) continue;
-        if (step.conditional && !cloths_[cloth].iterates) continue;
-        (this->*function_of(step.kind))({model_->cloths[cloth], cloths_[cloth], step, inputs, inputs.pins[cloth]});
-    }
-}
-
-void Twin::wind(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_wind(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const vec3 velocity = xyz(inputs.wind[step.substep]);
     const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
@@ -163,8 +125,8 @@ void Twin::wind(const Place& where) {
         }
 }
 
-void Twin::force(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_force(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<ForcePush>();
     const bool advance = step.substep > 0;
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
@@ -186,8 +148,8 @@ void Twin::force(const Place& where) {
     }
 }
 
-void Twin::pin(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_pin(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::size_t first = step.substep * model.dynamic_pins.size();
     for (const PinnedParticle& pin : model.pinned) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
@@ -197,8 +159,8 @@ void Twin::pin(const Place& where) {
     }
 }
 
-void Twin::spring(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_spring(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SpringPush>();
     std::vector<float>& tensions = state.tension(static_cast<std::size_t>(push.channel));
     const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
@@ -223,8 +185,8 @@ void Twin::spring(const Place& where) {
         }
 }
 
-void Twin::tether(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_tether(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<ParticleTethers>& tethers = state.topology.tethers();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
@@ -243,8 +205,8 @@ void Twin::tether(const Place& where) {
     }
 }
 
-void Twin::advance(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_advance(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<vec4>& before =
         state[model.plan.spare_state ? Field::displacement_spare : Field::displacement_before];
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
@@ -256,6 +218,38 @@ void Twin::advance(const Place& where) {
                             xyz(state[Field::position_remainder][i]));
         state[Field::position][i] = texel(advanced.value, state[Field::position][i].w);
         state[Field::position_remainder][i] = texel(advanced.remainder);
+    }
+}
+
+std::vector<TwinRow> common_rows() {
+    return {{StepKind::wind, run_wind},     {StepKind::force, run_force},   {StepKind::pin, run_pin},
+            {StepKind::spring, run_spring}, {StepKind::tether, run_tether}, {StepKind::advance, run_advance}};
+}
+
+using StepFunction = void (*)(const TwinPlace&);
+/// Returns the function of a step by its kind. Throws std::out_of_range for a step that does several plain ones at
+/// once.
+StepFunction function_of(StepKind kind) {
+    static const std::map<StepKind, StepFunction> functions = [] {
+        std::map<StepKind, StepFunction> all;
+        for (const auto& rows :
+             {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(),
+              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows()})
+            for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
+        return all;
+    }();
+    return functions.at(kind);
+}
+
+}  // namespace
+
+void Twin::run_step(const Step& step, const FrameInputs& inputs) {
+    if (step.cloth == between_cloths) return run_contact(step);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        if (step.cloth != all_cloths && step.cloth != cloth) continue;
+        if (step.conditional && !cloths_[cloth].iterates) continue;
+        function_of(step.kind)({*model_, model_->cloths[cloth], cloths_[cloth], step, inputs, inputs.pins[cloth],
+                                contact_ ? &*contact_ : nullptr});
     }
 }
 

@@ -75,6 +75,25 @@ struct TwinContact {
     glsl::SelfRecord record{};
 };
 
+/// A step of one cloth, as its function in the twin gets it.
+struct TwinPlace {
+    const SimulationModel& scene;
+    const ClothModel& model;
+    TwinCloth& state;
+    const Step& step;
+    const FrameInputs& inputs;
+    const std::vector<glsl::PinMotion>& motions;
+    TwinContact* contact;  ///< null where no cloths meet
+};
+
+/// A kind of step and its function. Every file of such functions gives their rows.
+struct TwinRow {
+    StepKind kind;
+    void (*run)(const TwinPlace&);
+};
+std::vector<TwinRow> twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(), twin_bend_rows(),
+    twin_contact_rows(), twin_check_rows(), twin_sheet_rows();
+
 class Twin {
   public:
     /// Takes the kernels of cyclic reduction where `kernels` has them, as they round otherwise, and plain steps else:
@@ -99,37 +118,6 @@ class Twin {
     CutTopology& topology(std::size_t index) { return cloths_[index].topology; }
 
   private:
-    /// A step of one cloth, as the functions of the steps get it.
-    struct Place {
-        const ClothModel& model;
-        TwinCloth& state;
-        const Step& step;
-        const FrameInputs& inputs;
-        const std::vector<glsl::PinMotion>& motions;
-    };
-    /// Returns the function of a kind of step. Throws std::logic_error for a kind that has none; contact's steps of all
-    /// cloths at once have theirs in run_contact.
-    static void (Twin::*function_of(StepKind kind))(const Place&);
-    void release(const Place& at);
-    void wind(const Place& at);
-    void control(const Place& at);
-    void predict(const Place& at);
-    void force(const Place& at);
-    void explicit_step(const Place& at);
-    void pin(const Place& at);
-    void bend(const Place& at);
-    void twist(const Place& at);
-    void spring(const Place& at);
-    void line(const Place& at);
-    void nested(const Place& at);
-    void tether(const Place& at);
-    void box_edges(const Place& at);
-    void collide(const Place& at);
-    void residual(const Place& at);
-    void decide(const Place& at);
-    void advance(const Place& at);
-    void self_gather(const Place& at);
-    void self_return(const Place& at);
     /// Takes a step of contact, of all cloths at once.
     void run_contact(const Step& step);
 

@@ -7,8 +7,10 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::bend(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+namespace {
+
+void run_bend(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<BendPush>();
     const CutTopology& topology = state.topology;
     const auto share = [&](ivec2 owner) {
@@ -38,8 +40,8 @@ void Twin::bend(const Place& where) {
         }
 }
 
-void Twin::twist(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_twist(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<TwistPush>();
     const CutTopology& topology = state.topology;
     const std::vector<vec4>& shares = topology.spring_shares();
@@ -70,5 +72,9 @@ void Twin::twist(const Place& where) {
             state.move_to(i[3], moved_by(moved[3], correction, weight[3]));
         }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_bend_rows() { return {{StepKind::bend, run_bend}, {StepKind::twist, run_twist}}; }
 
 }  // namespace drape

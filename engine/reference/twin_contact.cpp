@@ -43,13 +43,11 @@ struct BoxEdges {
     }
 };
 
-}  // namespace
-
-void Twin::box_edges(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_box_edges(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const BoxEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement, model.box_edges()};
-    const std::vector<drape::Collider>& colliders = model_->scene.colliders;
-    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
+    const std::vector<drape::Collider>& colliders = scene.scene.colliders;
+    const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (int y = 0; y < edges.push.grid.y; ++y)
         for (int x = 0; x < edges.push.grid.x; ++x) {
             const std::size_t i = edges.place({x, y});
@@ -69,10 +67,10 @@ void Twin::box_edges(const Place& where) {
         }
 }
 
-void Twin::collide(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_collide(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
-    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
+    const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
@@ -82,12 +80,12 @@ void Twin::collide(const Place& where) {
             displacement = xyz(state[Field::lifted][i]);
             touched = state[Field::lifted][i].w > 0.0f;
         }
-        for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
+        for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
-            for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
+            for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
-                    collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k], start,
-                                     displacement, push.contact.x, push.contact.y, push.contact.w);
+                    collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
+                                     push.contact.x, push.contact.y, push.contact.w);
                 displacement = contact.displacement;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }
@@ -101,6 +99,12 @@ void Twin::collide(const Place& where) {
         }
         state.move_to(i, displacement);
     }
+}
+
+}  // namespace
+
+std::vector<TwinRow> twin_contact_rows() {
+    return {{StepKind::box_edges, run_box_edges}, {StepKind::collide, run_collide}};
 }
 
 }  // namespace drape

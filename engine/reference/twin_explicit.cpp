@@ -80,10 +80,8 @@ struct Before {
     }
 };
 
-}  // namespace
-
-void Twin::explicit_step(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_explicit_step(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<ExplicitPush>();
     const bool advance = step.substep > 0;
     const Before before{state, push, advance};
@@ -119,6 +117,10 @@ void Twin::explicit_step(const Place& where) {
     std::swap(state[Field::position], state[Field::position_spare]);
     std::swap(state[Field::displacement], state[Field::displacement_spare]);
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_explicit_rows() { return {{StepKind::explicit_step, run_explicit_step}}; }
 
 void Twin::tension(std::size_t index) {
     const TensionPush& push = model_->cloths[index].plan.gathered_tension.value();

@@ -10,16 +10,18 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::control(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+namespace {
+
+void run_control(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     auto& texels = state.integers(Field::line_control);
     const LineControl next = next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]},
                                           step.push<LineControlPush>().most_wrong);
     texels = {next.order, next.wrong_lines, next.hold};
 }
 
-void Twin::predict(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_predict(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
@@ -208,8 +210,8 @@ std::vector<float> reduced_changes(const LineView& line, const std::vector<LineS
 
 }  // namespace
 
-void Twin::line(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_line(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<LinePush>();
     const bool by_reduction = step.kernel == Kernel::line_cyclic;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
@@ -243,6 +245,12 @@ void Twin::line(const Place& where) {
                 changed_tension(line.tension[p], change[p], share, shared_compliance(compliance, share)), followed);
         }
     }
+}
+
+}  // namespace
+
+std::vector<TwinRow> twin_line_rows() {
+    return {{StepKind::control, run_control}, {StepKind::predict, run_predict}, {StepKind::line, run_line}};
 }
 
 }  // namespace drape

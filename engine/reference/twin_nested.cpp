@@ -108,10 +108,8 @@ void solve_direction(const ClothModel& model, TwinCloth& state, const NestedPush
     }
 }
 
-}  // namespace
-
-void Twin::nested(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_nested(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<NestedPush>();
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const std::vector<ivec4>& table = model.plan.nested_table;
@@ -126,5 +124,9 @@ void Twin::nested(const Place& where) {
                                     nested_direction(order), is_bdf2, step.kernel == Kernel::nested_cyclic);
     }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_nested_rows() { return {{StepKind::nested, run_nested}}; }
 
 }  // namespace drape

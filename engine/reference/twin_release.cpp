@@ -32,10 +32,8 @@ vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here
     return sum;
 }
 
-}  // namespace
-
-void Twin::release(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_release(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::size_t first = step.substep * model.dynamic_pins.size();
     const std::vector<vec4> position = state[Field::position];
     for (const PinnedParticle& pin : model.pinned) {
@@ -48,9 +46,9 @@ void Twin::release(const Place& where) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_release);
         }
-        const vec3 none{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
+        const vec3 nothing{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
         const vec3 pull =
-            model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : none;
+            model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : nothing;
         const float surplus = release_surplus(motion);
         const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);
@@ -58,5 +56,9 @@ void Twin::release(const Place& where) {
             texel(release_remainder(velocity_step, pin.rest.w, surplus, pull, model.reach()));
     }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_release_rows() { return {{StepKind::release, run_release}}; }
 
 }  // namespace drape

@@ -380,34 +380,25 @@ std::size_t place_of(const SelfClothPush& push, std::size_t particle) {
            static_cast<std::size_t>(push.first.x) + column;
 }
 
-}  // namespace
-
-TwinContact::TwinContact(const SelfContact& contact)
-    : model(&contact),
-      owners(contact.owners()),
-      positions(owners.size()),
-      displacements(owners.size()),
-      before(owners.size()) {}
-
-void Twin::self_gather(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_self_gather(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
         const std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
         const std::size_t place = place_of(push, i);
-        contact_->positions[place] = state[Field::position][i];
-        contact_->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
+        meeting->positions[place] = state[Field::position][i];
+        meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
     }
 }
 
-void Twin::self_return(const Place& where) {
-    const auto& [model, state, step, inputs, motions] = where;
+void run_self_return(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const std::size_t place = place_of(push, i);
-        if (std::exchange(contact_->before[place].w, 0.0f) == 0.0f) continue;
-        const vec3 displacement = xyz(contact_->displacements[place]);
+        if (std::exchange(meeting->before[place].w, 0.0f) == 0.0f) continue;
+        const vec3 displacement = xyz(meeting->displacements[place]);
         state.move_to(i, displacement);
         if (!model.plan.second_order) continue;
         state[Field::displacement_before][i] = texel(displacement);
@@ -415,6 +406,21 @@ void Twin::self_return(const Place& where) {
         hold = std::max(hold, line_hold_contact);
     }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_sheet_rows() {
+    return {{StepKind::self_gather, run_self_gather},
+            {StepKind::self_gather_again, run_self_gather},
+            {StepKind::self_return, run_self_return}};
+}
+
+TwinContact::TwinContact(const SelfContact& contact)
+    : model(&contact),
+      owners(contact.owners()),
+      positions(owners.size()),
+      displacements(owners.size()),
+      before(owners.size()) {}
 
 void Twin::run_contact(const Step& step) {
     // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent and
