@@ -1,4 +1,4 @@
-// The table that embed.cmake writes: every committed module by name.
+// Every committed module by name.
 #pragma once
 
 #include <cstdint>
