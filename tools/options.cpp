@@ -208,7 +208,8 @@ void add_format_option(CLI::App& command, const std::string& help, std::vector<s
 void add_device_option(CLI::App& command, std::string& device) {
     add_option(
         command, "--device", "DEVICE",
-        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: a GPU when there is one",
+        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: what the environment "
+        "variable DRAPE_DEVICE says, else a GPU when there is one",
         device);
 }
 

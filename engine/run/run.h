@@ -32,7 +32,7 @@ struct SceneRequest {
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
     PictureView view;
-    std::string device;     ///< selector; empty: the best there is
+    std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
     Schedule schedule = Schedule::automatic;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "cloth/self_contact.h"
@@ -33,12 +32,7 @@ using fuzz::require;
 /// With core and synchronization validation.
 struct Gpu {
     vulkan::Instance instance{vulkan::InstanceOptions{.validation = true, .print_messages = false}};
-    vulkan::Device device{instance, selector()};
-
-    static std::string selector() {
-        const char* name = std::getenv("DRAPE_TEST_DEVICE");
-        return name ? name : "";
-    }
+    vulkan::Device device{instance, "cpu"};
 };
 
 Gpu& gpu() {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -24,11 +23,6 @@ namespace drape::test {
 namespace {
 
 std::unique_ptr<Gpu> the_gpu;
-
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-}
 
 void fail_on_messages(vulkan::ValidationLog& log, std::string_view when) {
     if (log.count() == 0) return;
@@ -57,7 +51,7 @@ class ValidationListener : public testing::EmptyTestEventListener {
 Gpu::Gpu()
     : instance_(
           std::make_unique<vulkan::Instance>(vulkan::InstanceOptions{.validation = true, .print_messages = false})),
-      device_(std::make_unique<vulkan::Device>(*instance_, environment("DRAPE_TEST_DEVICE"))),
+      device_(std::make_unique<vulkan::Device>(*instance_, "")),
       instance(*instance_),
       device(*device_) {}
 

@@ -31,7 +31,7 @@ class Gpu {
     const vulkan::Device& device;
 };
 
-/// Made at the first call. The environment variable DRAPE_TEST_DEVICE selects the device as --device does.
+/// Made at the first call, on the device that main() chose.
 /// Without a device, a driver or the validation layer it throws, so the test fails: a machine that cannot
 /// run these tests must not look green. From then on every test of the process fails when the layer reports
 /// something during it, and the process fails when device objects are left at its end.

@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 
 #include "drape/simulation.h"
 
 namespace drape::test {
 
-/// Validated. The environment variable DRAPE_TEST_DEVICE selects it as --device does.
+/// Validated; the one that main() chose.
 inline const Device& library_device() {
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    static const Device opened(selector ? selector : "", Validation::count);
+    static const Device opened("", Validation::count);
     return opened;
 }
 

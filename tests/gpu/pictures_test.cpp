@@ -23,8 +23,7 @@ Device device_beside(const SceneDescription& scene) {
     const char* set = std::getenv(variable);
     const std::optional<std::string> before = set ? std::optional<std::string>(set) : std::nullopt;
     unsetenv(variable);
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    const Device device = Device::for_scene(scene, true, selector ? selector : "", Validation::count);
+    const Device device = Device::for_scene(scene, true, {}, Validation::count);
     EXPECT_EQ(std::getenv(variable), nullptr);
     if (before) setenv(variable, before->c_str(), 1);
     return device;

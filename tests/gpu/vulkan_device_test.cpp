@@ -113,6 +113,18 @@ TEST(VulkanDevice, can_be_named_by_index_uuid_and_name) {
     }
 }
 
+TEST(VulkanDevice, is_what_the_environment_says_where_no_selector_is_given) {
+    const DeviceInfo wanted = gpu().device.info();
+    {
+        const Environment index("DRAPE_DEVICE", std::to_string(wanted.index).c_str());
+        EXPECT_EQ(vulkan::Device(gpu().instance, "").info().index, wanted.index);
+    }
+    const Environment nonsense("DRAPE_DEVICE", "no such device");
+    EXPECT_EQ(vulkan::Device(gpu().instance, wanted.uuid_text()).info().index, wanted.index);
+    EXPECT_THAT(error_of([] { vulkan::Device(gpu().instance, ""); }),
+                AllOf(HasSubstr("DRAPE_DEVICE: no device matches \"no such device\""), HasSubstr(wanted.name)));
+}
+
 TEST(VulkanDevice, an_unknown_selector_lists_the_devices) {
     const std::string error = error_of([] { vulkan::Device(gpu().instance, "no such device"); });
     EXPECT_THAT(error, HasSubstr("no device matches \"no such device\""));

@@ -303,10 +303,10 @@ void define_simulation(py::module_& module) {
              py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
              py::arg("size") = py::none(), py::arg("normals") = false, py::arg("validate") = false,
              py::arg("keep_failed") = false,
-             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is the best there "
-             "is. draw: pictures, of size (width, height), showing view (shaded, stretch, warp, weft, wire, normals; "
-             "view_range: strain at the end of the colours). normals: normals() are wanted. validate: Vulkan's "
-             "validation layer, messages on stderr. "
+             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is what the "
+             "environment variable DRAPE_DEVICE says, else the best there is. draw: pictures, of size (width, height), "
+             "showing view (shaded, stretch, warp, weft, wire, normals; view_range: strain at the end of the colours). "
+             "normals: normals() are wanted. validate: Vulkan's validation layer, messages on stderr. "
              "keep_failed: go on after a frame that is no result.")
         .def("step", &PySimulation::step,
              "Computes the next frame, the first time frame 0, the start; False after the last. Other Python threads "

@@ -29,8 +29,8 @@ struct SceneDescription;
 /// An opened device; copies share it.
 class Device {
   public:
-    /// `selector`: empty (the best there is), INDEX, UUID, a unique part of the NAME, or "cpu". Throws DeviceError that
-    /// lists the devices.
+    /// `selector`: INDEX, UUID, a unique part of the NAME, or "cpu"; empty: that of the environment variable
+    /// DRAPE_DEVICE, without it the best there is. Throws DeviceError that lists the devices.
     explicit Device(const std::string& selector = {}, Validation validation = Validation::off);
 
     /// The device as it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread. On a CPU
