@@ -13,7 +13,7 @@ constexpr bool needs_lavapipe = false;
 /// Lavapipe, whatever else is there, unless the environment variable DRAPE_TEST_DEVICE selects another as --device does.
 int main(int argc, char** argv) {
     const char* asked = std::getenv("DRAPE_TEST_DEVICE");
-    if (needs_lavapipe && asked) std::cout << "compares bits with the twin: on lavapipe, not on " << asked << "\n";
+    if (needs_lavapipe && asked) std::cerr << "compares bits with the twin: on lavapipe, not on " << asked << "\n";
     setenv("DRAPE_DEVICE", asked && !needs_lavapipe ? asked : "cpu", 1);
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
