@@ -36,7 +36,7 @@ struct ClothModel : ClothGeometry {
     MethodPlan plan;
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
-    glsl::ResidualPush residual;    ///< checks between iterations
+    glsl::ResidualPush residual;    ///< constants of the check between iterations
     /// Returns `collision` with the reach of edges for the thickness.
     glsl::CollisionPush box_edges() const;
 

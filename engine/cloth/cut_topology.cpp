@@ -74,7 +74,7 @@ bool CutTopology::cut_spring(std::size_t particle, std::size_t direction, float 
 
 bool CutTopology::diagonal_holds(std::size_t cell) const {
     const Triangle upper = triangle(cell, upper_triangle), lower = triangle(cell, lower_triangle);
-    Corners corners;  // a b c d = 0 1 2 3
+    Corners corners;  // a b c d are 0 1 2 3
     if (cloth_->grid.cells()[cell] & upper_triangle) {
         if (upper.cut[0] < 0) corners.join(0, 1);
         if (upper.cut[1] < 0) corners.join(1, 2);

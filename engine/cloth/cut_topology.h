@@ -21,7 +21,7 @@ struct CutFindings {
 struct CutCounts {
     std::uint32_t springs = 0;    ///< cut now
     std::uint32_t triangles = 0;  ///< split now: gone from the whole ones
-    std::uint32_t crumbs = 0;     ///< now there are so many
+    std::uint32_t crumbs = 0;     ///< crumbs that there are now
     bool any() const { return springs > 0; }
 };
 

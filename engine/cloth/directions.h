@@ -29,7 +29,7 @@ inline constexpr std::array<SpringDirection, 4> spring_directions{{
     {"shear down-left", {-1, 1}, 1, SpringFamily::shear},
 }};
 
-/// There is a number per row.
+/// It holds a number per row.
 template <class T>
 using PerDirection = std::array<T, spring_directions.size()>;
 

@@ -17,7 +17,7 @@ namespace {
 
 /// So many instants of a frame are looked at.
 constexpr int parts = 4;
-/// It is over that of the last probe. Fewer substeps are taken where their errors stay below 0.6 of the limits.
+/// A drive is much over that of the last probe here: fewer substeps are taken where errors stay below 0.6 of limits.
 constexpr double considerable = 1.7;
 
 /// Returns m/s^2 of the points at `reach` along the axes from a centre that moves by `at`(time) -> (rotation, centre).

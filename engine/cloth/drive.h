@@ -23,7 +23,7 @@ class Drive {
     /// Notes that so many frames from `frame` on are probed.
     void probed(std::uint32_t frame, std::uint32_t count);
 
-    /// Does what SubstepControl's does.
+    /// Writes or reads what changes, like SubstepControl's.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(probed_);

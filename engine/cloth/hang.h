@@ -7,8 +7,8 @@ namespace drape {
 /// The laws of the methods' stretch errors depend on how a cloth hangs.
 struct Hang {
     double length;        ///< m below the pins
-    double spacing;       ///< m, of the finer links
-    double gravity;       ///< m, the finer links'
+    double spacing;       ///< m, the finer links'
+    double gravity;       ///< m/s^2
     double acceleration;  ///< m/s^2, gravity and the wind's share
     bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
     double edge_spacing;  ///< m, that of the links that lead away from that edge

@@ -16,7 +16,7 @@ namespace {
 
 using glsl::ivec2;
 
-/// A block is swept over: the box of particles within `radius` columns and rows of a pin.
+/// The sweeps of a block go over the box of particles within `radius` columns and rows of a pin.
 struct NestedBlock {
     ivec2 radius;
     int sweeps;

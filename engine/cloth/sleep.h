@@ -27,7 +27,7 @@ class Sleep {
     /// apart, and the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
     bool asleep(std::uint32_t frame);
 
-    /// Does what SubstepControl's does.
+    /// Writes or reads what changes, like SubstepControl's.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(speeds_);

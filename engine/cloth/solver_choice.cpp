@@ -64,7 +64,7 @@ double swing_substep(const SceneDescription& scene, const Cloth& cloth) {
 /// with the square of the substeps, so one look tells.
 std::uint32_t following_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
                                  std::uint32_t substeps) {
-    Cloth small = cloth;  // it does not depend on how large the cloth is
+    Cloth small = cloth;  // the answer does not depend on the cloth's size
     for (std::size_t axis = 0; axis < 2; ++axis) {
         small.grid[axis] = std::min(cloth.grid[axis], 4u);
         small.size[axis] = cloth.size[axis] * (small.grid[axis] - 1) / (cloth.grid[axis] - 1);

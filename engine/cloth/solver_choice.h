@@ -23,7 +23,7 @@ enum class DeviceKind { cpu, gpu };
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
-    std::uint32_t least_substeps;  ///< so many follow bending (MethodPlan::following_substeps)
+    std::uint32_t least_substeps;  ///< substeps that follow bending (MethodPlan::following_substeps)
     double predicted_ms;           ///< per frame, all cloths; fit to compare, not to plan by
     bool reaches;                  ///< the law promises the tolerance within the limits of the settings
 };

@@ -24,7 +24,7 @@ constexpr double settling_time = 5;  ///< s in which cloth may keep the strain t
 constexpr double rounding = 1.01;    ///< factor on strains that a cloth starts with
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
-constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< of a spring; diagonals per second
+constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< a spring's; diagonals per second
 /// A frame is no result any more at so many times the law of stretch.
 constexpr double times_law = 3;
 /// Speeds of key-framed things are taken over this part of a frame.

@@ -14,7 +14,7 @@ namespace drape {
 /// A frame has something over its bound.
 struct Implausible {
     double excess = 0;  ///< value over bound: 1 is the most there can be
-    std::string what;   ///< of the particle, "moves at 8e+03 m/s, where at most 120 m/s are explained", or a sentence
+    std::string what;   ///< "moves at 8e+03 m/s, where at most 120 m/s are explained", of the particle, or a sentence
     std::string criterion;  ///< "speed, m/s"
     double value = 0, bound = 0;
     std::optional<std::uint32_t> particle;  ///< index; nothing: it is not about a single one
@@ -60,7 +60,7 @@ class Watch {
     }
 
   private:
-    static constexpr std::size_t frames_in_a_row = 6;     ///< one may be a snap
+    static constexpr std::size_t frames_in_a_row = 6;     ///< a single one may be a snap
     static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
     /// The things that move a cloth, from the start to the end of a frame.
     struct Drive {

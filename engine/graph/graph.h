@@ -85,8 +85,8 @@ struct Handle {
 struct Resource {
     std::string name;
     bool is_image = false;
-    ImageDeclaration image;    ///< when is_image
-    BufferDeclaration buffer;  ///< otherwise
+    ImageDeclaration image;    ///< set for an image
+    BufferDeclaration buffer;  ///< set for a buffer
     Lifetime lifetime = Lifetime::transient;
     std::uint32_t version = 0;  ///< the newest
     /// Returns the bytes of one copy: texels x texel size x samples, or the buffer's size. VulkanError past 64 bits.
@@ -97,11 +97,10 @@ struct Resource {
     std::uint64_t byte_count(Handle handle) const;
 };
 
-/// One declared use.
 struct Use {
     Handle handle;  ///< the version read, or the version this write makes
     Access access;
-    std::string variable;  ///< it is bound to this of the compute shader; empty: to none
+    std::string variable;  ///< the compute shader's variable that it is bound to; empty: none
 };
 
 std::string_view lifetime_name(Lifetime lifetime);  ///< "persistent"

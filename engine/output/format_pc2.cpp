@@ -30,7 +30,6 @@ std::vector<std::uint32_t> used_particles(const WrittenCloth& cloth) {
     return used;
 }
 
-/// The cache of one cloth and its mesh.
 class Pc2Files {
   public:
     Pc2Files(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)

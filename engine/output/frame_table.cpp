@@ -80,7 +80,7 @@ void FrameTable::scan(const std::function<void(const Row&)>& take) const {
     const std::uint64_t end = length_ + waiting_.size();
     std::vector<std::byte> block;
     std::vector<double> values;
-    std::uint64_t begin = 0;  // where the block begins
+    std::uint64_t begin = 0;  // offset of the block
     const auto copy = [&](std::uint64_t offset, std::span<std::byte> bytes) {
         if (offset + bytes.size() > begin + block.size() || offset < begin) {
             block.resize(std::min<std::uint64_t>(end - offset, std::max(most_waiting, bytes.size())));

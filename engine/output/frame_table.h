@@ -35,7 +35,7 @@ class FrameTable {
 
   private:
     struct Row {
-        std::uint64_t offset = 0;  // where its values begin
+        std::uint64_t offset = 0;  // offset of its values
         std::uint32_t frame = 0;
         std::span<const double> values;  // values of the first columns
     };

@@ -73,7 +73,7 @@ struct Manifest {
         std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
     struct SelfCollision {
-        std::vector<std::string> cloths;                           // those that meet themselves
+        std::vector<std::string> cloths;                           // names of cloths that meet themselves
         bool between_cloths = false;                               // all cloths meet each other
         std::optional<std::uint32_t> first_unproved;               // frame; nothing: no crossing in any substep
         std::uint32_t most_pairs = 0;                              // pairs that were near each other in a substep

@@ -36,7 +36,7 @@ class MeshSequence : public FrameWriter {
 
   private:
     OutputFolder& folder_;
-    WrittenRun run_;  ///< its faces are those of now
+    WrittenRun run_;  ///< has the faces as they are now
     std::string extension_;
     MeshText text_;
     std::vector<FileRecord> files_;

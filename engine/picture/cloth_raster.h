@@ -1,4 +1,3 @@
-// Makes the raster pass as the cuts so far ask for it.
 #pragma once
 
 #include <memory>

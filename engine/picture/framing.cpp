@@ -17,7 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Axis-aligned box that grows.
 struct Bounds {
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     bool empty() const { return !(low[0] <= high[0]); }

@@ -42,7 +42,6 @@ constexpr double paper_share = 0.72;  ///< share of the panel; the rest is the p
 /// Returns the pixels of the picture per pixel of a letter.
 std::uint32_t letter_scale(std::uint32_t height) { return std::max(1u, (height + 180) / 360); }
 
-/// Part of a picture, and what is painted into it.
 struct Canvas {
     std::span<std::uint8_t> rgba;
     std::uint32_t width, height;

@@ -1,4 +1,3 @@
-// Draws the scale of a heat map into the finished picture.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,3 @@
-// A run asks this of its pictures.
 #pragma once
 
 #include <cstdint>

@@ -58,7 +58,7 @@ void Pictures::record() {
 void Pictures::follow(const std::vector<CutTopology>& topologies) {
     for (PendingPicture& picture : pending_) {
         if (picture.has_picture) continue;
-        if (!picture.slot) begin(picture, *free_slot());  // those before it have left theirs
+        if (!picture.slot) begin(picture, *free_slot());  // frames before it have left theirs
         FrameCopy kept;                                   // the slot's buffer may go
         kept.keep(drawn(picture));
         picture = {std::move(kept), {}, true};
@@ -71,7 +71,7 @@ void Pictures::follow(const std::vector<CutTopology>& topologies) {
                         solver_.topologies()[cloth].masked() != topologies[cloth].masked();
     }
     solver_.topologies() = topologies;
-    build();  // how much is drawn is part of the recording
+    build();  // the recording says how much is drawn
     if (new_resources) return allocate();
     for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) solver_.upload_cut(*pool_, cloth, before[cloth]);
     record();

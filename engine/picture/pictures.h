@@ -53,7 +53,7 @@ class Pictures {
     /// Returns the frame of a slot, drawn; the picture lies in the slot's buffer.
     FinishedFrame drawn(const PendingPicture& picture);
     bool is_there(const PendingPicture& picture) const;
-    /// Gives the first one.
+    /// Gives the first of the frames that wait.
     void deliver(const Finished& finished);
 
     const vulkan::Device& device_;

@@ -120,7 +120,7 @@ class RasterPass {
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
     View view_;
-    std::optional<StrainScale> scale_;  ///< only a heat map's
+    std::optional<StrainScale> scale_;  ///< set for a heat map
     ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
     Pipelines compute_;

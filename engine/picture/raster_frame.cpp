@@ -84,7 +84,7 @@ struct FloorFrame {
 void write_floor_light(const SceneDescription& scene, const Collider& plane, const Vec3& normal,
                        glsl::FloorConstants& floor) {
     const glsl::vec4 albedo = linear_color(plane.color);
-    std::array<Vec3, 2> sums{};  // all lights but the first, and the first
+    std::array<Vec3, 2> sums{};  // sums over all lights but the first, and over the first
     const double up = 0.5 + 0.5 * normal[1];
     for (std::size_t k = 0; k < 3; ++k) sums[0][k] = scene.ambient[k] * up + scene.ambient_ground[k] * (1 - up);
     for (std::size_t i = 0; i < light_count(scene); ++i) {

@@ -1,4 +1,3 @@
-// Records the Vulkan commands of the raster passes.
 #pragma once
 
 #include <array>

@@ -134,7 +134,7 @@ bool Checkpoints::due() const {
 
 void Checkpoints::write(RunCheckpoint checkpoint) {
     checkpoint.journal_length = journal_.sync();
-    folder_.sync();  // keeps the names of the frames before it
+    folder_.sync();  // puts the names of the frames before it on the disk
     const std::string name = checkpoint_file_name(checkpoint.next_frame);
     write_file(folder_, name, encode_sections(checkpoint_format, sections_of(checkpoint, run_key_)));
     folder_.sync();

@@ -1,4 +1,3 @@
-// Finds the collider that each particle touches, from positions alone.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ struct FailureCapsule {
     std::uint32_t start = 0, end = 0, step = 1;  ///< frames that were handed out
     std::string program_version, run_key;
     Manifest::Device device;
-    std::string status, reason;          ///< as in the manifest
+    std::string status, reason;          ///< the manifest's
     std::optional<FrameFailure> failed;  ///< the frame that was no result
     /// The last frame that was handed out before, and its numbers.
     std::optional<Manifest::FrameStatistics> last_frame;

@@ -1,4 +1,3 @@
-// Runs a failed run once more, from its capsule.
 #include <fmt/format.h>
 
 #include <algorithm>

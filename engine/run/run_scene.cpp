@@ -1,4 +1,3 @@
-// Runs a scene into a folder: frames, then the manifest, with checkpoints on the way.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -87,7 +87,7 @@ bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
     const double spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const double least = least_self_thickness * spacing, most = most_self_thickness * spacing;
     const double thickness = *cloth.self_collision->thickness;
-    constexpr double rounding = 1e-9;  // left by whoever divides the cloth's size by its edges
+    constexpr double rounding = 1e-9;  // allows for dividing the cloth's size by its edges
     if (thickness >= least * (1 - rounding) && thickness <= most * (1 + rounding)) return true;
     return node.member("thickness")
         .fail(fmt::format(
@@ -105,7 +105,7 @@ std::uint64_t requested_particle_count(const SceneNode& grid, const Cloth& cloth
             const Json::Value& written = *grid.element(axis).value();
             if (written.isUInt()) requested = written.asUInt();
         }
-        count *= requested;  // two factors below 2^32: no overflow
+        count *= requested;  // two factors below 2^32 do not overflow
     }
     return count;
 }

@@ -18,7 +18,7 @@ struct ColliderPose {
 /// A shape in its own frame.
 struct ShapeGeometry {
     Vec3 center;   ///< m, at rest; the shape turns about it
-    Vec3 size;     ///< the device's form of it (shared/collider_types.h), a plane's is its normal
+    Vec3 size;     ///< its form on the device (shared/collider_types.h); a plane's is its normal
     double reach;  ///< m, the surface's farthest from the centre; infinity: it has no end
     /// The shape's own axes before it is rotated, row major; nothing: the world's.
     std::optional<std::array<double, 9>> axes = {};
@@ -29,7 +29,6 @@ ShapeGeometry shape_geometry(const ColliderShape& shape);
 /// translation is added. A plane's world normal is `rotate(pose.rotation, normal)`.
 ColliderPose collider_pose(const Collider& collider, double time);
 
-/// Returns rotation * v.
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v);
 
 }  // namespace drape

@@ -1,4 +1,3 @@
-// Reads the scene key "fabric".
 #include "drape/fabric.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// Finds the word that somebody may have wanted to write ("did you mean").
 #pragma once
 
 #include <span>

@@ -1,4 +1,3 @@
-// Writes the format for editors (JSON Schema) and for people (Markdown).
 #include <fmt/format.h>
 
 #include "drape/scene_reader.h"

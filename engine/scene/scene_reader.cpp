@@ -87,7 +87,7 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
     const auto close = [](std::FILE* file) { std::fclose(file); };
     const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
     if (!file) return unreadable();
-    // Read to one byte over the limit rather than asking for the size, which pipes and devices do not have.
+    // This reads to a byte over the limit rather than asking for the size, which pipes and devices do not have.
     std::string text;
     std::array<char, 65536> chunk;
     while (text.size() <= scene_file_byte_limit) {

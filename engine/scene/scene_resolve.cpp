@@ -1,4 +1,3 @@
-// Writes out a scene with every default.
 #include <json/writer.h>
 
 #include <algorithm>

@@ -158,7 +158,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
         fullest_ = {};
         if (control_->segment().probes) run_coarse(frame, first, judgement);
         judged = run_fine(frame, first, judgement, asked);
-        first = lengthen_lists();  // what was kept is gone
+        first = lengthen_lists();  // the kept state is gone then
         if (first) continue;
         ++effort.attempts;
         const SubstepControl::Verdict verdict = control_->judge(judgement);

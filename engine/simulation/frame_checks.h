@@ -1,4 +1,3 @@
-// Finds why a frame is no result.
 #pragma once
 
 #include <optional>

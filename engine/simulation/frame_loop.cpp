@@ -100,7 +100,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
         CutFindings findings;
         CutImages before;
     };
-    std::vector<Hit> hits;  // all are fetched before any resource changes
+    std::vector<Hit> hits;  // they are fetched before any resource changes
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const ClothModel& model = model_.cloths[cloth];
         std::uint32_t crossed = 0;
@@ -118,7 +118,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
     if (new_resources) return rebuild_resources(solver_.download_state(*pool_));
     for (const Hit& hit : hits) solver_.upload_cut(*pool_, hit.cloth, hit.before);
     if (hits.empty() || !options_.draw) return;
-    build_graphs();  // how much is drawn is part of the recording
+    build_graphs();  // the recording says how much is drawn
     record();
 }
 

@@ -144,7 +144,7 @@ class FrameLoop {
     void record();
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
     void rebuild_resources(const SimulationState& state);
-    // loop_state.cpp
+    // These are in loop_state.cpp.
     template <class Archive>
     void transfer(Archive& archive);
     void restore_cuts(const SimulationState& state);
@@ -168,7 +168,7 @@ class FrameLoop {
     std::uint32_t take_slot(const Finished& finished);
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
-    // closed_loop.cpp
+    // These are in closed_loop.cpp.
     /// Returns the steps that the loop takes: all, or where only lists may be too short, keep and restore.
     std::span<const AttemptStep> attempt_steps() const;
     void build_attempts();

@@ -232,7 +232,7 @@ const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
 bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
     Pictures* const pictures = parts_->pictures.get();
-    bool giving = false;  // a throw is the caller's own
+    bool giving = false;  // a throw is then the caller's own
     const auto give = [&](const FinishedFrame& frame) {
         giving = true;
         finished(frame);
@@ -258,7 +258,7 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         const bool complete = parts_->loop.run(last, wanted, checked, stop);
         if (pictures) pictures->flush(give);
         return complete;
-    } catch (const FrameError&) {  // those before it are handed out
+    } catch (const FrameError&) {  // frames before it are handed out
         if (pictures && !giving) pictures->flush(give);
         throw;
     }

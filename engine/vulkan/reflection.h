@@ -41,8 +41,8 @@ struct ReflectedDescriptor {
     bool readable = true, writable = true;
     VkFormat format = VK_FORMAT_UNDEFINED;   ///< images, texel buffers
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
-    std::uint32_t stride = 0;                ///< bytes of an element of that array
-    std::optional<ReflectedStruct> element;  ///< when that array's elements are structs
+    std::uint32_t stride = 0;                ///< bytes from one element of that array to the next
+    std::optional<ReflectedStruct> element;  ///< set when that array's elements are structs
     VkShaderStageFlags stages = 0;           ///< the stages that use it
     bool operator==(const ReflectedDescriptor&) const = default;
 };

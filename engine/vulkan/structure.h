@@ -5,7 +5,6 @@
 
 namespace drape::vulkan {
 
-/// Returns a zeroed structure with its sType set.
 template <class T>
 T structure(VkStructureType type) {
     T value{};

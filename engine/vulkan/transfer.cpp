@@ -1,4 +1,3 @@
-// Each transfer is its own submit and wait, through a staging buffer: they are for set-up and tests.
 #include <fmt/format.h>
 
 #include <cstring>

@@ -23,7 +23,7 @@ struct StageTime {
 /// The work that a frame took.
 struct FrameEffort {
     std::uint32_t substeps = 0;
-    std::uint32_t attempts = 1;  ///< method `auto`: 1: the first was kept
+    std::uint32_t attempts = 1;  ///< method `auto`: 1 where the first was kept
     /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();

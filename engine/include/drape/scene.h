@@ -125,7 +125,6 @@ struct Appearance {
 /// Contact of a cloth with itself keeps a thickness of at least and at most these shares of the grid's smaller spacing.
 inline constexpr double least_self_thickness = 0.1, most_self_thickness = 1.0;
 
-/// Contact of a cloth with itself.
 struct SelfCollision {
     std::optional<double> thickness;  ///< m between layers; default: the cloth's thickness, within what the grid allows
     std::optional<double> friction;   ///< Coulomb coefficient between layers; default: the cloth's
