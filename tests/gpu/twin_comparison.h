@@ -48,7 +48,7 @@ inline SceneDescription everything() {
     return scene;
 }
 
-/// Of so many columns, rows: held in a corner and along an edge, nothing but springs acts on it.
+/// Makes a sheet of so many columns and rows, held in a corner and along an edge, on which nothing but springs acts.
 inline SceneDescription thrown_sheet(std::pair<std::uint32_t, std::uint32_t> grid, std::uint32_t substeps) {
     const auto [columns, rows] = grid;
     SceneDescription scene = sheet(columns, rows, 1.1, 0.9, substeps, 1);
@@ -108,7 +108,7 @@ inline void expect_same(const FieldRow& row, std::span<const std::byte> device, 
     EXPECT_FALSE(device.empty()) << row.name;
 }
 
-/// Of two runs' first cloths.
+/// Compares a field of two runs' first cloths.
 inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& other, std::uint32_t frame) {
     expect_same(row_of(field), one.bytes(0, field), other.bytes(0, field), frame);
 }

@@ -46,7 +46,7 @@ TEST(TwinTest, MoreCollidersThanAreReadEarly) {
     compare(scene);
 }
 
-/// Of every kind some that come after the early ones, in more than one group of 32.
+/// Some colliders of every kind come after the early ones, in more than one group of 32.
 TEST(TwinTest, ManyCollidersOfEveryKind) {
     SceneDescription scene = everything();
     std::mt19937 random(3);

@@ -9,7 +9,7 @@
 namespace drape::sweep {
 namespace {
 
-// What a specification draws must be the same in every version of Drape.
+// A specification must draw the same in every version of Drape.
 TEST(Distributions, DrawTheNumbersTheyAlwaysDrew) {
     EXPECT_EQ(drawn(Uniform{0, 1}, 1, 5, "/a"), "0.12108068891473878");
     EXPECT_EQ(drawn(Uniform{0, 1}, (std::uint64_t{7} << 32) + 1, 100'000, "/wind/velocity/0"), "0.5797873050396178");
