@@ -1,4 +1,4 @@
-# find_package(drape): the target drape::drape, a static library and what it is made of.
+# find_package(drape) gives the target drape::drape, a static library, and finds the libraries that it needs.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(fmt)

@@ -1,6 +1,7 @@
-// Ends a frame: X += d, so that the position image holds the state that is drawn and read back. HOME: after an odd
-// number of explicit steps; both go back from the spare images to those that the next frame starts from. EXCESS: keeps
-// how much faster the end of the frame is than its last substep.
+// This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. HOME brings
+// position and displacement back from the spare images, where an odd number of explicit steps leaves them, to those
+// that the next frame starts from. EXCESS keeps how much faster the cloth is at the frame's end than in its last
+// substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants HOME EXCESS BUFFERED

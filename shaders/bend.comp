@@ -1,5 +1,5 @@
-// Relaxes one colour of the bending elements of one axis, plain schedule: one invocation per element, so no particle is
-// touched twice. MASKED: the spring shares come from an image (holes, cuts).
+// This plain kernel relaxes one colour of the bending elements of one axis with an invocation per element. Elements of
+// one colour share no particle. MASKED takes the spring shares from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
@@ -17,12 +17,12 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 float share_of(ivec2 owner) {
 #ifdef MASKED
-    return LOAD(spring_share_image, owner)[push.channel];
+    return LOAD(spring_shares, owner)[push.channel];
 #else
     return border_share(owner, push.axis, push.grid);
 #endif

@@ -1,6 +1,6 @@
-// Leads what is drawn between particles out of boxes' edges and corners (include/box_edges.h). What is found goes into
-// an image of its own, as particles read their neighbours; the collision pass that follows takes it from there.
-// MASKED: the cell image says which triangles exist (holes, cuts).
+// This pass leads the cloth between particles out of boxes' edges and corners (include/box_edges.h). It writes an image
+// of its own, as particles read their neighbours; the collision pass that follows goes on from there. MASKED takes the
+// triangles that exist from the cell image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -12,12 +12,12 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const bool again = false;  // the second round
-layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation looks after, 32 at most
+layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation takes, 32 at most
 PUSH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;  // again: as the first round left it
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;  // second round: as the first left it
 VECTOR_OUT(2, LiftedOut, lifted);
 #ifdef MASKED
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D cells;
@@ -38,7 +38,7 @@ bool exists(ivec2 cell, int which) {
 #endif
 }
 
-/// Most boxes whose records are read where nothing has branched yet (include/contacts.h).
+/// Records of at most this many boxes are read where nothing has branched yet (include/contacts.h).
 const int early_box_count = 4;
 ColliderRecord early_boxes[early_box_count];
 void read_boxes() {
@@ -60,8 +60,8 @@ bool near_edge_of(ColliderRecord collider, vec3 now) {
 }
 
 #define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
-/// Whether a particle may meet an edge of a box. What the first round led nowhere it did not move: the second begins
-/// with what was near one then.
+/// Returns whether a particle may meet an edge of a box. In the second round only those may that were near one in the
+/// first, as the first moved no others.
 bool may_meet(vec4 start, vec4 moved) {
     bool near = again && moved.w != 0.0f;
     if (!again) {
@@ -71,7 +71,7 @@ bool may_meet(vec4 start, vec4 moved) {
     return near && start.w != 0.0f;
 }
 
-/// Leaves the particles of a strip as they are, and finds those that may meet an edge of a box: bit k is row k.
+/// Writes the particles of a strip as they are. Returns those that may meet an edge of a box: bit k is row k.
 uint copy_strip(int column, int first, int count) {
     uint rows = 0u;
     int k = 0;
@@ -86,10 +86,9 @@ uint copy_strip(int column, int first, int count) {
     return rows;
 }
 
-/// Where a particle is led, and whether it is.
 struct Led {
-    vec3 moved;
-    bool touched;
+    vec3 moved;    // displacement of a particle, m
+    bool touched;  // whether a box led it
 };
 
 Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
@@ -113,7 +112,7 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
 }
 
 #define LED_BY(collider) led = led_by(collider, texel, start, led);
-/// xyz: displacement of a particle after all boxes, w: 1 where one led it, else -1.
+/// Returns a particle's displacement after all boxes, and in w 1 where one led it, else -1.
 vec4 led_by_boxes(ivec2 texel) {
     vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
     Led led = Led(before.xyz, again && before.w > 0.0f);
@@ -126,7 +125,8 @@ void main() {
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     int count = push.grid.y - first < strip_rows ? push.grid.y - first : strip_rows;
-    // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
+    // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
+    // for a particle.
     uint rows = copy_strip(column, first, count);
     do {
         ivec2 texel = ivec2(column, first + max(findLSB(rows), 0));

@@ -1,5 +1,5 @@
-// Copies one image into another: the smallest pass with a real hazard. The canary test removes the barrier
-// before it and requires that synchronization validation reports the hazard.
+// This pass copies one image into another, and is the smallest one with a real hazard. The canary test removes the
+// barrier before it and requires that synchronization validation reports the hazard.
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D source;

@@ -1,5 +1,5 @@
-// Before a frame whose substeps have another length: gives the state the history that substeps of that length would
-// have left. SECOND_ORDER: the line solver's history too.
+// This pass runs before a frame whose substeps have another length. It gives the state the history that substeps of
+// that length would have left. SECOND_ORDER does so for the line solver's history, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SECOND_ORDER

@@ -1,5 +1,5 @@
-// A cloth's surface. SHADOWED: under the first light's shadow map. Front is the side from which a triangle's corners
-// run counter-clockwise, which is the side its normal cross(along columns, along rows) points to.
+// Draws a cloth's surface; with SHADOWED, under the first light's shadow map. The front is the side from which a
+// triangle's corners run counter-clockwise, which is the side its normal cross(along columns, along rows) points to.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED
@@ -18,11 +18,11 @@ layout(location = 0) out vec4 color;
 /// Mean of the square wave (+1 on even unit intervals, -1 on odd ones) over `width` around x.
 float filtered_square_wave(float x, float width) {
     vec2 ends = vec2(x - 0.5 * width, x + 0.5 * width);
-    vec2 integral = 1.0 - abs(mod(ends, 2.0) - 1.0);  // of the square wave from 0 on
+    vec2 integral = 1.0 - abs(mod(ends, 2.0) - 1.0);  // integral of the square wave from 0 on
     return clamp((integral.y - integral.x) / width, -1.0, 1.0);
 }
 
-/// 0 where the first colour is, 1 where the second is, between them where a pixel holds both.
+/// Returns 0 where the first colour is, 1 where the second is, and a value between where a pixel holds both.
 float pattern() {
     vec2 squares = material / look.front.w;
     vec2 width = max(fwidth(squares), vec2(1e-4));
@@ -32,11 +32,11 @@ float pattern() {
 }
 
 void main() {
-    // Derivatives before any branch.
+    // Derivatives are taken before any branch, where they are defined.
     vec3 facet = cross(dFdy(world), dFdx(world));  // towards the eye
     float second = pattern();
     vec3 normal = gl_FrontFacing ? surface_normal : -surface_normal;
-    // Neighbours that cancel out leave no normal: the triangle's own is better than none.
+    // Neighbours that cancel out leave no normal; the triangle's own is better than none.
     if (dot(normal, normal) < 1e-6) normal = facet;
     vec3 albedo = mix(gl_FrontFacing ? look.front.xyz : look.back.xyz, look.second.xyz, second);
     float openness = 1.0 - (gl_FrontFacing ? hidden.x : hidden.y);

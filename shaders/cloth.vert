@@ -1,5 +1,5 @@
-// A cloth's particles as vertices: the index buffer alone drives it, position and normal come from the images.
-// CUT: and the vertices on its cut springs.
+// Makes a cloth's particles vertices: the index buffer alone drives it, position and normal come from the images. CUT
+// adds the vertices on its cut springs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CUT
@@ -15,13 +15,13 @@ layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
 layout(location = 2) out vec2 material;  // metres along columns, rows of the undeformed cloth
-layout(location = 3) out vec2 hidden;    // share of the surroundings that folds take: of the front, of the back
+layout(location = 3) out vec2 hidden;    // share of the surroundings that folds hide, of the front and the back
 layout(location = lit_location) flat out LitConstants constants;
 layout(location = look_location) flat out ClothLook look;
 #include "include/cloth_vertex.h"
 
-/// Sine of the angle at which another particle stands above the surface; nothing (2) beyond the border and where a cut
-/// or a hole lets it be far away.
+/// Returns the sine of the angle at which another particle stands above the surface, or 2, which is no sine, beyond the
+/// border and where a cut or a hole lets the particle be far away.
 float lift(ivec2 other, vec3 at, vec3 up, float distance_at_rest) {
     vec3 away = imageLoad(position, clamp(other, ivec2(0), ivec2(push.grid.xy) - 1)).xyz - at;
     float squared = dot(away, away);
@@ -30,13 +30,13 @@ float lift(ivec2 other, vec3 at, vec3 up, float distance_at_rest) {
     return inside && near ? dot(away, up) * inversesqrt(squared) : 2.0;
 }
 
-/// Mean of both sides along an axis, so that a tilted surface is none.
+/// Averages both sides along an axis, so that a tilted flat surface counts as no fold.
 float fold(ivec2 texel, ivec2 step, vec3 at, vec3 up, float distance_at_rest) {
     float ahead = lift(texel + step, at, up, distance_at_rest), behind = lift(texel - step, at, up, distance_at_rest);
     return max(ahead, behind) > 1.5 ? 0.0 : 0.5 * (ahead + behind);
 }
 
-/// Horizons in four directions: what the cloth's own folds hide of the front and of the back.
+/// Returns the share of the surroundings that folds hide from the front (x), the back (y), by four horizons.
 vec2 hidden_by_folds(ivec2 texel, vec3 at, vec3 up) {
     int reach = int(push.grid.w);
     vec2 rest = push.size.xy / (vec2(push.grid.xy) - 1.0) * float(reach);

@@ -1,4 +1,4 @@
-// A collider's surface. SHADOWED: under the first light's shadow map.
+// Draws a collider's surface; with SHADOWED, under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED

@@ -1,4 +1,4 @@
-// Colliders as their true shapes, one instance each.
+// Draws colliders as their true shapes, one instance each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/collider_types.h"

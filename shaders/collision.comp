@@ -1,6 +1,6 @@
-// Moves every particle out of every collider, with friction; specialised to the kinds that the scene has. HISTORY: what
-// is touched is at once as fast as it is left, and the cloth goes on in backward Euler substeps (include/bdf2.h). LED: on
-// from what the edges of boxes left (box_edges.comp).
+// This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
+// the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
+// has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what box_edges.comp left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -12,7 +12,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
-layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation looks after, 32 at most
+layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation takes, 32 at most
 PUSH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
@@ -21,13 +21,14 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef HISTORY
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
-layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 #endif
 #ifdef LED
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
 #endif
 
-/// Where a particle is about to go; w of `led`: whether an edge of a box led it there.
+/// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a box led it:
+/// above 0 if one did.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
 #ifdef LED
     return LOAD(lifted, texel);
@@ -39,11 +40,10 @@ vec4 led_displacement(ivec2 texel, vec4 moved) {
 /// Part of a column.
 struct Strip {
     int column, first, count;
-    vec3 lower, upper;  // between which its particles are about to be
-    uint rows;          // that may touch a collider, or have: bit k is row k
+    vec3 lower, upper;  // corners of the box that holds its particles at their next positions, m
+    uint rows;          // rows whose particles may touch a collider, or have touched an edge: bit k is row k
 };
 
-/// Where a particle is about to be.
 vec3 next_position(ivec2 texel) {
     return moved_position(LOAD(position, texel).xyz, led_displacement(texel, LOAD(displacement_in, texel)).xyz);
 }
@@ -64,7 +64,7 @@ Strip strip_at(int column, int first, int count) {
     return strip;
 }
 
-/// Which of at most 32 colliders from the `begin`-th on are near a strip: bit k is the k-th of them.
+/// Returns those of at most 32 colliders from the `begin`-th on that are near a strip: bit k is the k-th of them.
 uint near_colliders(Strip strip, int begin, int count) {
     uint near = 0u;
     for (int k = 0; k < count; ++k)
@@ -72,7 +72,7 @@ uint near_colliders(Strip strip, int begin, int count) {
     return near;
 }
 
-/// Rows of a strip that may touch a collider after the early ones.
+/// Returns the rows of a strip that may touch a collider after the early ones.
 uint late_rows(Strip strip) {
     uint rows = 0u;
     for (int begin = early_collider_count; begin < capsules_end; begin += 32)
@@ -92,7 +92,7 @@ void meet_all(ivec2 texel) {
     vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
     bool touched = led.w > 0.0f;
-    // Out of one collider may be into another: repeat until nothing is touched any more.
+    // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
     do {
         Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
@@ -106,9 +106,9 @@ void meet_all(ivec2 texel) {
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
-    // Most that come here find it done.
-    if (imageLoad(control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
-        imageAtomicMax(control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
+    // The load spares an atomic, as most particles that come here find the hold set.
+    if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
 #endif
 }
 
@@ -118,7 +118,8 @@ void main() {
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
     if (capsules_end > early_collider_count) strip.rows |= late_rows(strip);
-    // The default device runs a loop's body at least once for all lanes: here once for a strip, not for a particle.
+    // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
+    // for a particle.
     uint rows = strip.rows;
     do {
         if (rows != 0u) meet_all(ivec2(column, first + findLSB(rows)));

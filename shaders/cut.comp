@@ -1,6 +1,6 @@
-// Which springs and triangles the cutters cross at the end of a frame: each particle tests the four springs it owns and
-// the two triangles of its cell against every active triangle of the cutters. MASKED: springs and triangles that are
-// gone are not tested again.
+// This pass finds the springs and triangles that the cutters cross at the end of a frame: each particle tests the four
+// springs that it owns and the two triangles of its cell against every active triangle of the cutters. MASKED leaves
+// out springs and triangles that are gone.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -13,11 +13,11 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(CutPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D cut_flags;  // 2 texels per cell: upper, lower triangle
-layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  // per owned spring; -1: not crossed
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  // by owned spring; -1: not crossed
 layout(set = 0, binding = 3, std430) readonly buffer Cutters { CutterTriangle cutters[]; };
 layout(set = 0, binding = 4, std430) buffer Count { uint count[]; };  // springs crossed
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 6, r32ui) uniform readonly uimage2D cells;
 #endif
 
@@ -54,7 +54,7 @@ void main() {
         }
     }
 #ifdef MASKED
-    vec4 share = imageLoad(spring_share_image, texel);
+    vec4 share = imageLoad(spring_shares, texel);
     if (share.x == 0.0f) found.x = not_crossed;
     if (share.y == 0.0f) found.y = not_crossed;
     if (share.z == 0.0f) found.z = not_crossed;

@@ -1,5 +1,5 @@
-// How far a frame is from a coarser run to it: an invocation per difference_rows particles of a column, a record per
-// workgroup.
+// This pass measures how far a frame is from a coarser run to it. An invocation takes difference_rows particles of a
+// column, and a workgroup leaves a record.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

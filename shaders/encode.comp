@@ -1,8 +1,8 @@
-// The picture's bytes from its radiance, once per pixel: an sRGB attachment would encode every sample. Backdrop and floor
-// show where samples are left uncovered, and are drawn here alone: as triangles each costs twice as much. Ordered dither
-// (Bayer's 8 x 8 matrix) of one level in place of rounding: without it soft gradients show bands.
-// SHADOWED: the floor is under the first light's shadow map. SAMPLED: of four samples a pixel, which it averages itself:
-// on the default device resolving them first takes twice as long.
+// This pass makes the picture's bytes from its radiance, once per pixel, where an sRGB attachment would encode every
+// sample. Backdrop and floor show where samples are left uncovered, and are drawn here alone, as triangles for them
+// cost twice as much. An ordered dither of one level (Bayer's 8 x 8 matrix) stands in place of rounding, without which
+// soft gradients show bands. SHADOWED puts the floor under the first light's shadow map. SAMPLED averages four samples
+// a pixel itself, as resolving them first takes the default device twice as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED SAMPLED
@@ -33,7 +33,7 @@ vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
 #endif
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D color;  // red in the lowest byte
 
-/// Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
+/// Returns Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
 float threshold(uvec2 pixel) {
     uvec2 bits = uvec2(pixel.x ^ pixel.y, pixel.y);
     uint rank = ((bits.x & 1u) << 5) | ((bits.y & 1u) << 4) | ((bits.x & 2u) << 2) | ((bits.y & 2u) << 1) |
@@ -41,8 +41,8 @@ float threshold(uvec2 pixel) {
     return (float(rank) + 0.5) / 64.0;
 }
 
-/// The sRGB transfer function, to 0.002 of a level: 1.055 x^(1/2.4) - 0.055 as a polynomial of x^(1/4), the best of the
-/// fifth degree where the curve is used. A power takes the default device three times as long.
+/// Returns the sRGB transfer function, to 0.002 of a level: 1.055 x^(1/2.4) - 0.055 is taken as a polynomial of
+/// x^(1/4), the best of the fifth degree where the curve is used. A power takes the default device three times as long.
 vec3 srgb(vec3 linear) {
     vec3 t = sqrt(sqrt(max(linear, 0.0031308)));
     vec3 curve = ((((-0.0681473613 * t + 0.289533198) * t - 0.577482998) * t + 1.25540459) * t + 0.162026227) * t;

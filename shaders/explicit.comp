@@ -1,7 +1,7 @@
-// Explicit micro-step: finishes the last substep (X += d, after the first substep of a frame), gathers
-// the springs around each particle and takes the next step. It reads neighbours, so it writes the other image of each
-// pair, every texel of it. WIND: adds the wind's force. MASKED: the spring shares come from an image (holes, cuts).
-// Particles with w = 0 feel no force; the pin pass moves those that the user moves.
+// This pass is an explicit step: it finishes the last substep (X += d, after the first substep of a frame), gathers the
+// springs around each particle and takes the next step. It reads neighbours, so it writes the other image of each pair,
+// every texel of it. WIND adds the wind's force. MASKED takes the spring shares from an image (holes, cuts). Particles
+// with w = 0 feel no force; the pin pass moves those that the user moves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED WIND BUFFERED
@@ -20,24 +20,24 @@ layout(constant_id = 0) const bool advance = false;  // the positions still lack
 layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
 #ifdef MASKED
-layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 struct Particle {
     ivec2 texel;
     vec3 position;
     vec3 displacement;
-    vec4 shares;  // of this particle's own springs; masked only
+    vec4 shares;  // shares of the springs that it owns, where MASKED
 };
 
 bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
 
-/// The particle of a texel inside the grid.
+/// The texel must be inside the grid.
 Particle particle_at(ivec2 texel) {
     Particle particle =
         Particle(texel, LOAD(position_in, texel).xyz, LOAD(displacement_in, texel).xyz, vec4(0.0f));
 #ifdef MASKED
-    particle.shares = LOAD(spring_share_image, texel);
+    particle.shares = LOAD(spring_shares, texel);
 #endif
     return particle;
 }
@@ -75,7 +75,7 @@ vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, i
     return add_bend(sum, difference, scaled);
 }
 
-/// The up to three bending elements of one axis: before, after and around this particle.
+/// Adds the up to three bending elements of one axis: before, around and after this particle.
 vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend) {
     if (bend == 0.0f) return sum;
     ivec2 back = center.texel - axis, ahead = center.texel + axis;
@@ -90,8 +90,8 @@ vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend)
     return sum;
 }
 
-/// Pull of one cell's twist: `factor` = -twist on the corners 00 and 11, twist on 10 and 01. All four corners compute
-/// the same difference, so that their pulls are opposite to the bit.
+/// Adds the pull of one cell's twist, where `factor` is -twist on the corners 00 and 11 and twist on 10 and 01. All
+/// four corners compute the same difference, so that their pulls are opposite to the bit.
 vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle lower_left, Particle lower_right,
                  float factor) {
     vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
@@ -103,7 +103,7 @@ vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle l
 #endif
 }
 
-/// The up to four cells around this particle, row by row.
+/// Adds the twist of the up to four cells around this particle, row by row.
 vec3 gather_twist(vec3 sum, Particle center) {
     ivec2 texel = center.texel;
     bool has_left = texel.x > 0, has_right = texel.x + 1 < push.grid.x;
@@ -140,7 +140,7 @@ void main() {
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
 #ifdef MASKED
-    center.shares = LOAD(spring_share_image, texel);
+    center.shares = LOAD(spring_shares, texel);
 #endif
     vec3 pull = empty_sum();
     pull = gather(pull, center, neighbour(0));

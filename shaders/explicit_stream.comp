@@ -1,9 +1,10 @@
-// One explicit micro-step, or some at once of which none is a frame's first, to the bits of as many dispatches of
-// explicit.comp: each subgroup streams down the rows of a strip of columns and keeps in registers, per step in flight, the row whose
-// lower neighbours are still to come. Every spring is evaluated once; its other end sees the negated numbers. Column
-// neighbours across invocations come by shuffle, so a step makes one more column at either end of a strip useless:
-// strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Loops are left to the driver: spirv-opt, told to unroll, loses what is precise.
-// MASKED: the spring shares come from an image.
+// This stream takes one explicit step, or some at once of which none is a frame's first, to the bits of as many
+// dispatches of explicit.comp. Each subgroup goes down the rows of a strip of columns and keeps in registers, for every
+// step in flight, the row whose lower neighbours are still to come. Every spring is evaluated once; its other end sees
+// the negated numbers. Column neighbours across invocations come by shuffle, so a step makes one more column at either
+// end of a strip useless: strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Loops are left to the
+// driver, since spirv-opt loses the `precise` of those that it is told to unroll. MASKED takes the spring shares from
+// an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -31,7 +32,7 @@ VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
 VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef MASKED
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 layout(constant_id = 0) const bool has_shear = false;
@@ -47,7 +48,7 @@ struct Particle {
     float mark;  // beside the displacement (verlet.h)
     vec3 position_remainder;
     vec3 displacement_remainder;
-    vec3 pull;  // of the springs so far
+    vec3 pull;  // pull of the springs so far
 };
 
 int lesser(int a, int b) { return a < b ? a : b; }
@@ -57,7 +58,7 @@ int first_column() {
     return int(gl_WorkGroupID.x) * (stream_width - 2 * steps) + int(gl_SubgroupInvocationID) * columns;
 }
 
-/// A row of this invocation's particles; what lies outside the grid is a fixed copy of its border.
+/// Loads a row of this invocation's particles. Outside the grid it loads a copy of its border that does not move.
 void load_row(int y, out Particle row[columns]) {
     for (int c = 0; c < columns; ++c) {
         int x = first_column() + c;
@@ -88,10 +89,11 @@ void store_row(RowBand band, int y, Particle row[columns]) {
     }
 }
 
-/// Of the springs that a particle owns, by direction: 1 or 0 outside the grid, half along its borders.
+/// Returns the shares of the springs that a particle owns, by direction: half along the grid's borders and 0 for a
+/// spring that leaves the grid. Outside it they are 0 or 1, which reaches nothing that is stored.
 vec4 shares_of(int x, int y) {
 #ifdef MASKED
-    vec4 shares = LOAD(spring_share_image, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
+    vec4 shares = LOAD(spring_shares, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
 #else
     vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
                        border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);
@@ -101,7 +103,7 @@ vec4 shares_of(int x, int y) {
                 x > 0 && x < push.grid.x && below ? shares.w : 0.0f);
 }
 
-/// On the first of two particles.
+/// Returns the pull of the spring between two particles on the first of them.
 vec3 pull_between(Particle from, Particle to, int channel, float share) {
     precise vec3 closing = to.displacement - from.displacement;
     precise float stiffness = push.relative_stiffness[channel] * share;
@@ -110,7 +112,7 @@ vec3 pull_between(Particle from, Particle to, int channel, float share) {
     return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.compression.x, push.strain_damping);
 }
 
-/// What another invocation computed; nothing from beyond the strip.
+/// Returns the pull that another invocation computed. A lane at the strip's end, which is given its own number, gets 0.
 vec3 pull_of(vec3 pull, int lane) {
     vec3 other = subgroupShuffle(pull, uint(lane));
     return lane == int(gl_SubgroupInvocationID) ? vec3(0.0f) : other;
@@ -185,7 +187,8 @@ Particle stepped(Particle particle, float mark) {
     return next;
 }
 
-/// Row `y` has come down to a step: the row above it has all its springs then and leaves it. `first`: of the flight.
+/// Takes row `y` into a step: the row above it then has all its springs, is stepped and takes the place of `row`.
+/// `first`: whether the step is the first of those in flight.
 void take_step(inout Particle above[columns], inout Particle row[columns], int y, bool first) {
     Particle done[columns];
     add_springs(above, row, y);

@@ -1,7 +1,8 @@
-// Some explicit micro-steps at once, none of them a frame's first, to the bits of as many dispatches of explicit.comp,
-// where invocations are many: a workgroup holds a tile of particles, one per invocation, and shows them to each other in
-// shared memory after every step. What its outermost particles lack their neighbours for spreads inwards by one particle
-// a step, so tiles overlap by 2 * `halo`; one that holds the whole cloth needs none. MASKED: as in explicit.comp.
+// This kernel takes some explicit steps at once, none of them a frame's first, to the bits of as many dispatches of
+// explicit.comp. It is for devices that run many invocations: a workgroup holds a tile of particles, one per
+// invocation, and shows them to each other in shared memory after every step. The outermost particles lack neighbours,
+// so their error spreads inwards by one particle a step; therefore tiles overlap by 2 * `halo`, and one that holds the
+// whole cloth needs none. MASKED is that of explicit.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -25,7 +26,7 @@ VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
 VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 #ifdef MASKED
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 layout(constant_id = 0) const bool has_shear = false;
@@ -42,7 +43,7 @@ struct Particle {
     vec3 displacement_remainder;
 };
 
-// Position and displacement of every particle of the tile.
+// Every particle of the tile shows its position and its displacement, whose y and z are in `shown_too`.
 shared vec4 shown[tile_width * tile_width];
 shared vec2 shown_too[tile_width * tile_width];
 
@@ -53,7 +54,7 @@ Particle load_particle(ivec2 texel) {
 }
 
 void show(Particle particle) {
-    barrier();  // the last step has looked
+    barrier();  // all have read the step before
     shown[gl_LocalInvocationIndex] = vec4(particle.position, particle.displacement.x);
     shown_too[gl_LocalInvocationIndex] = particle.displacement.yz;
     barrier();
@@ -61,7 +62,7 @@ void show(Particle particle) {
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
-    return LOAD(spring_share_image, owner)[channel];
+    return LOAD(spring_shares, owner)[channel];
 #else
     return border_share(owner, offset, push.grid);
 #endif

@@ -1,6 +1,7 @@
-// Verlet prediction under gravity and damping: finishes the last substep (X += d, after the first substep of a frame)
-// and predicts the next displacement. WIND: adds the wind's force. Particles with w = 0 feel no force; the pin pass
-// moves those that the user moves. BEFORE: the last substep of a frame keeps the displacement of the one before it.
+// This pass is Verlet's prediction under gravity and damping: it finishes the last substep (X += d, after the first
+// substep of a frame) and predicts the next displacement. WIND adds the wind's force. Particles with w = 0 feel no
+// force; the pin pass moves those that the user moves. BEFORE, in the last substep of a frame, keeps the displacement
+// of the one before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIND BEFORE BUFFERED

@@ -1,6 +1,6 @@
-// Whether a substep gets another iteration: joins the workgroups' residuals (lane l takes every 64th from the l-th on,
-// then the tree) and writes the sizes of its dispatches, or zeros. Once zero, the later decisions of the substep are
-// not dispatched either.
+// This pass decides whether a substep gets another iteration: it joins the workgroups' residuals (lane l takes every
+// 64th from the l-th on, then a tree joins the lanes) and writes the sizes of the iteration's dispatches, or zeros.
+// Once they are zero, the later decisions of the substep are not dispatched either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -9,9 +9,9 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(IterationPush)
-layout(set = 0, binding = 0, std430) readonly buffer Partials { ResidualRecord partials[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Sizes { uvec4 sizes[]; };
-layout(set = 0, binding = 2, std430) buffer State { uvec4 state[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Residuals { ResidualRecord residuals[]; };
+layout(set = 0, binding = 1, std430) readonly buffer IterationSizes { uvec4 iteration_sizes[]; };
+layout(set = 0, binding = 2, std430) buffer Iterations { uvec4 iterations[]; };
 
 #define RECORD ResidualRecord
 #include "include/workgroup_reduction.h"
@@ -21,15 +21,15 @@ shared bool iterates;
 void main() {
     ResidualRecord record = empty_residual();
     for (int i = int(gl_LocalInvocationIndex); i < push.partial_count; i += workgroup_width)
-        record = joined(record, partials[i]);
+        record = joined(record, residuals[i]);
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u) {
         iterates = needs_iteration(record, push.squared_tolerance);
-        uint used = push.first_check != 0 ? uint(push.substep_count) : state[iteration_size_count].x;
-        state[iteration_size_count] = uvec4(iterates ? used + 1u : used, 0u, 0u, 0u);
+        uint used = push.first_check != 0 ? uint(push.substep_count) : iterations[iteration_size_count].x;
+        iterations[iteration_size_count] = uvec4(iterates ? used + 1u : used, 0u, 0u, 0u);
     }
     barrier();
     if (gl_LocalInvocationIndex < uint(iteration_size_count))
-        state[gl_LocalInvocationIndex] =
-            iterates ? sizes[gl_LocalInvocationIndex] : uvec4(0u, 0u, 0u, 0u);
+        iterations[gl_LocalInvocationIndex] =
+            iterates ? iteration_sizes[gl_LocalInvocationIndex] : uvec4(0u, 0u, 0u, 0u);
 }

@@ -1,7 +1,7 @@
-// Solves the springs of one direction line by line: one invocation per line, Thomas algorithm, in three walks along it.
-// The lines of a direction share no particle, so the displacement is updated in place. The control says
-// whether this substep is BDF2, and hears of the worst spring. MASKED: the spring shares come from an image (holes, cuts).
-// BENT: the line bends.
+// This pass solves the springs of one direction line by line: one invocation solves a line by Thomas' algorithm, in
+// three walks along it. The lines of a direction share no particle, so the displacement is updated in place. The
+// control says whether this substep is BDF2, and counts the lines that met a spring too wrong. MASKED takes the spring
+// shares from an image (holes, cuts). BENT gives the line stiffness against bending.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BENT BUFFERED
@@ -25,33 +25,34 @@ PUSH_CONSTANTS(LinePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(2, DisplacementOut, displacement_out);
-// Two texels for each particle p of a line. The first: eliminated, then xyz what the first system changes of its
-// displacement and w the tension that it leaves the spring after it. The second, xy: that spring, eliminated; before, x: of
-// particle p of a line that bends. An invocation reads what it wrote itself. Buffers take both as pairs of floats: on the
-// default device every store is a loop over the lanes of its own, whose rounds cost by the element.
-layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D scratch_in;
+// The scratch has two texels for each particle p of a line. The first walk leaves the eliminated particle in the first
+// texel and, where the line bends, in x of the second. The second walk replaces them: the first texel then holds in xyz
+// the change of displacement by the first system and in w the tension that this leaves the spring after p, and the
+// second in xy that spring, eliminated. An invocation reads what it wrote itself. Buffers take both as pairs of floats,
+// since on the default device every store is a loop of its own over the lanes, whose rounds cost by the element.
+layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D line_scratch_in;
 #ifdef BUFFERED
 struct TwoTexels {
     u64vec3 pairs;
     uint64_t unused;
 };
-layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels scratch_out[]; };
+layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels line_scratch_out[]; };
 #else
-coherent VECTOR_OUT(4, ScratchOut, scratch_out);
+coherent VECTOR_OUT(4, ScratchOut, line_scratch_out);
 #endif
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(6, TensionOut, tension_out);
 #ifdef MASKED
-layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_shares;
 #endif
-layout(set = 0, binding = 8, r32ui) uniform uimage2D control;
-layout(constant_id = 0) const bool first_iteration = true;  // both systems; later iterations repeat the second alone
+layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
+layout(constant_id = 0) const bool first_iteration = true;  // solves both systems; later ones repeat the second alone
 
 #include "include/line_particles.h"
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // edge or normal of the spring that a line's end lacks
 
-/// Where the scratch of a particle is: what a subgroup stores at a time lies side by side.
+/// Returns the place of a particle's scratch. Those that a subgroup stores at a time lie side by side.
 int place(Line line, int p) {
     int group = int(gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x);
     return (group * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
@@ -60,9 +61,9 @@ int place(Line line, int p) {
 /// The scratch image is addressed as if it had only one row.
 ivec2 scratch_texel(int texel) { return ivec2(texel & (line_scratch_width - 1), texel / line_scratch_width); }
 
-vec4 load_first(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p))); }
+vec4 load_first(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p))); }
 
-vec2 load_second(Line line, int p) { return imageLoad(scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
+vec2 load_second(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
 
 #ifdef BUFFERED
 uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
@@ -70,19 +71,19 @@ uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint
 
 void store_first(Line line, int p, vec4 first) {
 #ifdef BUFFERED
-    scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
+    line_scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
 #else
-    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
 #endif
 }
 
 void store_scratch(Line line, int p, vec4 first, vec2 second) {
 #ifdef BUFFERED
-    scratch_out[place(line, p)].pairs =
+    line_scratch_out[place(line, p)].pairs =
         u64vec3(pair(first.x, first.y), pair(first.z, first.w), pair(second.x, second.y));
 #else
-    imageStore(scratch_out, scratch_texel(2 * place(line, p)), first);
-    imageStore(scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
+    imageStore(line_scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
 #endif
 }
 
@@ -91,16 +92,16 @@ void store_bent(Line line, int p, BentParticle particle) {
     store_scratch(line, p, vec4(particle.turn, particle.by_turn), vec2(particle.by_shift, 0.0f));
 }
 
-/// A walk from the line's start on: what is known before particle p is eliminated.
+/// A walk from the line's start on knows this before it eliminates particle p.
 struct ParticleWalk {
     int p;
     LineParticle particle, next;
-    vec3 edge;    // between them
-    float share;  // of its spring
+    vec3 edge;    // between `particle` and `next`, m
+    float share;  // share of the spring between them
     BentLine bent;
 };
 
-/// Eliminates particle p, after whose spring comes another, or none, which has no share.
+/// Eliminates particle p. A share of 0 for the spring after its own says that there is none.
 void eliminate_between(Line line, inout ParticleWalk walk, vec3 edge_after, float share_after) {
     float stiffness = stiffness_of(line, walk.particle, walk.next, walk.share);
     BentParticle eliminated = eliminate_bent(walk.bent, walk.edge, stiffness, edge_after,
@@ -121,7 +122,7 @@ void eliminate_next(Line line, inout ParticleWalk walk) {
     walk.share = share_after;
 }
 
-/// The first system, from the line's start on.
+/// Eliminates in the first system, from the line's start on.
 void eliminate_particles(Line line) {
     LineParticle particle = load_particle(line_start(line.index, line.step));
     LineParticle next = particle_after(line, particle);
@@ -132,7 +133,7 @@ void eliminate_particles(Line line) {
     store_bent(line, line.last, eliminate_last_bent(walk.bent, walk.next.position.w));
 }
 #else
-/// A walk from the line's start on: what is known before particle p is eliminated.
+/// A walk from the line's start on knows this before it eliminates particle p.
 struct ParticleWalk {
     int p;
     LineParticle particle;
@@ -154,7 +155,7 @@ void eliminate_next(Line line, inout ParticleWalk walk) {
     ++walk.p;
 }
 
-/// The first system, from the line's start on.
+/// Eliminates in the first system, from the line's start on.
 void eliminate_particles(Line line) {
     ParticleWalk walk =
         ParticleWalk(0, load_particle(line_start(line.index, line.step)), unmoved_start(), none, 0.0f);
@@ -165,8 +166,8 @@ void eliminate_particles(Line line) {
 }
 #endif
 
-/// What the first system changes of particle p, from what it changes of the particle after it; `turn`: how the edge after
-/// that one turns, then its own.
+/// Returns the change of particle p by the first system, given that of the particle after it. `turn` is how the edge
+/// after that particle turns, and becomes how the edge after p does.
 vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
     if (!first_iteration) return vec3(0.0f, 0.0f, 0.0f);
 #ifdef BENT
@@ -177,18 +178,18 @@ vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
 #endif
 }
 
-/// A walk from the line's end back: what is known before spring e is eliminated.
+/// A walk from the line's end back knows this before it eliminates spring e.
 struct SpringWalk {
     int e;
-    LineParticle first, second;  // of spring e
+    LineParticle first, second;  // particles of spring e
     LineSpring spring;
-    vec3 delta, moved_first;  // of its first particle
+    vec3 delta, moved_first;  // its first particle's change by the first system, and displacement with it, m
     vec3 turn, normal_after;
     vec2 eliminated;  // the spring after it
-    float largest;    // |C - T|
+    float largest;    // largest |C - T| so far, m
 };
 
-/// Eliminates spring e and stores it beside what the first system changes of its first particle.
+/// Eliminates spring e and stores it beside its first particle's change by the first system.
 void eliminate_between(Line line, inout SpringWalk walk, vec3 normal_before) {
     float share = share_of(line, walk.first.at);
     float tension = filtered_tension_of(line, walk.first, walk.second, walk.spring);
@@ -199,7 +200,7 @@ void eliminate_between(Line line, inout SpringWalk walk, vec3 normal_before) {
     store_scratch(line, walk.e, vec4(walk.delta, tension), walk.eliminated);
 }
 
-/// Spring e, which has one before it.
+/// Eliminates spring e, which has one before it.
 void eliminate_next(Line line, inout SpringWalk walk) {
     LineParticle before = particle_before(line, walk.first);
     vec3 delta_before = delta_of(line, walk.e - 1, walk.delta, walk.turn);
@@ -215,8 +216,8 @@ void eliminate_next(Line line, inout SpringWalk walk) {
     --walk.e;
 }
 
-/// From the line's end back: substitutes in the first system and eliminates in the second. The largest |C - T| that it
-/// meets.
+/// Substitutes in the first system and eliminates in the second, from the line's end back. Returns the largest |C - T|
+/// that it meets, m.
 float eliminate_springs(Line line) {
     vec3 turn = none;
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
@@ -234,11 +235,11 @@ float eliminate_springs(Line line) {
     return walk.largest;
 }
 
-/// A walk from the line's start on: what is known before particle p is written.
+/// A walk from the line's start on knows this before it writes particle p.
 struct MoveWalk {
     int p;
-    LineParticle first;
-    vec4 delta;  // xyz: of it; w: the tension of the spring after it
+    LineParticle first;  // particle p
+    vec4 delta;          // xyz: its change by the first system, m; w: tension of the spring after it, m
     vec3 moved_first, normal_before;
     float change_before;
 };
@@ -250,7 +251,7 @@ void move(MoveWalk walk, vec3 normal, float change) {
     STORE_TRIPLE(displacement_out, walk.first.at, moved, walk.first.moved.w);
 }
 
-/// Particle p, which has a spring after it, and that spring's tension.
+/// Writes particle p, which has a spring after it, and that spring's tension.
 void move_next(Line line, inout MoveWalk walk) {
     LineParticle second = particle_after(line, walk.first);
     vec4 delta_after = load_first(line, walk.p + 1);
@@ -269,7 +270,7 @@ void move_next(Line line, inout MoveWalk walk) {
     ++walk.p;
 }
 
-/// From the line's start on: substitutes in the second system.
+/// Substitutes in the second system, from the line's start on.
 void substitute_springs(Line line) {
     LineParticle first = load_particle(line_start(line.index, line.step));
     vec4 delta = load_first(line, 0);
@@ -284,5 +285,5 @@ void main() {
     if (first_iteration) eliminate_particles(line);
     float largest = eliminate_springs(line);
     substitute_springs(line);
-    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
 }

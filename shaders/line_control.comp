@@ -1,4 +1,4 @@
-// Decides of each cloth of a dispatch whether the coming substep is BDF2 or backward Euler.
+// This pass decides for each cloth of a dispatch whether the coming substep is BDF2 or backward Euler.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -7,12 +7,12 @@
 
 layout(local_size_x = 1) in;
 PUSH_CONSTANTS(LineControlPush)
-layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D control_in;
-layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D control_out;
+layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D line_control_in;
+layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D line_control_out;
 
-uint control_at(int texel) { return imageLoad(control_in, ivec2(texel, gl_WorkGroupID.z)).x; }
+uint control_at(int texel) { return imageLoad(line_control_in, ivec2(texel, gl_WorkGroupID.z)).x; }
 
-void store_control(int texel, uint value) { imageStore(control_out, ivec2(texel, gl_WorkGroupID.z), uvec4(value, 0u, 0u, 0u)); }
+void store_control(int texel, uint value) { imageStore(line_control_out, ivec2(texel, gl_WorkGroupID.z), uvec4(value, 0u, 0u, 0u)); }
 
 void main() {
     LineControl next = next_control(

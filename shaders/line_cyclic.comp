@@ -1,6 +1,7 @@
-// Solves the springs of one direction line by line, as line.comp does, where invocations are many: one per particle, a
-// workgroup per line or for several short ones, both systems by parallel cyclic reduction. A workgroup reads all of its
-// lines before it writes any of them, so the displacement is updated in place. MASKED: as in line.comp.
+// This kernel solves the springs of one direction line by line, as line.comp does, on devices that run many
+// invocations. It has one per particle and a workgroup per line, or for several short ones, and solves both systems by
+// parallel cyclic reduction. A workgroup reads all of its lines before it writes any of them, so the displacement is
+// updated in place. MASKED is that of line.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -20,14 +21,14 @@ TRIPLE_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(4, TensionOut, tension_out);
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 #endif
-layout(set = 0, binding = 6, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 6, r32ui) uniform uimage2D line_control;
 layout(constant_id = 2) const bool first_iteration = true;
 
 #include "include/line_particles.h"
 #include "include/cyclic_group.h"
-shared uint wrong[gl_WorkGroupSize.y];  // of each line: whether a spring of it is
+shared uint wrong[gl_WorkGroupSize.y];  // by line: whether one of its springs is wrong
 
 /// One invocation's part of its line: a particle, the one after it and the spring between them.
 struct Part {
@@ -46,7 +47,7 @@ Part read_part(Line line, bool is_line) {
                 has_spring ? share_of(line, first.at) : 0.0f);
 }
 
-/// The first system: what it changes of this particle's displacement.
+/// Solves the first system. Returns the change of this particle's displacement, m.
 vec3 delta_of(Line line, Part part) {
     vec3 edge = part.has_spring ? start_edge_of(part.first, part.second) : vec3(0.0f, 0.0f, 0.0f);
     float stiffness = part.has_spring ? stiffness_of(line, part.first, part.second, part.share) : 0.0f;
@@ -57,7 +58,7 @@ vec3 delta_of(Line line, Part part) {
     return cyclic_solution(uncoupled(row, line.last + 1));
 }
 
-/// The second system: the change of the spring's multiplier.
+/// Solves the second system. Returns the change of the spring's multiplier.
 float change_of(Line line, Part part, LineSpring spring, float tension) {
     hand_out(vec4(spring.normal, 0.0f));
     vec3 normal_before = from_neighbour(-1).xyz, normal_after = from_neighbour(1).xyz;
@@ -71,7 +72,7 @@ void report(bool is_wrong) {
     if (is_wrong) atomicOr(wrong[gl_LocalInvocationID.y], 1u);
     barrier();
     if (group_place == 0 && wrong[gl_LocalInvocationID.y] != 0u)
-        imageAtomicAdd(control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+        imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
 }
 
 void main() {

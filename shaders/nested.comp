@@ -1,5 +1,5 @@
-// Sweeps over boxes around lone pins (include/nested_sweeps.h), an invocation per line of a box, a barrier after every
-// direction. Loops end at their bottom (include/every.h).
+// This pass relaxes nested boxes around lone pins (include/nested_boxes.h) with an invocation per line of a box and a
+// barrier after every direction. Its loops end at their bottom (include/every.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SHEARED BUFFERED
@@ -12,16 +12,17 @@
 #include "include/verlet.h"
 
 layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
-#include "include/nested_sweeps.h"
-// Of the spring of a direction that a particle owns: xy eliminated, z its tension before the sweep, as it is stored.
-layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D rows_in;
-coherent TRIPLE_OUT(5, RowsOut, rows_out);
+#include "include/nested_boxes.h"
+// A texel is of the spring that a particle owns in the direction at hand. xy: the spring, eliminated; z: its stored
+// tension before this direction is solved.
+layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D nested_rows_in;
+coherent TRIPLE_OUT(5, NestedRowsOut, nested_rows_out);
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // normal of the spring that a line's end lacks
 
-/// A walk from the line's end back: what is known before a spring is eliminated.
+/// A walk from the line's end back knows this before it eliminates a spring.
 struct SpringWalk {
-    NestedParticle first, second;  // of the spring
+    NestedParticle first, second;  // particles of the spring
     LineSpring spring;
     vec3 normal_after;
     vec2 eliminated;  // the spring after it
@@ -32,10 +33,10 @@ void eliminate_between(NestedLine line, inout SpringWalk walk, vec3 normal_befor
     walk.eliminated = eliminate_spring(walk.eliminated, normal_before, walk.spring, walk.normal_after,
                                        walk.first.position.w, walk.second.position.w, share_of(line, walk.first),
                                        line.compression, line.compliance, tension_in_use(stored, line.per_followed));
-    STORE_TRIPLE(rows_out, walk.first.at, vec3(walk.eliminated, stored), 0.0f);
+    STORE_TRIPLE(nested_rows_out, walk.first.at, vec3(walk.eliminated, stored), 0.0f);
 }
 
-/// A spring with one before it.
+/// Eliminates a spring with one before it.
 void eliminate_next(NestedLine line, inout SpringWalk walk) {
     NestedParticle before = next_particle(line, walk.first, -line.step);
     LineSpring spring_before = spring_between(line, before, walk.first);
@@ -54,7 +55,7 @@ void eliminate_line(NestedLine line) {
     eliminate_between(line, walk, none);
 }
 
-/// A walk from the line's start on: what is known before a particle is written.
+/// A walk from the line's start on knows this before it writes a particle.
 struct MoveWalk {
     NestedParticle first;
     vec3 normal_before;
@@ -67,11 +68,11 @@ void move(MoveWalk walk, vec3 normal, float change) {
     STORE_TRIPLE(displacement_out, walk.first.at, moved, walk.first.displacement.w);
 }
 
-/// A particle with a spring after it, and that spring's tension.
+/// Writes a particle with a spring after it, and that spring's tension.
 void move_next(NestedLine line, inout MoveWalk walk) {
     NestedParticle second = next_particle(line, walk.first, line.step);
     LineSpring spring = spring_between(line, walk.first, second);
-    vec4 row = imageLoad(rows_in, walk.first.at);
+    vec4 row = imageLoad(nested_rows_in, walk.first.at);
     float change = substitute_spring(row.xy, walk.change_before);
     move(walk, spring.normal, change);
     float share = share_of(line, walk.first);

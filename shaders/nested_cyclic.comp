@@ -1,5 +1,5 @@
-// Sweeps over boxes around lone pins (include/nested_sweeps.h), an invocation per particle of a line of a box, the lines
-// solved by cyclic reduction, as many at a time as the workgroup holds.
+// This kernel relaxes nested boxes around lone pins (include/nested_boxes.h) with an invocation per particle of a line
+// of a box. It solves the lines by cyclic reduction, as many at a time as the workgroup holds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SHEARED
@@ -12,10 +12,11 @@
 #include "include/verlet.h"
 
 layout(local_size_x = cyclic_most_particles) in;
-#include "include/nested_sweeps.h"
+#include "include/nested_boxes.h"
 #include "include/cyclic_group.h"
 
-/// The line that an invocation belongs to, one of those from `line.index` on.
+/// Solves the lines of a direction from `line.index` on, as many as the workgroup holds; each invocation belongs to
+/// one.
 void solve_lines(NestedLine line, int count) {
     int p = group_place;
     line.index += int(gl_LocalInvocationIndex) / group_width;

@@ -1,5 +1,5 @@
-// Normals of a cloth: area-weighted mean over the triangles around each particle, for drawing.
-// MASKED: the cell image says which triangles exist (holes, cuts).
+// This pass computes the normals of a cloth, for drawing: the area-weighted mean over the triangles around each
+// particle. MASKED takes the triangles that exist from the cell image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED

@@ -1,4 +1,4 @@
-// The normal of a cloth's side that faces the eye, as a colour.
+// Shows the normal of a cloth's side that faces the eye as a colour.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/tone.h"
@@ -7,7 +7,7 @@ layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 surface_normal;
 layout(location = 0) out vec4 color;
 
-/// What the picture shows as the sRGB value `srgb`.
+/// Radiance that the picture shows as the sRGB value `srgb`.
 float radiance_of(float srgb) {
     return untoned(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
 }

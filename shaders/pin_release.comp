@@ -1,10 +1,13 @@
-// Frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass. The
-// substep that follows is the first without the pin's force (include/pin.h). TENSION: the springs' last pull is taken
-// from their stored tension. MASKED: with spring shares from an image (holes, cuts). SECOND_ORDER: the
-// control is asked for backward Euler substeps.
+// This pass frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass.
+// The substep that follows is the first without the pin's force (include/pin.h). TENSION takes the springs' last pull
+// from their stored tension. MASKED does too, and takes the spring shares from an image (holes, cuts). SECOND_ORDER
+// asks the control for backward Euler substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION SECOND_ORDER
+#pragma variants TENSION|MASKED SECOND_ORDER
+#ifdef MASKED
+#define TENSION
+#endif
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/explicit.h"
@@ -17,13 +20,13 @@ layout(constant_id = 0) const bool advance = false;  // the positions still lack
 PUSH_CONSTANTS(ReleasePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
-layout(set = 0, binding = 2, std430) readonly buffer Pins { PinnedParticle pins[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Motions { PinMotion motions[]; };
+layout(set = 0, binding = 2, std430) readonly buffer PinnedParticles { PinnedParticle pinned_particles[]; };
+layout(set = 0, binding = 3, std430) readonly buffer PinMotions { PinMotion pin_motions[]; };
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder;
 #ifdef SECOND_ORDER
-layout(set = 0, binding = 4, r32ui) uniform uimage2D control;
+layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 #endif
 #ifdef TENSION
 layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_row;
@@ -31,7 +34,7 @@ layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right;
 layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left;
 #ifdef MASKED
-layout(set = 0, binding = 12, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 12, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 float tension_at(ivec2 owner, int direction) {
@@ -43,13 +46,13 @@ float tension_at(ivec2 owner, int direction) {
 
 float share_of(ivec2 owner, ivec2 offset, int direction) {
 #ifdef MASKED
-    return imageLoad(spring_share_image, owner)[direction];
+    return imageLoad(spring_shares, owner)[direction];
 #else
     return border_share(owner, offset, push.grid);
 #endif
 }
 
-/// What the springs' tension would move an inner particle at `texel` by in a substep, m.
+/// Returns the displacement by which the springs' tension would move an inner particle at `texel` in a substep, m.
 vec3 pull_of_springs(ivec2 texel) {
     vec3 start = imageLoad(position_in, texel).xyz, moved = imageLoad(displacement_in, texel).xyz;
     vec3 sum = vec3(0.0f, 0.0f, 0.0f);
@@ -72,9 +75,9 @@ vec3 pull_of_springs(ivec2 texel) {
 void main() {
     int particle = int(gl_GlobalInvocationID.x);
     if (particle >= push.particle_count) return;
-    ivec4 index = pins[particle].index;
-    vec4 rest = pins[particle].rest;
-    PinMotion motion = motions[push.motion_first + index.z];
+    ivec4 index = pinned_particles[particle].index;
+    vec4 rest = pinned_particles[particle].rest;
+    PinMotion motion = pin_motions[push.motion_first + index.z];
     if (motion.held.x != 0.0f || rest.w == 0.0f) return;
     vec4 position = imageLoad(position_in, index.xy);
     if (position.w != 0.0f) return;
@@ -85,7 +88,7 @@ void main() {
     pull = pull_of_springs(index.xy);
 #endif
 #ifdef SECOND_ORDER
-    imageAtomicMax(control, ivec2(control_hold, 0), line_hold_release);
+    imageAtomicMax(line_control, ivec2(control_hold, 0), line_hold_release);
 #endif
     float surplus = release_surplus(motion);
     precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;

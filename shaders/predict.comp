@@ -1,6 +1,6 @@
-// Prediction of the line solver in second order: finishes the last substep (X += d, after the first substep of a
-// frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the
-// control says. WIND: adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+// This pass is the prediction of the line solver in second order: it finishes the last substep (X += d, after the first
+// substep of a frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the
+// control says. WIND adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIND BUFFERED
@@ -16,12 +16,12 @@ PUSH_CONSTANTS(PredictPush)
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(constant_id = 1) const bool turns = false;    // the displacement is written to another image than it is read from
+layout(constant_id = 1) const bool turns = false;    // the displacement goes to another image than it is read from
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
 TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
 TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
-layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D control;
+layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control;
 
 bool second_order;  // read where nothing has branched yet (docs/devices.md)
 
@@ -56,6 +56,6 @@ void predict(ivec2 texel) {
 }
 
 void main() {
-    second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     FOR_STRIP(texel, push.grid, predict(texel))
 }

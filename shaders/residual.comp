@@ -1,5 +1,6 @@
-// Stretch error within a substep: an invocation per residual_rows particles of a column, a record per workgroup. A
-// particle answers for the stretch springs whose first particle it is. MASKED: spring shares from an image (holes, cuts).
+// This pass measures the stretch error within a substep. An invocation takes residual_rows particles of a column, each
+// with the stretch springs whose first particle it is, and a workgroup leaves a record. MASKED takes the spring shares
+// from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED
@@ -14,9 +15,9 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_column;
-layout(set = 0, binding = 4, std430) writeonly buffer Partials { ResidualRecord partials[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Residuals { ResidualRecord residuals[]; };
 #ifdef MASKED
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 #define RECORD ResidualRecord
@@ -27,7 +28,7 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
     ivec2 second = first + offset;
     if (first.x >= push.grid.x || second.x >= push.grid.x || second.y >= push.grid.y) return record;
 #ifdef MASKED
-    float share = imageLoad(spring_share_image, first)[channel];
+    float share = imageLoad(spring_shares, first)[channel];
 #else
     float share = 1.0f;
 #endif
@@ -46,5 +47,5 @@ void main() {
         if (++row >= rows) break;
     }
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) partials[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    if (gl_LocalInvocationIndex == 0u) residuals[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
 }

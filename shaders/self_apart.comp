@@ -1,5 +1,5 @@
-// Of every cloth what it is led by to come apart from those that it started through and still crosses: one invocation per
-// cloth.
+// This pass finds the displacement that leads a cloth apart from those that it started through and still crosses. It
+// has one invocation per cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,7 +1,7 @@
-// Lists the pairs of cells of a cloth, neighbours and those two columns or rows apart, whose triangles and edges this
-// substep may bring together: those about which it is not flat, or that it does not keep apart. An invocation goes down
-// a part of a column or two, so that of the 4 x 4 particles about a cell it loads one row for the next; a workgroup's z
-// says of which cloth.
+// This pass lists the pairs of cells of a cloth, neighbours and those two columns or rows apart, whose triangles and
+// edges this substep may bring together: the cloth about them is not flat, and does not keep them apart. An invocation
+// goes down a part of a column or two, so that from one cell to the next it loads one row of the 4 x 4 particles about
+// it. A workgroup's z is its cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -9,8 +9,8 @@
 #include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 17) const int strip_rows = 1;     // most of a column that an invocation takes in turn
-layout(constant_id = 19) const int strip_columns = 1;  // and of how many of them
+layout(constant_id = 17) const int strip_rows = 1;     // most cells of a column that an invocation takes in turn
+layout(constant_id = 19) const int strip_columns = 1;  // columns that an invocation takes
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
@@ -23,7 +23,7 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 
 SelfCloth cloth;
 
-/// Of the cloth's grid; over its edge its last column or row again.
+/// Returns where a particle of the cloth's grid lies on the sheet. Beyond the grid its last column or row stands in.
 ivec2 texel_at(ivec2 own) { return cloth.first + min(own, cloth.grid - 1); }
 vec3 at(ivec2 own) { return imageLoad(positions, texel_at(own)).xyz; }
 vec3 moved(ivec2 own) { return self_relative_motion(imageLoad(displacements, texel_at(own)).xyz, carried); }
@@ -35,21 +35,21 @@ SelfColumn column_moved(ivec2 first) {
     return SelfColumn(moved(first), moved(first + ivec2(0, 1)), moved(first + ivec2(0, 2)), moved(first + ivec2(0, 3)));
 }
 
-/// From the next row on.
+/// Returns a column moved on by one row.
 SelfColumn further(SelfColumn x, vec3 last) { return SelfColumn(x.b, x.c, x.d, last); }
 
-/// Of the 3 x 3 particles from a patch's first on.
+/// Returns the first 3 x 3 of the 4 x 4 particles.
 SelfPatch patch_of(SelfColumns x) {
     return SelfPatch(x.b.b, x.a.b, x.c.b, x.b.a, x.b.c, x.a.a, x.c.a, x.a.c, x.c.c);
 }
 
-/// Bits of the pairs of cells that a cell stands for and that the cloth keeps apart.
+/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that the cloth keeps apart.
 uint kept_apart(SelfColumns x, SelfColumns motions, bool inside) {
     bool flat_there = inside && self_patch_lies_flat(push, cloth, patch_of(x), patch_of(motions));
     return self_close_apart(push, cloth, x, motions) | (flat_there ? (1u << self_neighbour_pairs) - 1u : 0u);
 }
 
-/// Bits of the pairs of cells at most two columns and rows apart that a cell of a cloth stands for and that exist.
+/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that exist.
 uint close_pairs_of(ivec2 own) {
     uint bits = 0u;
     for (int k = 0; k < self_close_pairs; ++k) {
@@ -60,13 +60,13 @@ uint close_pairs_of(ivec2 own) {
     return bits;
 }
 
-/// Those of them that are not ruled out by how the cloth lies there.
+/// Returns bits of the pairs of cells that a cell stands for and that the way the cloth lies there does not rule out.
 uint near_pairs(ivec2 own, SelfColumns x, SelfColumns motions) {
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
     return close_pairs_of(own) & ~kept_apart(x, motions, inside);
 }
 
-/// Lists them; `near`: of cells beside each other, self_close_pairs bits each.
+/// Lists the pairs of `near`, which has self_close_pairs bits for each of some cells beside each other.
 void list(ivec2 first, uint near) {
     uint count = uint(bitCount(near)), place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
@@ -75,7 +75,7 @@ void list(ivec2 first, uint near) {
         ivec4 pair = self_close_pair(bit - column * self_close_pairs);
         ivec2 texel = cloth.first + first + ivec2(column, 0);
         ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
-        if (near != 0u && place < uint(push.cell_room)) cells[place] = ivec2(place_of(a), place_of(b));
+        if (near != 0u && place < uint(push.cell_capacity)) cells[place] = ivec2(place_of(a), place_of(b));
         ++place;
         near &= max(near, 1u) - 1u;
         if (near == 0u) break;
@@ -88,7 +88,7 @@ void main() {
     cloth = push.cloth;
     if (cloth_count > 1) cloth = cloths[which];
     bool meets = meetings[which * (push.cloth_count + 1)] != self_meets_not;
-    // Parts of equal length, counted row by row, so that few lanes of a subgroup have nothing to do.
+    // The parts have equal length and are counted row by row, so that few lanes of a subgroup have nothing to do.
     int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
     int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x),
         across = (cloth.grid.x - 1) / strip_columns + 1;
@@ -101,7 +101,7 @@ void main() {
         motions[c] = column_moved(ivec2(first + c, y));
     }
     for (;;) {
-        // Written out: the driver does not unroll what is so long.
+        // This is written out, as the driver does not unroll so long a loop.
         uint near = near_pairs(ivec2(first, y), SelfColumns(x[0], x[1], x[2], x[3]),
                                SelfColumns(motions[0], motions[1], motions[2], motions[3]));
         if (strip_columns > 1)

@@ -1,6 +1,6 @@
-// Where the margin of the last search is used up: lists the pairs of blocks of 2 x 2 cells that this substep or one to
-// come may bring together. Every block goes through the tree of boxes for others near its own, from its own on, so that
-// no two are met twice. The list has no order, and what is made of it must not mind.
+// This pass runs where the margin of the last search is used up. It lists the pairs of blocks of 2 x 2 cells that this
+// substep or one to come may bring together. Every block goes through the tree of boxes for others near its own, from
+// its own on, so that no two meet twice. The list has no order, so later passes must not depend on any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -17,7 +17,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Meetings { uint meetings[];
 layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
-/// The cloth of a block, which has none of another: those begin at even columns and rows.
+/// Returns the cloth of a block. A block belongs to one cloth, since cloths begin at even columns and rows.
 int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
 
 bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
@@ -35,7 +35,7 @@ void main() {
     bool searches = gl_GlobalInvocationID.x <= uint(last) && owner >= 0;
     precise float most = (cloth_at(2 * own).thickness + push.thickness) * 0.5f;
     int level = searches ? push.top : push.top + 1;
-    int first = 0, visits = 0;  // first: box of the level
+    int first = 0, visits = 0;  // first: index of the level's first box
     for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
     SelfBox box = box_at(begin + index);
     bool entered = true;
@@ -46,17 +46,17 @@ void main() {
                     self_boxes_meet(box, box_at(place), push, most);
         ++visits;
         if (visits > self_visit_limit) {
-            atomicAdd(record[0].block_count, uint(push.cell_room));
+            atomicAdd(record[0].block_count, uint(push.cell_capacity));
             level = push.top;
             open = false;
             entered = false;
         }
         bool found = open && level == 1;
-        // One cloth is in question at all because it meets itself, and the way here judged it by its own thickness.
+        // A scene's only cloth needs no further test: it meets itself, and `open` judged it by its own thickness.
         if (cloth_count > 1) found = found && meets(owner, box, node, box_at(place));
         if (found) {
             uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
-            if (at < uint(push.cell_room)) blocks[at] = ivec2(index, place - begin);
+            if (at < uint(push.cell_capacity)) blocks[at] = ivec2(index, place - begin);
         }
         if (open && level > 1) {
             --level;

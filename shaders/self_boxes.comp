@@ -1,6 +1,6 @@
-// Boxes over the sheet as it is at the start of a substep, one per particle about the cell whose first corner that is.
-// Everything that the pairs of the substep will add up begins anew, and what the particles are to do before contact is
-// kept. Where a cell has left what it was last looked for in, candidates are searched again.
+// This pass makes the boxes over the sheet as it is at the start of a substep, one per particle about the cell whose
+// first corner that is. It resets the sums of the substep's pairs and keeps the motions that the particles would make
+// without contact. Where a cell has left the box with which it was last looked for, it asks for a new search.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -16,11 +16,11 @@ layout(set = 0, binding = 5, std430) writeonly buffer Corrections { ivec4 correc
 layout(set = 0, binding = 6, std430) writeonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Before { vec4 before[]; };
-layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer kept;  // of the last search
+layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer kept;  // boxes of the last search
 layout(set = 0, binding = 10, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
-vec3 carried, travel;  // of the record, read where nothing has branched yet (docs/devices.md)
+vec3 carried, travel;  // those of record[0], read where nothing has branched yet (docs/devices.md)
 bool searches = false;
 
 SelfBox particle_box(ivec2 texel) {
@@ -38,8 +38,9 @@ SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
     return box;
 }
 
-/// Whether a cell has left what it was looked for in, but for rounding: all have travelled by the same since then, which
-/// brings none nearer to another. Nothing that is short-circuited: it would be branches.
+/// Returns whether a cell has left the box with which it was looked for, or may have by rounding. The travel that all
+/// cells have made since then brings none nearer to another, so it does not count. There is no && or ||, which would
+/// branch.
 bool has_left(SelfBox box, SelfBox was) {
     vec3 least = vec3(push.least);
     precise vec3 above = (box.lower.xyz - travel) - was.lower.xyz;

@@ -1,4 +1,5 @@
-// After a search: lists the pairs of cells, none that are close in their cloth, of the blocks that it found.
+// This pass runs after a search and lists the pairs of cells of the blocks that it found, without those that are close
+// in their cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -16,7 +17,7 @@ layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
-/// Cell k (0..3) of a block.
+/// Returns cell k (0..3) of a block.
 ivec2 cell_of(int block, int k) {
     return 2 * texel_of(block, self_tree_size(push.grid, 1).x) + ivec2(k & 1, k >> 1);
 }
@@ -24,7 +25,7 @@ ivec2 cell_of(int block, int k) {
 bool inside(ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; }
 int index_of(ivec2 cell) { return min(cell.y, push.grid.y - 1) * push.grid.x + min(cell.x, push.grid.x - 1); }
 
-/// Cells of a block and what they are in.
+/// The cells of a block lie in these boxes.
 struct Block {
     ivec2 at;
     int cloth;
@@ -37,15 +38,15 @@ Block block_of(int block) {
                  box_at(index_of(cell_of(block, 2))), box_at(index_of(cell_of(block, 3))));
 }
 
-/// Whether cell k of one block may come near cell l of another, and neither lies past an edge nor are they judged by how
-/// their cloth lies between them (self_bent.comp).
+/// Returns whether cell k of one block may come near cell l of another. Cells past the sheet's edge do not count, nor
+/// do cells close in their cloth, which self_bent.comp judges by how the cloth lies between them.
 bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
     ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
     bool may = inside(a) && inside(b) && !(one.cloth == other.cloth && self_close(a, b));
     return may && self_boxes_meet(box, other_box, push, thickness);
 }
 
-/// Bits of the cells of another block that cell k of one meets.
+/// Returns bits of the cells of another block that cell k of one meets.
 uint near(Block one, SelfBox box, int k, Block other, float thickness) {
     return (meet(one, box, k, other, other.box0, 0, thickness) ? 1u : 0u) |
            (meet(one, box, k, other, other.box1, 1, thickness) ? 2u : 0u) |
@@ -63,7 +64,7 @@ void judge(ivec2 pair) {
     for (;;) {
         int k = max(findLSB(found), 0);
         int a = index_of(one.at + ivec2((k >> 2) & 1, k >> 3)), b = index_of(other.at + ivec2(k & 1, (k >> 1) & 1));
-        if (found != 0u && place < uint(push.cell_room)) candidates[place] = ivec2(min(a, b), max(a, b));
+        if (found != 0u && place < uint(push.cell_capacity)) candidates[place] = ivec2(min(a, b), max(a, b));
         ++place;
         found &= max(found, 1u) - 1u;
         if (found == 0u) break;
@@ -71,7 +72,7 @@ void judge(ivec2 pair) {
 }
 
 void main() {
-    int count = self_listed(record[0].block_count, push.cell_room);
+    int count = self_listed(record[0].block_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(blocks[i]))
     dispatch(self_size_near, reached);
 }

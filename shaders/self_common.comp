@@ -1,5 +1,6 @@
-// What a substep's contact begins with: the motion that all particles are measured against, what a few have in common
-// or, where some are always held, none, and records for the passes to come. One invocation works.
+// This pass begins a substep's contact. It finds the motion that all particles are measured against, which a few
+// samples have in common, or none where some particles are always held. It also resets the records of the passes to
+// come. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CROSSED

@@ -1,9 +1,9 @@
-// Adds up what the listed pairs push their corners by: integers, so that the order does not matter. What comes after it
-// runs only where something was pushed.
+// This pass adds up the corrections by which the listed pairs push their corners, in integers, so that the order does
+// not matter. The passes after it run only where something was pushed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIDE
-#ifdef WIDE  // two sums in an atomic of 64 bits: half as many, of which most of the pass consists
+#ifdef WIDE  // two sums share an atomic of 64 bits, which halves the atomics that most of the pass consists of
 #extension GL_EXT_shader_atomic_int64 : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #endif
@@ -30,7 +30,8 @@ layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 bool pushes = false;
 
 #ifdef WIDE
-/// Two sums in one, the second in the upper half, which the first one's sign is carried into (self_sums).
+/// Returns two addends in one, the second in the upper half. The sign of the first is carried into that, which
+/// self_sums takes back.
 uint64_t both(int lower, int upper) { return uint64_t(int64_t(lower)) + (uint64_t(uint(upper)) << 32); }
 void add_units(int place, int x, int y, int z, int weight) {
     atomicAdd(corrections[place].x, both(x, y));
@@ -45,7 +46,7 @@ void add_units(int place, int x, int y, int z, int weight) {
 }
 #endif
 
-/// Adds to what a corner is pushed by.
+/// Adds an impulse's correction to those of a corner.
 void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
     int place = place_of(texel);
     precise float moves = mass * weight;
@@ -78,10 +79,10 @@ void push_apart(bool edges, uvec4 pair) {
 }
 
 void main() {
-    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_room);
-    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_room);
+    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_capacity);
+    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_capacity);
     FOR_EVERY(i, points, push_apart(false, pairs[i]))
-    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_room - 1 - i]))
+    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_capacity - 1 - i]))
     dispatch(self_size_push + push.round, pushes ? uint(push.grid.x * push.grid.y) : 0u);
     if (push.round + 1 < self_iterations)
         dispatch(self_size_contact + push.round + 1, pushes ? uint(max(points, edges)) : 0u);

@@ -1,5 +1,5 @@
-// Counts what cloths that started through each other still cross, of the cells that are near each other, and how fast they
-// part there: integers, so that the order does not matter.
+// This pass counts the pairs of cells near each other in which cloths that started through each other still cross, and
+// adds up how fast they part there, in integers, so that the order does not matter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -37,12 +37,12 @@ void judge_crossed(SelfCrossed pair, int which, ivec2 cells_of) {
 void judge(int entry) {
     ivec2 pair = cells[entry];
     uint meeting = meetings[owner_of(pair.x) * push.cloth_count + owner_of(pair.y)];
-    // On the default device only a loop skips anything.
+    // On the default device only a loop skips anything, so this is one of no round or one.
     int rounds = meeting >= self_meets_apart ? 1 : 0, which = int(max(meeting, self_meets_apart) - self_meets_apart);
     for (int k = 0; k < rounds; ++k) judge_crossed(crossed[which], which, pair);
 }
 
 void main() {
-    int count = self_listed(record[0].cell_count, push.cell_room);
+    int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
 }

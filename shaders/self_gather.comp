@@ -1,5 +1,5 @@
-// Lays a cloth's particles on the sheet, as they are at this point of a substep.
-// MASKED: triangles that exist are read from an image (holes, cuts).
+// This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
+// that exist from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
@@ -14,22 +14,23 @@ PUSH_CONSTANTS(SelfClothPush)
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-VECTOR_KEPT(2, Positions, positions);          // of the sheet, where other cloths' stay
-VECTOR_KEPT(3, Displacements, displacements);  // likewise
+// These two are of the sheet, where those of other cloths stay.
+VECTOR_KEPT(2, Positions, positions);
+VECTOR_KEPT(3, Displacements, displacements);
 #ifdef MASKED
-layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D existing;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
 #endif
 
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
 #ifdef MASKED
-    return (imageLoad(existing, cell).x & uint(which)) != 0u;
+    return (imageLoad(cells, cell).x & uint(which)) != 0u;
 #else
     return true;
 #endif
 }
 
-/// Bits of what a particle owns and that exists: two triangles, then three edges.
+/// Returns bits of the primitives that a particle owns and that exist: two triangles, then three edges.
 uint owned(ivec2 texel) {
     uint bits = (exists(texel, 1) ? 1u : 0u) | (exists(texel, 2) ? 2u : 0u);
     for (int k = 0; k < 3; ++k) {

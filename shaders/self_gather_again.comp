@@ -1,5 +1,5 @@
-// Lays those of a cloth's particles on the sheet again that colliders have moved since all lay there: what is elsewhere
-// than on the sheet, to the bit.
+// This pass lays those of a cloth's particles on the sheet again that colliders have moved since all were laid there.
+// It tells them by a displacement that differs from the sheet's in any bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants BUFFERED
@@ -13,7 +13,7 @@ PUSH_CONSTANTS(SelfClothPush)
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;  // on the sheet; w: bits (self_sheet.h)
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;  // the sheet's; w: bits (self_sheet.h)
 TRIPLE_OUT(2, DisplacementsOut, displacements_out);
 
 bool has_moved(ivec2 texel) {

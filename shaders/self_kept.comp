@@ -1,4 +1,5 @@
-// The boxes in which cells are looked for, in this substep and those to come: as they go on now, with a margin.
+// This pass makes the boxes with which cells are looked for in this substep and those to come: they follow the cells'
+// present motion, and have a margin.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

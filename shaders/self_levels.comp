@@ -1,5 +1,5 @@
-// The tree over the boxes in which cells are looked for: its levels from `level` to `last`, where several in one
-// workgroup.
+// This pass makes levels of the tree over the boxes with which cells are looked for, from `level` to `last`. Where
+// these are several, it has one workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -10,7 +10,7 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, std430) buffer Boxes { SelfBox boxes[]; };
 
-/// Box of the nodes below one.
+/// Returns the box of the up to four nodes below a node.
 SelfBox node_box(ivec2 node, ivec2 below, int first) {
     ivec2 corner = ivec2(2 * node.x, 2 * node.y);
     bool right = corner.x + 1 < below.x;
@@ -25,7 +25,7 @@ SelfBox node_box(ivec2 node, ivec2 below, int first) {
 
 void main() {
     int stride = int(gl_NumWorkGroups.x) * workgroup_width;
-    int first = 0;  // of the level below
+    int first = 0;  // index of the first box of the level below
     for (int level = 1; level < push.level; ++level) first += self_tree_count(push.grid, level - 1);
     for (int level = push.level; level <= push.last; ++level) {
         ivec2 below = self_tree_size(push.grid, level - 1), size = self_tree_size(push.grid, level);

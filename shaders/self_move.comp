@@ -1,4 +1,4 @@
-// Cuts the motions short that would go farther than was proved to cross nothing.
+// This pass cuts short every motion that would go farther than was proved to cross nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants BUFFERED
@@ -23,9 +23,9 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 
 struct Motion {
     bool held, cut;
-    vec4 displacement;  // w: bits
-    vec3 bounded;       // what contact allows it
-    float share;        // of that, which crosses nothing
+    vec4 displacement;  // w: bits (self_sheet.h)
+    vec3 bounded;       // displacement that contact allows, m
+    float share;        // share of the motion that crosses nothing
 };
 
 Motion motion_of(int place) {

@@ -1,5 +1,5 @@
-// Lists the pairs of cells, none close in their cloth, whose triangles and edges this substep may bring together: of the
-// candidates those whose boxes are near enough.
+// This pass lists the pairs of cells, none close in their cloth, whose triangles and edges this substep may bring
+// together: the candidates whose boxes are near enough.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -21,12 +21,12 @@ void judge(ivec2 pair) {
     float thickness = self_mean_thickness(cloth_at(texel_of(pair.x)), cloth_at(texel_of(pair.y)));
     if (self_boxes_meet(box_at(pair.x), box_at(pair.y), push, thickness)) {
         uint place = place_after(atomicAdd(record[0].cell_count, 1u), 1u);
-        if (place < uint(push.cell_room)) cells[place] = pair;
+        if (place < uint(push.cell_capacity)) cells[place] = pair;
     }
 }
 
 void main() {
-    int count = self_listed(record[0].candidate_count, push.cell_room);
+    int count = self_listed(record[0].candidate_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(candidates[i]))
     dispatch(self_size_primitives, reached);
 }

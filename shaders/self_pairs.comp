@@ -1,6 +1,6 @@
-// Lists the pairs of primitives that this substep may bring together, of those whose boxes are near each other: particles
-// and triangles from the list's begin on, edges from its end on, so that a pass that goes through it knows each one's
-// kind.
+// This pass lists the pairs of primitives that this substep may bring together, among those whose boxes are near each
+// other. Particles and triangles fill the list from its begin, edges from its end, so that the passes that go through
+// it know each pair's kind.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -41,7 +41,7 @@ void judge_point(uint entry) {
     uvec4 pair = self_point_pair(texel_of(own.x), texel_of(own.y), (k & 1) + 1);
     if (is_listed(false, pair)) {
         uint place = place_after(atomicAdd(record[0].point_count, 1u), 1u);
-        if (place < uint(push.pair_room)) pairs[place] = pair;
+        if (place < uint(push.pair_capacity)) pairs[place] = pair;
     }
 }
 
@@ -51,16 +51,16 @@ void judge_edges(uint entry) {
     uvec4 pair = self_edge_pair(texel_of(met.x), one, texel_of(met.y), k - 3 * one);
     if (is_listed(true, pair)) {
         uint place = place_after(atomicAdd(record[0].edge_count, 1u), 1u);
-        if (place < uint(push.pair_room)) pairs[uint(push.pair_room) - 1u - place] = pair;
+        if (place < uint(push.pair_capacity)) pairs[uint(push.pair_capacity) - 1u - place] = pair;
     }
 }
 
 void main() {
     carried = record[0].carried.xyz;
-    int points = self_both_listed(record[0].near_point_count, record[0].near_edge_count, push.near_room);
-    int edges = self_both_listed(record[0].near_edge_count, record[0].near_point_count, push.near_room);
+    int points = self_both_listed(record[0].near_point_count, record[0].near_edge_count, push.near_capacity);
+    int edges = self_both_listed(record[0].near_edge_count, record[0].near_point_count, push.near_capacity);
     FOR_EVERY(i, points, judge_point(near[i]))
-    FOR_EVERY(i, edges, judge_edges(near[push.near_room - 1 - i]))
+    FOR_EVERY(i, edges, judge_edges(near[push.near_capacity - 1 - i]))
     dispatch(self_size_contact, reached);
-    dispatch(self_size_room, reached);
+    dispatch(self_size_limit, reached);
 }

@@ -1,5 +1,6 @@
-// Of the cells that were found near each other, lists the pairs of primitives whose boxes are: particles and triangles from
-// the list's begin on, edges from its end on. CROSSED: not of cloths that started through each other and still cross.
+// This pass lists the pairs of primitives whose boxes are near each other, among the pairs of cells that are. Particles
+// and triangles fill the list from its begin, edges from its end. CROSSED leaves out cloths that started through each
+// other and still cross.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CROSSED
@@ -23,16 +24,15 @@ layout(set = 0, binding = 9, std430) readonly buffer Crossings { SelfCrossings c
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
-/// Boxes of what a cell's first particle owns.
+/// A cell has the boxes of its first particle and of the triangles and edges that this owns.
 struct Cell {
     ivec2 at;
-    uint bits;  // of the triangles and edges that exist
+    uint bits;  // bits of the triangles and edges that exist
     SelfBox particle, upper, lower, along, across, diagonal;
 };
 
-/// Where a particle is and how it moves.
 struct Corner {
-    vec3 at, motion;
+    vec3 at, motion;  // place at the substep's start and motion against `carried`, m
 };
 Corner corner_at(ivec2 texel, vec3 displacement) {
     return Corner(imageLoad(positions, texel).xyz, self_relative_motion(displacement, carried));
@@ -52,7 +52,7 @@ Corners corners_of(int place) {
                    corner_at(own + ivec2(0, 1)), corner_at(own + ivec2(1, 1)));
 }
 
-/// Past the last column or row of a cloth a cell has no triangle, and not all of its corners.
+/// A cell without triangles may lie past the last column or row of its cloth and lack corners, so it has no normal.
 vec3 normal_of(Corners of) {
     return self_cell_normal((of.bits & 3u) != 0u, of.first.at, of.right.at, of.below.at, of.last.at);
 }
@@ -71,13 +71,13 @@ uint meets(SelfBox one, SelfBox other, float thickness) {
     return self_primitives_meet(one, other, push, thickness) ? 1u : 0u;
 }
 
-/// Bits of the triangles of a cell that exist and that a particle may meet.
+/// Returns bits of the triangles of a cell that exist and that another's first particle may meet.
 uint triangles_met(Cell one, Cell other, float thickness) {
     uint bits = meets(one.particle, other.upper, thickness) | (meets(one.particle, other.lower, thickness) << 1);
     return bits & other.bits & 3u;
 }
 
-/// Bits of its edges that exist and that edge k of another may meet.
+/// Returns bits of the edges of a cell that exist and that edge k of another may meet.
 uint edges_met(Cell one, int k, SelfBox edge, Cell other, float thickness) {
     uint bits = meets(edge, other.along, thickness) | (meets(edge, other.across, thickness) << 1) |
                 (meets(edge, other.diagonal, thickness) << 2);
@@ -98,7 +98,7 @@ void list_points(int entry, uint bits) {
     if (count > 0u) place = place_after(atomicAdd(record[0].near_point_count, count), count);
     for (int k = 0; k < self_first_edge_pair; ++k) {
         bool listed = (bits & (1u << k)) != 0u;
-        if (listed && place < uint(push.near_room)) near[place] = self_near_entry(entry, k);
+        if (listed && place < uint(push.near_capacity)) near[place] = self_near_entry(entry, k);
         place += listed ? 1u : 0u;
     }
 }
@@ -108,8 +108,8 @@ void list_edges(int entry, uint bits) {
     if (count > 0u) place = place_after(atomicAdd(record[0].near_edge_count, count), count);
     for (;;) {
         int k = findLSB(bits);
-        if (k >= 0 && place < uint(push.near_room))
-            near[uint(push.near_room) - 1u - place] = self_near_entry(entry, k);
+        if (k >= 0 && place < uint(push.near_capacity))
+            near[uint(push.near_capacity) - 1u - place] = self_near_entry(entry, k);
         ++place;
         bits &= max(bits, 1u) - 1u;
         if (bits == 0u) break;
@@ -138,7 +138,7 @@ void judge(int entry) {
 
 void main() {
     carried = record[0].carried.xyz;
-    int count = self_listed(record[0].cell_count, push.cell_room);
+    int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
     dispatch(self_size_pairs, reached);
 }

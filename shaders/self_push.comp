@@ -1,4 +1,5 @@
-// Moves the particles by what the pairs push them. CROSSED: in the first round also by what their cloth is led by.
+// This pass moves the particles by the corrections with which the pairs push them. CROSSED adds in the first round the
+// displacement that leads their cloth apart from others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIDE CROSSED BUFFERED
@@ -17,7 +18,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"
 VECTOR_OUT(8, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
-layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer corrections_in;  // bits of integers
+layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer corrections_in;  // integers, by their bits
 layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer before_in;
 layout(set = 0, binding = 9, std430) writeonly buffer CorrectionsOut { ivec4 corrections_out[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
@@ -30,11 +31,11 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 
 ivec4 corrections_of(int place) { return floatBitsToInt(imageLoad(corrections_in, place)); }
 
-/// Whether a place is pushed at all, judged before its sums are taken apart: of a weight above 0 and the sum below it,
-/// whose sign is carried into it (self_contact.comp), one is not 0.
+/// Returns whether a place may be pushed, before its sums are taken apart. A push has a weight above 0; should the sign
+/// that is carried up from the sum below (self_contact.comp) make that 0, the sum itself is not 0.
 bool pushed(int place) {
 #ifdef CROSSED
-    if (push.round == 0) return true;  // led, perhaps
+    if (push.round == 0) return true;  // its cloth may be led
 #endif
     ivec4 sum = corrections_of(place);
     return (sum.z | sum.w) != 0;

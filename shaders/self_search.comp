@@ -1,5 +1,5 @@
-// Begins a search for the pairs of cells that may meet, where the substep needs one: says how far its passes run. One
-// invocation works.
+// This pass begins a search for the pairs of cells that may meet, where the substep needs one: it sets the sizes of the
+// search's passes. One invocation works.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -12,7 +12,7 @@ layout(set = 0, binding = 0, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 1, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
-/// Of a pass with an invocation per entry.
+/// Returns the workgroups of a pass with an invocation per entry.
 uint groups_for(int count) { return uint((count + workgroup_width - 1) / workgroup_width); }
 
 void main() {

@@ -1,4 +1,4 @@
-// A cloth as the first light sees it. CUT: with the vertices on its cut springs.
+// Draws a cloth as the first light sees it; with CUT, with the vertices on its cut springs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CUT

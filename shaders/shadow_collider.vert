@@ -1,4 +1,4 @@
-// Colliders as the first light sees them.
+// Draws colliders as the first light sees them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/collider_types.h"

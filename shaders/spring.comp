@@ -1,6 +1,6 @@
-// Relaxes one parity of one spring direction, plain schedule: one invocation per spring, so no particle is touched
-// twice. MASKED: the spring shares come from an image (holes, cuts). TENSION: the springs' tension is stored, for the next
-// iteration of the substep and for the stretch error.
+// This plain kernel relaxes the springs of one direction and parity with an invocation per spring. Such springs share
+// no particle. MASKED takes the spring shares from an image (holes, cuts). TENSION stores the springs' tension, for the
+// next iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED TENSION BUFFERED
@@ -17,7 +17,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 #ifdef TENSION
 layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
@@ -36,7 +36,7 @@ void main() {
     float weight_first = dragged_weight(position_first.w, displacement_first.w);
     float weight_second = dragged_weight(position_second.w, displacement_second.w);
 #ifdef MASKED
-    float share = LOAD(spring_share_image, first)[push.channel];
+    float share = LOAD(spring_shares, first)[push.channel];
 #else
     float share = border_share(first, push.offset, push.grid);
 #endif

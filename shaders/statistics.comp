@@ -1,6 +1,6 @@
-// Statistics of a cloth: an invocation and a record per statistics_rows particles of a column. A
-// particle answers for the springs whose first particle it is. MASKED: spring shares and masses come from images (holes,
-// cuts). COLLIDING: the scene has colliders.
+// This pass takes the statistics of a cloth, with an invocation and a record per statistics_rows particles of a column.
+// A particle answers for the springs whose first particle it is. MASKED takes spring shares and masses from images
+// (holes, cuts). COLLIDING measures contact with the scene's colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -21,36 +21,36 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
-layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
+layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_share;
 #endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
-// Of each cloth, xyz: positions are summed relative to this point, m; w: thickness, m.
-layout(set = 0, binding = 12, rgba32f) uniform readonly image2D reference;
+// Each cloth has a texel. xyz: positions are summed relative to this point, m; w: thickness, m.
+layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
 
-vec4 reference_of_cloth() { return imageLoad(reference, ivec2(0, gl_WorkGroupID.z)); }
+vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, gl_WorkGroupID.z)); }
 
-/// Held particles have a mass too; their w does not tell it.
-float mass_share(ivec2 texel) {
+/// The inverse mass w would not do, since held particles have a mass too.
+float mass_share_of(ivec2 texel) {
 #ifdef MASKED
-    return LOAD(mass_image, texel).x;
+    return LOAD(mass_share, texel).x;
 #else
     return border_mass_share(texel, push.grid);
 #endif
 }
 
-/// Positions around a particle and of the particle itself.
+/// The positions around a particle, and of the particle itself.
 struct Neighbours {
     vec4 here;
     vec3 right, below_left, below, below_right;
 };
 
-/// Of the springs that a particle owns; what lies outside the grid is of no use.
+/// Returns the shares of the springs that a particle owns, by direction; 0 for those that leave the grid.
 vec4 shares_of(ivec2 texel) {
 #ifdef MASKED
-    vec4 shares = LOAD(spring_share_image, texel);
+    vec4 shares = LOAD(spring_shares, texel);
 #else
     vec4 shares = vec4(border_share(texel, ivec2(1, 0), push.grid), border_share(texel, ivec2(0, 1), push.grid), 1.0f,
                        1.0f);
@@ -69,7 +69,7 @@ StatisticsRecord with_spring(StatisticsRecord record, vec3 first, vec3 second, i
 StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     vec3 at = around.here.xyz;
     precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
-    StatisticsRecord record = particle_statistics(at, velocity, mass_share(texel), reference_of_cloth().xyz,
+    StatisticsRecord record = particle_statistics(at, velocity, mass_share_of(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
     vec4 shares = shares_of(texel);
     record = with_spring(record, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);
@@ -77,7 +77,8 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     record = with_spring(record, at, around.below_right, 2, shares.z, 0.0f);
     record = with_spring(record, at, around.below_left, 3, shares.w, 0.0f);
 #ifdef COLLIDING
-    // The deepest contact that the collision pass would find. It does not move held particles, so those are no measure.
+    // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
+    // count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     if (record.counts.x == 0u && around.here.w != 0.0f)
         record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false).depth;

@@ -1,4 +1,5 @@
-// Joins records of each cloth's, statistics_chunk to one: lane l takes every 64th of them from the l-th on, then the tree.
+// This pass joins the records of each cloth, statistics_chunk to one: lane l takes every 64th of them from the l-th on,
+// then a tree joins the lanes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

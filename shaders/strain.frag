@@ -1,5 +1,5 @@
-// A cloth's heat map. Colours are not lit, so that each can be read off the legend; only where the surface is seen
-// nearly edge on it is darker, which draws the outlines of folds.
+// Draws a cloth's heat map. Colours are not lit, so that each can be read off the legend; only where the surface is
+// seen nearly edge on it is darker, which draws the outlines of folds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster_types.h"

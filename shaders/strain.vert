@@ -1,7 +1,7 @@
-// A cloth's particles as vertices of a heat map: what the springs that meet in a particle are strained by. A strain is
-// (length - rest length) / rest length, as in the statistics; of a particle's springs the one that is strained most
-// counts, so that a picture's extremes are the statistics' own. CUT: and the vertices on its cut springs, each with its
-// own side's particle. MASKED: spring shares come from an image (holes, cuts); without a share there is no spring.
+// Makes a cloth's particles vertices of a heat map of strain, (length - rest length) / rest length as in the
+// statistics. The spring of a particle that is strained most counts, so that a picture's extremes are the statistics'
+// own. CUT adds the vertices on its cut springs, each with its own side's particle. MASKED: spring shares come from an
+// image (holes, cuts); without a share there is no spring.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CUT MASKED
@@ -16,21 +16,21 @@ layout(push_constant) uniform Push { StrainPush push; };
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
 #ifdef MASKED
-layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_shares;
 #endif
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
-layout(location = 2) out float place;  // on the heat map
+layout(location = 2) out float place;  // place on the heat map
 #include "include/cloth_vertex.h"
 
-/// `strain`, or that of the spring from a particle to the next along columns (0) or rows (1) where it counts more.
+/// Returns `strain`, or that of the spring from a particle to the next along columns (0) or rows (1) if it counts more.
 float with_spring(float strain, ivec2 first, int direction) {
     ivec2 second = first + ivec2(1 - direction, direction);
     if (any(lessThan(first, ivec2(0))) || any(greaterThanEqual(second, ivec2(push.grid.xy)))) return strain;
     float rest_length = push.springs[direction];
     if (!(rest_length > 0.0)) return strain;
 #ifdef MASKED
-    if (!(imageLoad(spring_share_image, first)[direction] > 0.0)) return strain;
+    if (!(imageLoad(spring_shares, first)[direction] > 0.0)) return strain;
 #endif
     float current = distance(imageLoad(position, first).xyz, imageLoad(position, second).xyz);
     float found = (current - rest_length) / rest_length;

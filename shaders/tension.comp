@@ -1,5 +1,5 @@
-// Tension of the stretch springs that explicit micro-steps gather, as the extension that it would cause: what the
-// statistics compare the strain with. Every texel that owns a spring is written.
+// This pass finds the tension of the stretch springs that explicit steps gather, as the extension that it would cause,
+// with which the statistics compare the strain. Every texel that owns a spring is written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

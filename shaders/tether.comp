@@ -1,5 +1,5 @@
-// Takes particles back that are farther from their anchors than the cloth reaches. Anchors are held particles (w = 0),
-// which this pass does not move; one that was released holds nobody.
+// This pass takes particles back that are farther from their anchors than the cloth reaches. Anchors are held particles
+// (w = 0), which it does not move; one that was released holds nobody.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants BUFFERED
@@ -19,7 +19,8 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer tethers;  // bits of ParticleTethers
 
-/// From one end of a tether to the other; no longer than `length` where there is no tether, or its anchor was released.
+/// Returns the edge from a tether's anchor to its particle, or 0, which never pulls, where there is no tether or its
+/// anchor was released.
 vec3 tether_edge(vec3 start, vec3 displacement, int anchor) {
     ivec2 at = texel_of(max(anchor, 0), push.grid.x);
     vec4 held = imageLoad(position, at);
@@ -27,7 +28,8 @@ vec3 tether_edge(vec3 start, vec3 displacement, int anchor) {
     return anchor >= 0 && held.w == 0.0f ? edge : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Whether a tether pulls at a particle. The second tether pulls after the first: where neither does now, neither will.
+/// Returns whether a tether pulls at a particle. The second tether pulls after the first, so where neither does now,
+/// neither will.
 bool is_pulled(ivec2 texel) {
     vec4 start = imageLoad(position, texel);
     vec3 displacement = imageLoad(displacement_in, texel).xyz;

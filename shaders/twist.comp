@@ -1,6 +1,6 @@
-// Relaxes the twist of one colour of the cells: one invocation per cell, so no particle is touched twice.
-// MASKED: whether the cell is whole comes from the spring shares (holes, cuts). SECOND_ORDER: the control says whether
-// this substep is BDF2.
+// This plain kernel relaxes the twist of one colour of the cells with an invocation per cell. Cells of one colour share
+// no particle. MASKED sees by the spring shares whether a cell is whole (holes, cuts). SECOND_ORDER asks the control
+// whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SECOND_ORDER BUFFERED
@@ -19,10 +19,10 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_share_image;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 #ifdef SECOND_ORDER
-layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D control;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 #endif
 
 void main() {
@@ -34,8 +34,8 @@ void main() {
     ivec2 lower_right = upper_left + ivec2(1, 1);
     float share = 1.0f;
 #ifdef MASKED
-    share = twist_share(LOAD(spring_share_image, upper_left), LOAD(spring_share_image, upper_right),
-                        LOAD(spring_share_image, lower_left));
+    share = twist_share(LOAD(spring_shares, upper_left), LOAD(spring_shares, upper_right),
+                        LOAD(spring_shares, lower_left));
 #endif
     vec4 position_00 = LOAD(position, upper_left);
     vec4 position_10 = LOAD(position, upper_right);
@@ -54,7 +54,7 @@ void main() {
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     float compliance = push.compliance;
 #ifdef SECOND_ORDER
-    if (imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
+    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
 #endif
     vec3 correction = project_bend(difference, weight, share, compliance);
     STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));

@@ -1,7 +1,7 @@
-// Force of the wind: each particle gathers a third of the force, and of the drag, on each of its up to six triangles. An
-// invocation goes down some adjacent columns of particles and hands the triangles between two rows on to the lower one,
-// so that most are looked at once and not by each of their corners; every sum keeps the order of triangle_around.
-// MASKED: the cell image says which triangles exist (holes, cuts).
+// This pass finds the force of the wind: each particle gathers a third of the force, and of the drag, on each of its up
+// to six triangles. An invocation goes down some adjacent columns of particles and hands the triangles between two rows
+// on to the lower one, so that most are computed once and not for each of their corners. Every sum keeps the order of
+// triangle_around. MASKED takes the triangles that exist from the cell image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
@@ -11,9 +11,9 @@
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(constant_id = 20) const int strip_rows = 1;   // of an invocation
-layout(constant_id = 21) const int strip_columns = 1;
+layout(constant_id = 0) const bool advance = false;    // the positions still lack the last substep's displacement
+layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation takes
+layout(constant_id = 21) const int strip_columns = 1;  // columns that it takes, most_columns at most
 const int most_columns = 2;
 PUSH_CONSTANTS(WindPush)
 #define TOGETHER
@@ -33,7 +33,8 @@ struct Member {
 struct Row {
     Member members[most_columns + 2];
 };
-/// What the triangles between two rows give each of their corners, by cell from the one before the first particle on.
+/// The triangles between two rows give each of their corners this force. Cells count from the one before the
+/// invocation's first particle on.
 struct Shares {
     WindForce upper[most_columns + 1], lower[most_columns + 1];
 };
@@ -41,7 +42,7 @@ struct Shares {
 vec3 wind_velocity;
 int first_column;
 
-/// Past a border: of the border.
+/// Loads a row; past the grid's border it loads the border again.
 Row load_row(int y) {
     Row row;
     for (int c = 0; c < strip_columns + 2; ++c) {
@@ -54,7 +55,7 @@ Row load_row(int y) {
     return row;
 }
 
-/// Bits of the triangles of a cell (triangle_around).
+/// Returns bits of the triangles of a cell that exist (triangle_around).
 uint triangles_of(ivec2 cell) {
     if (!cell_inside(cell, push.grid)) return 0u;
 #ifdef MASKED
@@ -64,7 +65,7 @@ uint triangles_of(ivec2 cell) {
 #endif
 }
 
-/// What does not exist adds nothing to a sum, not even a zero's sign.
+/// A triangle that does not exist adds nothing to a sum, not even a zero's sign.
 WindForce share_of(bool exists, Member a, Member b, Member c) {
     WindForce share = wind_share(a.position, b.position, c.position, a.displacement, b.displacement, c.displacement,
                                  push.inverse_step, wind_velocity, push.drag_coefficient, push.lift_coefficient,
@@ -74,12 +75,12 @@ WindForce share_of(bool exists, Member a, Member b, Member c) {
     return share;
 }
 
-/// Of the triangles between row `y` and the one below.
+/// Returns the shares of the triangles between row `y` and the one below.
 Shares shares_between(Row above, Row below, int y) {
     Shares shares;
     for (int c = 0; c < strip_columns + 1; ++c) {
         uint bits = triangles_of(ivec2(first_column - 1 + c, y));
-        // Corners as triangle_corner has them.
+        // The corners are in the order of triangle_corner.
         shares.upper[c] = share_of((bits & 1u) != 0u, above.members[c], above.members[c + 1], below.members[c]);
         shares.lower[c] = share_of((bits & 2u) != 0u, above.members[c + 1], below.members[c + 1], below.members[c]);
     }

@@ -1,4 +1,4 @@
-// A cloth's triangles: pale and lit, with dark edges. SHADOWED: under the first light's shadow map.
+// Draws a cloth's triangles pale and lit, with dark edges; with SHADOWED, under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SHADOWED
@@ -16,15 +16,14 @@ layout(location = 0) out vec4 color;
 
 const float line_width = 1.3;  // pixels
 
-/// Share of a pixel that the lines at whole numbers cover; what they cover on the average where they are too close to
-/// be told apart.
+/// Share of a pixel that the lines at whole numbers cover, or their average where they are too close to be told apart.
 float lines(float cell, float width) {
     float away = abs(fract(cell - 0.5) - 0.5) / width;
     return mix(clamp(0.5 * line_width + 0.5 - away, 0.0, 1.0), min(line_width * width, 1.0),
                smoothstep(0.2, 0.5, width));
 }
 
-/// Of a cell's sides and of the diagonal between its triangles (include/triangles.h).
+/// Share of a pixel that a cell's sides and the diagonal between its triangles (include/triangles.h) cover.
 float edges() {
     vec2 cell = material / push.size.xy * (vec2(push.grid.xy) - 1.0);
     vec3 families = vec3(cell, cell.x + cell.y);
@@ -34,7 +33,7 @@ float edges() {
 }
 
 void main() {
-    // Derivatives before any branch.
+    // Derivatives are taken before any branch, where they are defined.
     vec3 facet = cross(dFdy(world), dFdx(world));
     float edge = edges();
     vec3 normal = gl_FrontFacing ? surface_normal : -surface_normal;

@@ -1,4 +1,4 @@
-// The table that embed.cmake writes: every committed module by name.
+// Every committed module by name.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct SpirvModule {
     std::span<const std::uint32_t> words;
 };
 
-/// Sorted by name.
+/// Returns the modules, sorted by name.
 std::span<const SpirvModule> spirv_modules();
 
 }  // namespace drape

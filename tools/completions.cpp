@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* shells = "bash zsh fish";
 
-/// The words that an option's value may be, separated by spaces; empty when it is none of a few.
+/// Returns the words that an option's value may be, separated by spaces; empty when it is none of a few.
 std::string choices(const OptionText& option) {
     if (option.names.front() == "TEMPLATE") {
         std::string names;
@@ -27,7 +27,7 @@ std::string choices(const OptionText& option) {
 
 bool is_folder(const OptionText& option) { return option.value == "DIR" || option.names.front() == "DIR"; }
 
-/// Any path: the shell's own completion.
+/// Any path counts, as the shell itself completes it.
 bool is_file(const OptionText& option) {
     const std::string& name = option.is_positional ? option.names.front() : option.value;
     return name == "FILE" || name == "SCENE" || name == "SPEC" || name == "BEFORE" || name == "AFTER";
@@ -41,14 +41,14 @@ std::string function_name(const CommandText& command) {
     return name;
 }
 
-/// What a menu has room for: up to the first semicolon, colon, sentence or line.
+/// Shortens a help text to what a menu has room for: up to the first semicolon, colon, sentence or line.
 std::string brief(const std::string& help) {
     std::size_t end = help.find('\n');
     for (const char* mark : {"; ", ": ", ". "}) end = std::min(end, help.find(mark));
     return help.substr(0, end);
 }
 
-/// In single quotes of a shell.
+/// Puts text in single quotes of a shell.
 std::string quoted_word(const std::string& text) {
     std::string word = "'";
     for (const char c : text) {
@@ -60,7 +60,7 @@ std::string quoted_word(const std::string& text) {
     return word += "'";
 }
 
-/// The commands of a group ("" or "bench"), as the words that complete it.
+/// Returns the commands of a group ("" or "bench"), as the words that complete it.
 std::vector<const CommandText*> members(const std::vector<CommandText>& commands, const std::string& group) {
     const std::string begin = group.empty() ? "" : group + " ";
     std::vector<const CommandText*> found;
@@ -73,7 +73,7 @@ std::vector<const CommandText*> members(const std::vector<CommandText>& commands
 
 std::string last_word(const std::string& name) { return name.substr(name.rfind(' ') + 1); }
 
-/// What is completed by words: the members of a group and the long options.
+/// Words complete the members of a group and the long options.
 std::string bash_words(const std::vector<CommandText>& commands, const CommandText& command) {
     std::vector<std::string> words;
     if (command.is_group)
@@ -91,7 +91,7 @@ std::string bash_value(const OptionText& option) {
                              : "COMPREPLY=()";
 }
 
-/// The cases of a command: after an option its value, else words, else what stands at a place.
+/// Returns the cases of a command: after an option come its values, else words, else what stands at a place.
 std::string bash_command(const std::vector<CommandText>& commands, const CommandText& command) {
     std::string text = fmt::format("    '{}')\n        case $before in\n", command.name), place;
     for (const OptionText& option : command.options) {
@@ -140,7 +140,7 @@ std::string zsh_action(const OptionText& option) {
     return fmt::format(":{}:{}", shown, is_folder(option) ? "_files -/" : is_file(option) ? "_files" : " ");
 }
 
-/// An argument of _arguments; brackets and colons of the help would end it.
+/// Returns an argument of _arguments, whose end brackets and colons of the help would be.
 std::string zsh_argument(const OptionText& option, const std::string& name) {
     std::string help;
     for (const char c : brief(option.help)) {
@@ -186,7 +186,7 @@ std::string fish_completion(const std::vector<CommandText>& commands) {
         "# Completion of drape for fish: drape completions fish > ~/.config/fish/completions/drape.fish\n"
         "complete -c drape -f\n";
     for (const CommandText& command : commands) {
-        // What has been written so far begins with the command's words, and no member of a group follows.
+        // The words written so far begin with the command's, and no member of a group follows.
         std::string condition;
         for (std::size_t begin = 0; begin < command.name.size();) {
             const std::size_t end = std::min(command.name.find(' ', begin), command.name.size());

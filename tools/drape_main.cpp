@@ -1,4 +1,3 @@
-// The `drape` command.
 #include <malloc.h>
 
 #include "ending.h"
@@ -7,7 +6,7 @@
 
 namespace {
 
-/// A driver that runs on the CPU takes some kilobytes for every triangle of a picture and gives them back with it:
+/// A driver that runs on the CPU takes some kilobytes for every triangle of a picture and gives them back with it,
 /// pages that the system clears again and again unless the program keeps them (docs/devices.md).
 void keep_freed_memory() {
     constexpr int mebibyte = 1 << 20;

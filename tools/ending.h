@@ -1,4 +1,4 @@
-// How the program ends: stopped by a signal, or with a failure's message and exit code.
+// The program ends stopped by a signal, or with a failure's message and exit code.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace drape::cli {
 /// From here on SIGINT and SIGTERM are remembered; a second one ends the program at once.
 void catch_signals();
 
-/// Whether there was one.
+/// Returns whether SIGINT or SIGTERM came.
 bool stop_requested();
 
 /// Says which signal it was and what became of the work.
@@ -19,7 +19,7 @@ ExitCode report_stop(const std::string& consequence);
 
 ExitCode report_validation(std::uint64_t message_count);
 
-/// The exit code that the current exception stands for; prints its message. Call in a catch block.
+/// Prints the current exception's message and returns the exit code that it stands for. Call it in a catch block.
 ExitCode report_current_exception();
 
 }  // namespace drape::cli

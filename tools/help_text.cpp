@@ -6,7 +6,7 @@ namespace drape::cli {
 
 namespace {
 
-/// Up to the next `separator`, which is taken off `text` too.
+/// Takes the text up to the next `separator` off `text`, with the separator, and returns it.
 std::string_view take(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view part = text.substr(0, end);

@@ -7,7 +7,7 @@ namespace drape::cli {
 
 namespace {
 
-/// Text that roff prints as it stands: no escapes, no requests.
+/// Returns text that roff prints as it stands: without escapes and requests.
 std::string plain(const std::string& text) {
     std::string roff;
     for (const char c : text) {
@@ -23,14 +23,14 @@ std::string plain(const std::string& text) {
     return roff;
 }
 
-/// A paragraph; lines of the help begin lines here.
+/// Returns a paragraph, in which lines of the help begin lines.
 std::string filled(const std::string& text) {
     std::string roff;
     for (const char c : plain(text)) roff += c == '\n' ? std::string("\n.br\n") : std::string(1, c);
     return roff;
 }
 
-/// Lines as they stand.
+/// Returns lines as they stand.
 std::string verbatim(const std::string& text) {
     const std::size_t begin = text.find_first_not_of('\n');
     if (begin == std::string::npos) return {};

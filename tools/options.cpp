@@ -41,7 +41,7 @@ std::string check_override(const std::string& text) {
     return fmt::format("expected /json/pointer=value, got '{}'", text);
 }
 
-/// A paragraph per format that --export takes.
+/// Returns a paragraph per format that --export takes.
 std::string format_help(bool drawn) {
     std::string text;
     for (const OutputFormat* format : output_formats())
@@ -70,14 +70,14 @@ void add_formats(CLI::App& command, const std::string& help, bool drawn,
     };
     command.add_option_function<std::vector<std::string>>("--export", set, help + format_help(drawn))
         ->delimiter(',')
-        ->allow_extra_args(false)  // what follows is the scene
+        ->allow_extra_args(false)  // the next word is the scene
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("FORMAT,...")
         ->check(check, "");
 }
 
-/// --export: beside the pictures, or instead of what `request` has.
+/// Adds --export, whose formats come beside the pictures, or instead of what `request` has.
 void add_export_option(CLI::App& command, RunRequest& request) {
     const bool drawn = request.draws();
     const auto set = [&request, drawn](const std::vector<std::string>& names) {
@@ -99,7 +99,7 @@ std::string set_range(const std::string& text, double& range) {
     return {};
 }
 
-/// --view, --view-range
+/// Adds --view, --view-range.
 void add_view_options(CLI::App& command, PictureView& view) {
     std::string words;
     for (const auto& [name, kind] : view_spellings) words += (words.empty() ? "" : "|") + std::string(name);
@@ -208,7 +208,8 @@ void add_format_option(CLI::App& command, const std::string& help, std::vector<s
 void add_device_option(CLI::App& command, std::string& device) {
     add_option(
         command, "--device", "DEVICE",
-        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: a GPU when there is one",
+        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: what the environment "
+        "variable DRAPE_DEVICE says, else a GPU when there is one",
         device);
 }
 
@@ -229,18 +230,20 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
     command.add_flag_callback(
         "--no-skip", [&scene] { scene.skip = false; },
         "Do the work that is skipped because it changes no bit of the result");
-    std::string words;
-    for (const auto& [name, schedule] : schedule_spellings) words += (words.empty() ? "" : "|") + std::string(name);
     add_option(
-        command, "--schedule", words.c_str(),
-        "How passes run on the device: `buffers` stores through buffers of the images' memory, `streams` takes "
-        "several explicit steps, or all springs of an iteration, at once besides, `tiles` does in shared memory, "
-        "all to the same bits; `cyclic` gives every particle of a line an invocation, with "
-        "other rounding; default: by the device and the method",
-        [&scene, words](const std::string& text) {
-            const auto* found = std::ranges::find(schedule_spellings, text, &Spelling<Schedule>::name);
-            if (found == std::end(schedule_spellings)) return fmt::format("expected {}, got '{}'", words, text);
-            scene.schedule = found->value;
+        command, "--kernels", "plain|auto|NAME,...",
+        "The shaders that do a step's work: `plain` runs one pass per step, `auto` (the default) takes faster ones "
+        "that "
+        "suit the device and the scene, to the same bits but for cyclic reduction; `drape graph` names them and says "
+        "why each is used or not",
+        [&scene](const std::string& text) {
+            const auto kernels = Kernels::parse(text);
+            if (!kernels) {
+                std::string names = "auto";
+                for (const KernelName& row : kernel_names) names += ", " + std::string(row.name);
+                return fmt::format("expected names of kernels ({}), got '{}'", names, text);
+            }
+            scene.kernels = *kernels;
             return std::string();
         });
 }

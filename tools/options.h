@@ -1,6 +1,5 @@
 // The options of commands: how one is made, and those that several commands share, with their help texts and checks.
-// The parser itself is seen by program.cpp and options.cpp alone: it costs every file that includes it seconds to
-// compile.
+// Only program.cpp and options.cpp see the parser itself: it costs every file that includes it seconds to compile.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace drape::cli {
 
 void add_flag(CLI::App& command, const std::string& names, const std::string& help, bool& value);
 
-/// Takes an option's text, or says what is wrong with it.
+/// Takes an option's text; returns what is wrong with it, or nothing.
 using SetText = std::function<std::string(const std::string& text)>;
 
 /// `names`: "-s,--start"; `type`: what the help calls its value.
@@ -28,35 +27,35 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
 void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
                 std::string& value);
 
-/// Takes a whole number, at least `least`, or says what was expected.
+/// Takes a whole number, at least `least`; else says what was expected.
 SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set);
 
-/// Takes a number, not negative, or says what was expected. `value` must outlive the parser.
+/// Takes a number, not negative; else says what was expected. `value` must outlive the parser.
 SetText not_negative(std::optional<double>& value);
 
-/// Any number of words by their place on the command line.
+/// Takes any number of words by their place on the command line.
 void add_word_list(CLI::App& command, const char* name, const std::string& help, std::vector<std::string>& words);
-/// SCENE..., at least one, or folders of them
+/// Takes SCENE..., at least one, or folders of them.
 void add_scene_list(CLI::App& command, std::vector<std::string>& paths);
-/// The same without folders: instead of one the .json files in it, by name. Throws UsageError where there are none.
+/// Replaces each folder by the .json files in it, by name. Throws UsageError where there are none.
 std::vector<std::string> scene_files(const std::vector<std::string>& paths);
-/// A file, or a word, by its place on the command line.
+/// Takes a file, or a word, by its place on the command line.
 void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
-/// The same, or none; `help` says what happens then.
+/// Takes one file or none; `help` says what happens then.
 void add_optional_file(CLI::App& command, const char* name, const std::string& help, std::string& path);
-/// --set
+/// Adds --set.
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
-/// --export: formats that need no picture
+/// Adds --export, with the formats that need no picture.
 void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats);
-/// --device
+/// Adds --device.
 void add_device_option(CLI::App& command, std::string& device);
-/// --validate
+/// Adds --validate.
 void add_validate_option(CLI::App& command, bool& validate);
-/// SCENE, --set, --device, --validate, --no-skip, --schedule
+/// SCENE, --set, --device, --validate, --no-skip, --kernels
 void add_scene_options(CLI::App& command, SceneRequest& scene);
-/// --size, --samples, --view, --view-range
+/// Adds --size, --samples, --view, --view-range.
 void add_image_options(CLI::App& command, SceneRequest& scene);
-/// Those of add_scene_options and where, which frames, which formats, how talkative
+/// Adds the options of add_scene_options and those for folder, frames, formats and messages.
 void add_run_options(CLI::App& command, RunRequest& request);
 
 }  // namespace drape::cli

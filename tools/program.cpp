@@ -30,7 +30,7 @@ Data goes to stdout, messages to stderr. Exit codes:
 constexpr const char* about_exit_codes =
     "\nData goes to stdout, messages to stderr. `drape --help` explains the exit codes.\nExit codes: ";
 
-/// What CLI11 prints, in lines that a terminal shows whole.
+/// Prints CLI11's help in lines that a terminal shows whole.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() { column_width(26); }
@@ -66,7 +66,7 @@ std::string listed(const CLI::App& group) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// ": did you mean 'render'?", or nothing.
+/// Returns ": did you mean 'render'?", or nothing.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
     const std::vector<std::string_view> candidates(names.begin(), names.end());
     const std::string_view nearest = nearest_word(word, candidates);
@@ -81,7 +81,7 @@ Program::Program(std::vector<std::string> arguments)
                                       "drape")) {
     app_->set_version_flag("-V,--version", std::string("drape ") + program_version());
     app_->require_subcommand(1);
-    app_->formatter(std::make_shared<HelpFormatter>());  // of the commands too, which inherit it
+    app_->formatter(std::make_shared<HelpFormatter>());  // commands inherit it
     app_->footer(examples + exit_code_table());
     added_.push_back({app_.get(), {"", app_->get_description(), examples + exit_code_table(), {}, true}});
 }
@@ -113,7 +113,7 @@ std::vector<CommandText> Program::commands() const {
     return texts;
 }
 
-/// Nothing when there is no such command.
+/// Returns nothing when there is no such command.
 const CLI::App* Program::find(const std::vector<std::string>& words) const {
     const std::string name = fmt::format("{}", fmt::join(words, " "));
     const auto found = std::ranges::find(added_, name, [](const auto& added) { return added.second.name; });
@@ -146,7 +146,7 @@ Program::Parsed Program::usage_error(const std::string& text) const {
     return {{}, {}, name + ": " + text + "\nSee `" + name + " --help`.", ExitCode::usage};
 }
 
-/// What is wrong with the words that ought to name a command; empty when nothing is.
+/// Returns the error in the words that ought to name a command; empty when there is none.
 std::string Program::unknown_command() const {
     const CLI::App* group = app_.get();
     for (std::size_t i = 1; group == app_.get() || group->get_require_subcommand_min() > 0; ++i) {
@@ -169,7 +169,7 @@ std::string Program::unknown_command() const {
     return {};
 }
 
-/// After a parse: the option that was not expected, with what may be meant.
+/// Returns, after a parse, the option that was not expected, with a suggestion.
 std::string Program::unknown_option() const {
     const std::vector<std::string> extras = app_->remaining(true);
     const CLI::App* command = app_.get();

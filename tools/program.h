@@ -1,4 +1,4 @@
-// The command line as a set of commands, each of which adds itself (tools/commands).
+// The command line is a set of commands, each of which adds itself (tools/commands).
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ class App;
 
 namespace drape::cli {
 
-/// An option as its help has it: what completions and the manual page are made of.
+/// An option as its help has it, for completions and the manual page.
 struct OptionText {
-    std::vector<std::string> names;  ///< "-o", "--output"; of a place on the command line: its name
+    std::vector<std::string> names;  ///< "-o", "--output"; an option by its place has its name
     std::string value;               ///< "DIR"; empty: a flag
     std::string help;
     bool is_positional = false;
@@ -41,24 +41,24 @@ class Program {
     CLI::App& add(const std::string& name, const char* summary, const char* details,
                   const std::function<ExitCode()>& run);
 
-    /// What a command line comes to: a command to run, or else what to print and how to end.
+    /// The result of a command line: a command to run, or else texts to print and a code to end with.
     struct Parsed {
         std::function<ExitCode()> command;
         std::string data;     ///< for stdout
-        std::string message;  ///< for stderr: what is wrong, and where help is
+        std::string message;  ///< for stderr: the error, and where help is
         ExitCode code = ExitCode::ok;
     };
-    /// Runs and prints nothing.
+    /// Parses without running or printing.
     Parsed parse();
 
-    /// Parses the command line and runs the command it names, or says what is wrong with it.
+    /// Parses the command line and runs the command that it names, or prints the error.
     ExitCode run();
 
     const std::vector<std::string>& arguments() const { return arguments_; }
 
-    /// The program and every command, in the order in which they were added.
+    /// Returns the program and every command, in the order in which they were added.
     std::vector<CommandText> commands() const;
-    /// What `drape COMMAND --help` prints. Throws UsageError when there is no such command.
+    /// Returns the text of `drape COMMAND --help`. Throws UsageError when there is no such command.
     std::string help(const std::vector<std::string>& command) const;
 
   private:
@@ -73,7 +73,6 @@ class Program {
     std::function<ExitCode()> run_;
 };
 
-/// Adds every command.
 void add_commands(Program& program);
 
 }  // namespace drape::cli

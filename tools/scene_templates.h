@@ -1,4 +1,4 @@
-// The scenes that `drape new` writes.
+// `drape new` writes these scenes.
 #pragma once
 
 #include <span>

@@ -17,8 +17,8 @@ void prepare_streams() {
     std::signal(SIGPIPE, SIG_IGN);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
-        // Opened for the other direction: reading or writing fails as it did before. open() takes the lowest
-        // free number, which is this one.
+        // It is opened for the other direction, so that reading or writing fails as it did before. open() takes the
+        // lowest free number, which is this one.
         const int wrong_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
         if (open("/dev/null", wrong_way) != stream) _exit(1);
     }
@@ -34,7 +34,7 @@ void print_data(std::string_view text) {
 
 namespace {
 
-/// Names and texts from files may hold what a terminal obeys.
+/// Replaces control characters: names and texts from files may hold what a terminal obeys.
 std::string harmless(std::string_view text) {
     std::string result;
     for (const char c : text) {

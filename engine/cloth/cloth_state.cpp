@@ -17,12 +17,6 @@ using glsl::layout_of;
 using Context = const FieldContext&;
 using Bytes = std::vector<std::byte>;
 
-template <class T>
-Bytes bytes_of(const std::vector<T>& values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    return {bytes.begin(), bytes.end()};
-}
-
 bool always(Context) { return true; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
@@ -35,9 +29,6 @@ bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
-/// Contact's fields are kept with the first cloth.
-bool keeps_contact(Context c) { return c.model.self_contact && &c.cloth == &c.model.cloths.front(); }
-bool keeps_crossed(Context c) { return keeps_contact(c) && !c.model.self_contact->to_part.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -51,21 +42,6 @@ FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); 
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
-FieldExtent self_cloth_list(Context c) { return {c.model.cloths.size()}; }
-FieldExtent self_meeting_list(Context c) { return {c.model.cloths.size() * c.model.cloths.size()}; }
-FieldExtent self_crossed_list(Context c) { return {c.model.self_contact->to_part.size()}; }
-FieldExtent self_sheet(Context c) {
-    const glsl::ivec2 grid = c.model.self_contact->push.grid;
-    return {static_cast<std::uint64_t>(grid.x), static_cast<std::uint64_t>(grid.y)};
-}
-FieldExtent self_place_list(Context c) { return {c.model.self_contact->place_count()}; }
-FieldExtent self_box_list(Context c) { return {self_tree_boxes(c.model.self_contact->push.grid)}; }
-SelfRoom self_room(Context c) { return c.room.value_or(c.model.self_contact->room); }
-FieldExtent self_pair_list(Context c) { return {self_room(c).pairs}; }
-FieldExtent self_near_list(Context c) { return {self_room(c).near}; }
-FieldExtent self_size_list(Context) { return {glsl::self_size_count}; }
-FieldExtent self_cell_list(Context c) { return {self_room(c).cells}; }
-FieldExtent self_share_list(Context c) { return {c.model.self_contact->place_count() * glsl::self_rounds}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
@@ -74,59 +50,65 @@ FieldExtent residual_list(Context c) { return {residual_count(c.cloth.grid)}; }
 FieldExtent size_list(Context) { return {glsl::iteration_size_count}; }
 FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
-std::vector<std::byte> start_excess(Context c) { return bytes_of(c.cloth.start_excess()); }
-std::vector<std::byte> share_of_mass(Context c) { return bytes_of(mass_shares(c.cloth)); }
+std::vector<std::byte> start_excess(Context c) { return bytes_of_list(c.cloth.start_excess()); }
+std::vector<std::byte> share_of_mass(Context c) { return bytes_of_list(mass_shares(c.cloth)); }
 bool cut_by_boxes(Context c) { return c.cloth.edge_reach > 0; }
-std::vector<std::byte> cell_bits(Context c) { return bytes_of(c.topology.grid().cells()); }
-std::vector<std::byte> reference(Context c) { return bytes_of(std::vector{statistics_reference(c.cloth)}); }
+std::vector<std::byte> cell_bits(Context c) { return bytes_of_list(c.topology.grid().cells()); }
+std::vector<std::byte> reference(Context c) { return bytes_of_list(std::vector{statistics_reference(c.cloth)}); }
 
 std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
 }
 
-/// Through either view, as the schedule says.
+/// Shaders see these fields as images and, where their BUFFERED variants write, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-std::vector<FieldRow> self_contact_rows() {
+/// Returns the rows up to the cells.
+std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
-    static const auto &vector = layout_of<glsl::vec4>(), &pair = layout_of<glsl::ivec2>(),
+    static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
                       &integer = layout_of<glsl::uint>();
     return {
-        {Field::self_owners, "self owners", buffer, layout_of<int>(), constant, keeps_contact, self_place_list,
-         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->owners()) : Bytes{}; }},
-        {Field::self_cloths, "self cloths", buffer, layout_of<glsl::SelfCloth>(), constant, keeps_contact,
-         self_cloth_list,
-         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->cloths) : Bytes{}; }},
-        {Field::self_meetings, "self meetings", buffer, integer, constant, keeps_contact, self_meeting_list,
-         [](Context c) { return keeps_contact(c) ? bytes_of(c.model.self_contact->meetings) : Bytes{}; }},
-        {Field::self_crossed, "self crossed", buffer, layout_of<glsl::SelfCrossed>(), constant, keeps_crossed,
-         self_crossed_list,
-         [](Context c) { return keeps_crossed(c) ? bytes_of(c.model.self_contact->to_part) : Bytes{}; }},
-        {Field::self_crossings, "self crossings", buffer, layout_of<glsl::SelfCrossings>(), device, keeps_crossed,
-         self_crossed_list},
-        {Field::self_led, "self led", buffer, vector, device, keeps_crossed, self_cloth_list},
-        {Field::self_positions, "self positions", stored, vector, device, keeps_contact, self_sheet},
-        {Field::self_displacements, "self displacements", stored, vector, device, keeps_contact, self_sheet},
-        {Field::self_boxes, "self boxes", texel_buffer, layout_of<glsl::SelfBox>(), device, keeps_contact,
-         self_place_list},
-        {Field::self_kept, "self kept", texel_buffer, layout_of<glsl::SelfBox>(), device, keeps_contact, self_box_list},
-        {Field::self_candidates, "self candidates", buffer, pair, device, keeps_contact, self_cell_list},
-        {Field::self_cells, "self cells", buffer, pair, device, keeps_contact, self_cell_list},
-        {Field::self_near, "self near", buffer, integer, device, keeps_contact, self_near_list},
-        {Field::self_pairs, "self pairs", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_pair_list},
-        {Field::self_corrections, "self corrections", texel_buffer, layout_of<glsl::ivec4>(), device, keeps_contact,
-         self_place_list},
-        {Field::self_before, "self before", texel_buffer, vector, device, keeps_contact, self_place_list},
-        {Field::self_shares, "self shares", buffer, integer, device, keeps_contact, self_share_list},
-        {Field::self_record, "self record", buffer, layout_of<glsl::SelfRecord>(), device, keeps_contact, one},
-        {Field::self_sizes, "self sizes", buffer, layout_of<glsl::uvec4>(), device, keeps_contact, self_size_list},
+        {Field::position, "position", stored, vector, state, always, particles,
+         [](Context c) { return bytes_of_list(c.cloth.position); }},
+        {Field::displacement, "displacement", stored, vector, state, always, particles,
+         [](Context c) { return bytes_of_list(c.cloth.start_displacement()); }},
+        {Field::position_remainder, "position remainder", stored, vector, state, always, particles},
+        {Field::displacement_remainder, "displacement remainder", stored, vector, state, always, particles},
+        {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
+        {Field::displacement_spare, "displacement spare", stored, vector, frame, turns, particles},
+        {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
+        {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
+         particles},
+        // The scratch is the device's, not the frame's: an invocation reads what it wrote itself, and nothing in it
+        // outlives a pass.
+        {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
+        {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
+        {Field::nested_boxes, "nested boxes", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
+         [](Context c) { return bytes_of_list(c.cloth.plan.nested_table); }},
+        {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
+        {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
+        {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},
+        {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
+        {Field::line_control, "line control", image, integer, state, second_order, control_texels},
+        {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
+        {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
+        {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},
+        {Field::normal, "normal", image, vector, frame, drawn, particles},
+        {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
+         [](Context c) { return bytes_of_list(c.topology.spring_shares()); }},
+        {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
+        {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
     };
 }
 
-std::vector<FieldRow> tension_rows() {
+/// Returns the rows from the tensions on.
+std::vector<FieldRow> other_rows() {
     using enum FieldLife;
-    static const auto& scalar = layout_of<float>();
+    using enum FieldView;
+    static const auto &scalar = layout_of<float>(), &integer = layout_of<glsl::uint>(),
+                      &sizes = layout_of<glsl::uvec4>();
     return {
         {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
@@ -138,80 +120,41 @@ std::vector<FieldRow> tension_rows() {
          particles},
         {Field::tension_shear_down_left_spare, "tension shear down-left spare", stored, scalar, frame, spares_tension,
          particles},
-    };
-}
-
-/// All rows by field: those given and those of tension and of self-contact.
-std::vector<FieldRow> in_order(const std::vector<FieldRow>& given) {
-    std::vector<FieldRow> all;
-    for (const FieldRow& row : given) {
-        for (const std::vector<FieldRow>& own : {tension_rows(), self_contact_rows()})
-            if (all.size() == static_cast<std::size_t>(own.front().field))
-                for (const FieldRow& each : own) all.push_back(each);
-        all.push_back(row);
-    }
-    return all;
-}
-
-const std::vector<FieldRow>& rows() {
-    using enum FieldLife;
-    using enum FieldView;
-    static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
-                      &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
-    static const std::vector<FieldRow> table = in_order({
-        {Field::position, "position", stored, vector, state, always, particles,
-         [](Context c) { return bytes_of(c.cloth.position); }},
-        {Field::displacement, "displacement", stored, vector, state, always, particles,
-         [](Context c) { return bytes_of(c.cloth.start_displacement()); }},
-        {Field::position_remainder, "position remainder", stored, vector, state, always, particles},
-        {Field::displacement_remainder, "displacement remainder", stored, vector, state, always, particles},
-        {Field::position_spare, "position spare", stored, vector, frame, gathers, particles},
-        {Field::displacement_spare, "displacement spare", stored, vector, frame, turns, particles},
-        {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
-        {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
-         particles},
-        // An invocation reads what it wrote itself, so these are not the frame's: nothing in them outlives a pass.
-        {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
-        {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
-        {Field::nested_sweeps, "nested sweeps", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
-         [](Context c) { return bytes_of(c.cloth.plan.nested_table); }},
-        {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
-        {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
-        {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},
-        {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
-        {Field::line_control, "line control", image, integer, state, second_order, control_texels},
-        {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
-        {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
-        {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},
-        {Field::normal, "normal", image, vector, frame, drawn, particles},
-        {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
-         [](Context c) { return bytes_of(c.topology.spring_shares()); }},
-        {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
-        {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive, residual_list},
         {Field::iterations, "iterations", buffer, sizes, device, adaptive, iteration_list},
-        // The solver knows them once it has added the passes.
+        // These sizes have no start, since the solver knows them only once it has added the passes.
         {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive, size_list},
         {Field::triangles, "triangles", buffer, integer, constant, drawn,
          [](Context c) { return FieldExtent{draw_list_room(c, c.topology.indices().size())}; },
-         [](Context c) { return bytes_of(c.topology.indices()); }},
+         [](Context c) { return bytes_of_list(c.topology.indices()); }},
         {Field::cut_vertices, "cut vertices", buffer, layout_of<glsl::CutVertex>(), constant,
          [](Context c) { return c.needs.drawing && !c.topology.vertices().empty(); },
          [](Context c) { return FieldExtent{draw_list_capacity(c.topology.vertices().size())}; },
-         [](Context c) { return bytes_of(c.topology.vertices()); }},
+         [](Context c) { return bytes_of_list(c.topology.vertices()); }},
         {Field::tethers, "tethers", texel_buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
-         [](Context c) { return bytes_of(c.topology.tethers()); }},
+         [](Context c) { return bytes_of_list(c.topology.tethers()); }},
         {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
-         pinned_list, [](Context c) { return bytes_of(c.cloth.pinned); }},
+         pinned_list, [](Context c) { return bytes_of_list(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
          [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
-    });
-    return table;
+    };
 }
 
 }  // namespace
 
-std::span<const FieldRow> cloth_fields() { return rows(); }
+std::span<const FieldRow> cloth_fields() {
+    static const std::vector<FieldRow> table = [] {
+        std::vector<FieldRow> all = motion_rows();
+        for (const FieldRow& row : other_rows()) all.push_back(row);
+        return all;
+    }();
+    return table;
+}
+
+std::optional<Field> field_called(std::string_view variable) {
+    static const auto fields = fields_by_variable(cloth_fields());
+    return found_in(fields, variable);
+}
 
 Field tension_of(std::size_t direction) {
     static_assert(spring_directions.size() == 4);
@@ -220,15 +163,6 @@ Field tension_of(std::size_t direction) {
 
 Field tension_spare_of(std::size_t direction) {
     return static_cast<Field>(static_cast<std::size_t>(Field::tension_row_spare) + direction);
-}
-
-SelfRoom limited(const SelfRoom& room, std::uint64_t most_bytes) {
-    const auto least = [most_bytes](std::uint32_t entries, Field list) {
-        const std::uint64_t fitting = most_bytes / row_of(list).element.size;
-        return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, fitting, most_self_entries}));
-    };
-    return {least(room.pairs, Field::self_pairs), least(room.near, Field::self_near),
-            least(room.cells, Field::self_cells)};
 }
 
 std::size_t draw_list_capacity(std::size_t count) { return std::bit_ceil(std::max<std::size_t>(count, 64)); }

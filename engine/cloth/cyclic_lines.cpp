@@ -4,7 +4,6 @@
 #include <bit>
 #include <span>
 
-#include "cloth/schedule.h"
 #include "shared/cyclic_types.h"
 
 namespace drape {
@@ -19,16 +18,6 @@ bool can_reduce(const glsl::NestedPush& push, const MethodPlan& plan) {
                std::min(2 * block.y + 1, push.grid.y) <= glsl::cyclic_most_particles;
     };
     return std::ranges::all_of(std::span(plan.nested_table).first(static_cast<std::size_t>(push.block_count)), fits);
-}
-
-std::vector<Step> cyclic_steps(const SimulationModel& model) {
-    std::vector<Step> steps = frame_steps(model);
-    for (Step& step : steps) {
-        if (step.kind == StepKind::line) step.reduced = can_reduce(step.push<glsl::LinePush>());
-        if (step.kind == StepKind::nested)
-            step.reduced = can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].plan);
-    }
-    return steps;
 }
 
 std::uint32_t cyclic_shared_bytes(std::uint32_t invocations) {

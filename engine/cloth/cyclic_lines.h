@@ -1,26 +1,23 @@
-// A frame's steps where lines are solved by cyclic reduction (shaders/line_cyclic.comp): an invocation per particle
-// instead of one per line, for devices that have many. The same systems, with other rounding. Pure.
+// Cyclic reduction solves lines (shaders/line_cyclic.comp) with an invocation per particle instead of one per line, for
+// devices that run many at once. The systems are the same, the rounding differs. Pure.
 #pragma once
-
-#include <vector>
 
 #include "cloth/simulation_model.h"
 
 namespace drape {
 
-/// Whether the lines of a step may be: they do not bend, and a workgroup holds them (cyclic_most_particles).
+/// Returns whether cyclic reduction can solve the lines of a step: they do not bend, and a workgroup holds a line
+/// (cyclic_most_particles).
 bool can_reduce(const glsl::LinePush& push);
 
-/// Likewise the lines in the boxes of nested sweeps.
+/// Returns whether a workgroup holds every line of the nested boxes of a step.
 bool can_reduce(const glsl::NestedPush& push, const MethodPlan& plan);
 
-/// The steps of a frame (schedule.h), the lines and nested sweeps that can be marked as reduced.
-std::vector<Step> cyclic_steps(const SimulationModel& model);
-
-/// Shared memory of a workgroup of so many invocations.
+/// Returns the shared memory of a workgroup of so many invocations, bytes.
 std::uint32_t cyclic_shared_bytes(std::uint32_t invocations);
 
-/// Invocations along a line of so many particles and, of short lines, lines in a workgroup.
+/// Returns the size of a workgroup for lines of so many particles: x invocations along a line, y lines, which are
+/// several where lines are short.
 glsl::ivec2 cyclic_group(int particle_count);
 
 }  // namespace drape

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cloth/bend_sweep.h"
-#include "cloth/nested_sweeps.h"
+#include "cloth/nested_boxes.h"
 #include "cloth/solver_choice.h"
 #include "cloth/texels.h"
 
@@ -154,7 +154,7 @@ MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings)
     add_prediction(cloth, settings, plan);
     add_twist_sweep(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, plan);
     add_lines(cloth, settings, plan);
-    add_nested_sweeps(cloth, plan);
+    add_nested_boxes(cloth, plan);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)

@@ -18,7 +18,7 @@ MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings)
 /// Returns substeps from h sqrt(a L)/l, a with the wind's share: 3.3 for a cloth held by an edge, whose lines carry it
 /// alone, and 0.35 where crossing directions fight (two corners, a ball), a little less from 64 links on. There the RMS
 /// stretch error of the drape from two corners falls as the square of the substeps (64 links: 0.60, 0.28, 0.11 % over
-/// half a second with 8, 12, 20). It is 0.75 where nested sweeps help at lone pins, and the more the finer the grid:
+/// half a second with 8, 12, 20). It is 0.75 where nested boxes help at lone pins, and the more the finer the grid:
 /// there the worst frame is 1 % off at 4.6, 7.5, 11 substeps of 64, 128, 256 links. It is never fewer than the motion
 /// needs.
 double line_substeps(const Hang& hang, double frame, double tolerance);

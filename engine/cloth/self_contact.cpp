@@ -7,8 +7,8 @@ namespace drape {
 
 namespace {
 
-/// m, by how much more than it needs to the search for cells looks. Cells of flat cloth that are no neighbours are a
-/// spacing apart, and shall not be found.
+/// Returns by how much (m) the search for cells looks farther than it needs to. Cells of flat cloth that are no
+/// neighbours are a spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
 double smaller_spacing(const ClothModel& model) { return std::min(model.spacing[0], model.spacing[1]); }
@@ -28,20 +28,20 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     constants.thickness = static_cast<float>(asked.thickness.value_or(
         std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing)));
     constants.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
-    // A corner and the diagonal beside it.
+    // In flat cloth the nearest primitives that share no corner are a cell's corner and the diagonal beside it.
     constants.least_flat =
         static_cast<float>(model.spacing[0] * model.spacing[1] / std::hypot(model.spacing[0], model.spacing[1]));
     return constants;
 }
 
-/// kg, of an inner particle.
+/// Returns the mass of an inner particle, kg.
 double particle_mass(const Cloth& cloth, const ClothModel& model) {
     return cloth.areal_density * model.spacing[0] * model.spacing[1];
 }
 
-/// How soon cloths that started through each other part at parting_speed, m/s^2.
+/// Cloths that started through each other come to part at parting_speed with this acceleration, m/s^2.
 constexpr double parting_acceleration = 40;
-/// More than this many pairs of cloths are not looked after: one invocation goes through all of them.
+/// Only so many pairs of cloths are worked apart, as one invocation goes through all of them; more of them never meet.
 constexpr std::size_t most_crossed = 4096;
 
 bool is_held(const Cloth& cloth) { return !cloth.pins.empty(); }
@@ -63,7 +63,7 @@ glsl::SelfCrossed parted(const SceneDescription& scene, const std::vector<ClothM
 
 int stepped(int length) { return (length + self_sheet_step) / self_sheet_step * self_sheet_step; }
 
-/// Lays the cloths on shelves of a sheet about as wide as high. Returns its columns and rows.
+/// Lays the cloths on shelves of a sheet that is about as wide as high. Returns the sheet's columns and rows.
 glsl::ivec2 lay_out(std::vector<glsl::SelfCloth>& cloths) {
     double area = 0;
     int width = 0;
@@ -106,7 +106,7 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         push.thickness = std::max(push.thickness, constants.thickness);
         largest = {std::max(largest.x, constants.grid.x), std::max(largest.y, constants.grid.y)};
         particles += models[k].grid.particle_count();
-        // What they are pressed against must not seem to move.
+        // There is no common motion then: held particles that others are pressed against must not seem to move.
         if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;
         for (std::size_t other = 0; other < count; ++other)
             meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);
@@ -128,8 +128,8 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
     const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits
-    room = {places * self_room_per_particle.pairs, places * self_room_per_particle.near,
-            places * self_room_per_particle.cells};
+    capacity = {places * capacity_per_particle.pairs, places * capacity_per_particle.near,
+                places * capacity_per_particle.cells};
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
     push.cloth = cloths.front();
@@ -150,20 +150,20 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
     return {cloths[cloth].grid, cloths[cloth].first, push.grid.x};
 }
 
-double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record) {
+double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
     const auto use = [](std::uint32_t most, std::uint32_t entries) { return static_cast<double>(most) / entries; };
-    return std::max(
-        {use(record.most_pairs, room.pairs), use(record.most_near, room.near), use(record.most_cells, room.cells)});
+    return std::max({use(record.most_pairs, capacity.pairs), use(record.most_near, capacity.near),
+                     use(record.most_cells, capacity.cells)});
 }
 
-SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record) {
+ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
     const auto more = [](std::uint32_t most, std::uint32_t entries) {
         const std::uint64_t wanted = std::max(std::uint64_t{entries} * 2, std::uint64_t{most} + most / 4);
         return most <= entries ? entries
-                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_self_entries));
+                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_contact_entries));
     };
-    return {more(record.most_pairs, room.pairs), more(record.most_near, room.near),
-            more(record.most_cells, room.cells)};
+    return {more(record.most_pairs, capacity.pairs), more(record.most_near, capacity.near),
+            more(record.most_cells, capacity.cells)};
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

@@ -1,4 +1,5 @@
-// What contact of cloths with themselves and each other is made with (shaders/include/self_contact.h). Pure.
+// Derives from the scene the constants, lists and capacities of the contact of cloths with themselves and each other
+// (shaders/include/self_contact.h). Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,52 +12,51 @@
 
 namespace drape {
 
-/// Entries that the lists have room for: pairs, pairs whose boxes are near each other, pairs of cells. What a frame
-/// makes does not depend on it, as long as it suffices.
-struct SelfRoom {
+/// The capacities, in entries, of the lists of pairs of primitives, of those whose boxes are near each other, and of
+/// pairs of cells. The result of a frame does not depend on them, as long as they suffice.
+struct ContactCapacity {
     std::uint32_t pairs = 0, near = 0, cells = 0;
-    bool operator==(const SelfRoom&) const = default;
+    bool operator==(const ContactCapacity&) const = default;
 };
 
-/// Per particle, in the beginning: crumpled cloth takes 10, 30 and 50.
-inline constexpr SelfRoom self_room_per_particle{32, 64, 64};
+/// A scene begins with these capacities per particle; crumpled cloth takes 10, 30 and 50.
+inline constexpr ContactCapacity capacity_per_particle{32, 64, 64};
 /// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
 /// signed integers.
-inline constexpr std::uint32_t most_self_entries = (1u << 28) - 1;
-/// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two: then
-/// the lower nodes of its tree of boxes are of one cloth each.
+inline constexpr std::uint32_t most_contact_entries = (1u << 28) - 1;
+/// Cloths begin at columns and rows of the sheet that are multiples of this, with at least one free between two, so
+/// that each of the lower nodes of the sheet's tree of boxes belongs to one cloth.
 inline constexpr int self_sheet_step = 8;
 
-/// How the cloths of a scene meet.
 struct SelfContact {
-    /// `crossed`: those that start through each other meet once they have come apart, those that start on each other
-    /// never.
+    /// Cloths of `crossed` that start through each other meet once they have come apart; those that start on each other
+    /// never meet.
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};            ///< level, last, first, round and the lists' room are set per step
-    SelfRoom room;                           ///< to begin with
-    std::vector<glsl::SelfCloth> cloths;     ///< where each lies on the sheet
-    glsl::ivec2 largest{};                   ///< columns and rows that none of them has more of
-    std::vector<glsl::uint> meetings;        ///< by cloth and cloth: self_meets and those beside it
-    std::vector<glsl::SelfCrossed> to_part;  ///< those that are worked apart, as far as they are free to move
-    std::vector<StartCrossing> crossed;      ///< those that start through each other, or through themselves
+    glsl::SelfContactPush push{};         ///< level, last, first, round and the capacity of the lists are set per step
+    ContactCapacity capacity;             ///< capacity of the lists in the beginning
+    std::vector<glsl::SelfCloth> cloths;  ///< constants of each cloth and its place on the sheet
+    glsl::ivec2 largest{};                ///< most columns and most rows of any cloth
+    std::vector<glsl::uint> meetings;  ///< by cloth and cloth: self_meets_not, self_meets or self_meets_apart + index
+    std::vector<glsl::SelfCrossed> to_part;  ///< pairs of cloths that are worked apart, as far as they are free to move
+    std::vector<StartCrossing> crossed;      ///< cloths that start through each other, or through themselves
     std::vector<int> owners() const;         ///< by place on the sheet: its cloth, or -1
     glsl::SelfClothPush cloth_push(std::size_t cloth) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
 };
 
-/// How full the fullest of the lists came in a frame; above 1 something found no room in it.
-double self_list_use(const SelfRoom& room, const glsl::SelfRecord& record);
-/// At least twice as much where a list found none; of a list that is filled from another one that was too short not
-/// everything is known yet.
-SelfRoom more_self_room(const SelfRoom& room, const glsl::SelfRecord& record);
+/// Returns the largest share of a list's capacity that a frame asked for; above 1 entries did not fit.
+double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record);
+/// Returns at least twice the capacity for every list that was too short, and the same for the others. A list that is
+/// filled from one that was too short may prove too short in the next attempt.
+ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::SelfRecord& record);
 
-/// Boxes of the tree over a sheet: of one level, of all.
+/// Returns the number of boxes of one level of the tree over a sheet, and of all its levels.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);
 std::uint64_t self_tree_boxes(glsl::ivec2 grid);
 
-/// The levels that one pass makes, from `level` on: one, or all that are left.
+/// Returns the last of the levels that one pass makes, from `level` on: it makes one, or all that are left.
 int last_level(const glsl::SelfContactPush& push, int level);
 
 }  // namespace drape

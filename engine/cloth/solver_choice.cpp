@@ -31,7 +31,7 @@ SubstepWork substep_work(const Method& method, const SceneDescription& scene, co
 
 /// Returns the milliseconds of one substep of a cloth on a GPU solved along its lines: by cyclic reduction where a
 /// workgroup holds them, else walked. These are estimates, no measurement: 0.2 us a round of a reduction, 0.3 us a
-/// particle of a walk, two systems in each of four directions, 3 us a direction of a box of nested sweeps.
+/// particle of a walk, two systems in each of four directions, 3 us a direction of a box of nested boxes.
 double lines_ms(const Hang& hang) {
     constexpr double systems = 4 * 2, round_ms = 2e-4, walk_ms = 3e-4, nested_ms = 4e-3;
     const bool reduced = hang.longest_line <= glsl::cyclic_most_particles;

@@ -1,5 +1,5 @@
-// What a frame is made of: a step is a kind and the constants that its pass gets. The device's solver adds graph passes
-// per step, the C++ twin runs one function per step.
+// A frame is made of steps, each a kind and the constants that its pass gets. The device's solver adds graph passes per
+// step, and the C++ twin runs one function per step.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "drape/kernels.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/self_contact_types.h"
@@ -27,15 +28,17 @@ enum class StepKind {
     pin,
     bend,
     twist,
-    twist_sweep,
+    all_twist,
     spring,
-    sweep,
+    all_springs,
     line,
     nested,
     tether,
     box_edges,
     collide,
-    check,
+    residual,
+    decide,
+    advance,
     self_gather,
     self_gather_again,
     self_common,
@@ -53,17 +56,17 @@ enum class StepKind {
     self_pairs,
     self_contact,
     self_push,
-    self_room,
+    self_limit,
     self_move,
     self_return,
-    advance
 };
+inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
 
-/// The push structure of a step whose constants are its method's own. SpringPush: `first_iteration` is
-/// set per iteration.
+/// The push structure of a step whose constants are its method's own. `SpringPush::first_iteration` is set per
+/// iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::TwistSweepPush, glsl::SpringPush, glsl::SweepPush,
+                 glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
@@ -72,35 +75,35 @@ struct MethodStep {
     StepConstants constants;
 };
 
-/// `Step::cloth` of a step that is taken for every cloth of the scene, and of one of contact, for all of them at once.
+/// `Step::cloth` has the first value where the step is taken for every cloth of the scene, and the second where it is
+/// one of contact, taken once for all of them.
 inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1), between_cloths = all_cloths - 1;
 
-/// A step of a frame.
 struct Step {
     StepKind kind;
     std::size_t cloth;
     std::uint32_t substep;
     std::uint32_t iteration = 0;
     StepConstants constants{};
-    /// Of the frame's last substep; spring, line: of its last iteration too, after which its tension is the frame's.
+    /// It belongs to the frame's last substep; a spring or line step also to that substep's last iteration, after which
+    /// its tension is the frame's.
     bool last = false;
-    /// Explicit steps: how many substeps it takes at once, from `substep` on.
+    /// An explicit step takes so many substeps at once, from `substep` on.
     std::uint32_t count = 1;
-    /// Runs only when the check before it found the tolerance not met: decided on the device.
+    /// It runs only when the decision before it was that the tolerance is not met; the device decides.
     bool conditional = false;
-    /// Contact, a second `box_edges`: goes on from what `box_edges` left.
+    /// A collision, or a second `box_edges`, goes on from what `box_edges` left.
     bool after_edges = false;
-    /// Predictions: leaves the displacement in its spare image, from where a sweep brings it back. Sweeps of springs
-    /// that carry tension: writes it to the spare images, from where the next one brings it back.
+    /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
+    /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it
+    /// back.
     bool turns = false;
-    /// Lines, nested sweeps: by cyclic reduction (cloth/cyclic_lines.h).
-    bool reduced = false;
-    /// Of all cloths that are simulated together with `cloth` (cloth/together.h).
+    /// The kernel of its row that runs it (cloth/kernel_steps.h).
+    Kernel kernel = Kernel::plain;
+    /// It is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
-    /// Explicit steps, one or some at once: down the rows (cloth/streams.h), where no wind blows.
-    bool streams = false;
 
-    /// Throws std::bad_variant_access when the step has others.
+    /// Returns the step's constants. Throws std::bad_variant_access when they are not a `Push`.
     template <class Push>
     const Push& push() const {
         return std::get<Push>(constants);

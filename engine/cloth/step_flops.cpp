@@ -1,7 +1,7 @@
 #include "cloth/step_flops.h"
 
 #include "cloth/directions.h"
-#include "cloth/streams.h"
+#include "cloth/kernel_steps.h"
 
 namespace drape {
 
@@ -15,7 +15,7 @@ double springs_of(const glsl::ExplicitPush& push) {
     return (x - 1) * y + x * (y - 1) + diagonal;
 }
 
-double springs_of(const glsl::SweepPush& push) {
+double springs_of(const glsl::AllSpringsPush& push) {
     double count = 0;
     for (const SpringPass& pass : spring_passes(push.grid))
         if (has_direction(push, pass.direction)) count += particles_of(pass.pair_count);
@@ -37,8 +37,8 @@ double step_flops(const Step& step, const ClothModel& cloth) {
                    springs_of(step.push<glsl::ExplicitPush>()) * kernel_flops.explicit_spring;
         case StepKind::spring:
             return particles_of(step.push<glsl::SpringPush>().pair_count) * kernel_flops.spring;
-        case StepKind::sweep:
-            return springs_of(step.push<glsl::SweepPush>()) * kernel_flops.spring;
+        case StepKind::all_springs:
+            return springs_of(step.push<glsl::AllSpringsPush>()) * kernel_flops.spring;
         case StepKind::line:
             return particles * (kernel_flops.line_spring + (step.iteration == 0 ? kernel_flops.line_tension : 0));
         case StepKind::advance:

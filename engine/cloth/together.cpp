@@ -9,7 +9,7 @@ namespace drape {
 
 namespace {
 
-/// Particles: from there on a dispatch of a cloth alone costs little beside what it does (docs/devices.md).
+/// A cloth of more particles keeps its own dispatches, which cost little beside what they do (docs/devices.md).
 constexpr std::uint64_t most_particles = 128 * 128;
 
 bool alike(const Cloth& one, const Cloth& other) {
@@ -22,9 +22,17 @@ bool alike(const Cloth& one, const Cloth& other) {
     return same == one;
 }
 
-/// Whether all of a step's data are its constants, the images of the state and, of pins, lists that can be joined.
-bool in_images(StepKind kind) {
-    switch (kind) {
+/// Returns whether a kernel's shader finds a cloth's place by the workgroup's z (shaders/include/together.h).
+bool knows_places(Kernel kernel) {
+    return kernel == Kernel::plain || kernel == Kernel::explicit_stream || kernel == Kernel::spring_stream ||
+           kernel == Kernel::twist_stream;
+}
+
+/// Returns whether a step uses no other data than its constants, the images of the state and, for pins, lists that can
+/// be joined.
+bool in_images(const Step& step) {
+    if (!knows_places(step.kernel)) return false;
+    switch (step.kind) {
         case StepKind::wind:
         case StepKind::pin:
         case StepKind::control:
@@ -33,9 +41,9 @@ bool in_images(StepKind kind) {
         case StepKind::explicit_step:
         case StepKind::bend:
         case StepKind::twist:
-        case StepKind::twist_sweep:
+        case StepKind::all_twist:
         case StepKind::spring:
-        case StepKind::sweep:
+        case StepKind::all_springs:
         case StepKind::line:
         case StepKind::box_edges:
         case StepKind::collide:
@@ -57,21 +65,21 @@ bool same_constants(const StepConstants& one, const StepConstants& other) {
 bool same_place(const Step& one, const Step& other) {
     return one.kind == other.kind && one.substep == other.substep && one.iteration == other.iteration &&
            one.last == other.last && one.count == other.count && one.conditional == other.conditional &&
-           one.after_edges == other.after_edges && one.turns == other.turns;
+           one.after_edges == other.after_edges && one.turns == other.turns && one.kernel == other.kernel;
 }
 
 bool same_step(const Step& one, const Step& other) {
-    return in_images(one.kind) && !one.conditional && same_place(one, other) &&
+    return in_images(one) && !one.conditional && same_place(one, other) &&
            same_constants(one.constants, other.constants);
 }
 
-/// What the cloths of a list still have to do in a substep, each in its order.
+/// The steps that the cloths of a list still have to take in a substep, each cloth's in its order.
 class Substep {
   public:
     explicit Substep(std::size_t cloths) : steps_(cloths), next_(cloths) {}
     void add(std::size_t place, const Step& step) { steps_[place].push_back(&step); }
 
-    /// Shared steps where all have come to one; until then everybody goes on alone.
+    /// Takes a step together where all cloths have come to the same one; until then each goes on alone.
     void merge(std::vector<Step>& merged) {
         while (!is_done()) {
             if (all_are_at_one()) {
@@ -98,7 +106,8 @@ class Substep {
             if (!front(place) || !same_step(*front(0), *front(place))) return false;
         return true;
     }
-    /// Those whose step some other cloth has nowhere before it, or all that are left; whether there were any.
+    /// Takes each cloth's next step where some other cloth will not come to such a step, or, with `all`, in any case.
+    /// Returns whether it took any.
     bool go_on_alone(bool all, std::vector<Step>& merged) {
         bool any = false;
         for (std::size_t place = 0; place < steps_.size(); ++place) {
@@ -152,7 +161,7 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
         for (std::size_t within = 0; within < lists[list].size(); ++within)
             places[lists[list][within]] = {list, within};
     std::map<std::tuple<std::size_t, std::uint32_t, std::size_t>, Substep> substeps;  // by list, substep, part of it
-    std::size_t part = 0;  // what is between two steps of contact, which nobody comes past
+    std::size_t part = 0;  // counts steps of contact, across which no step may move
     for (const Step& step : steps) {
         part += step.cloth == between_cloths ? 1 : 0;
         if (const auto place = places.find(step.cloth); place != places.end())
@@ -168,7 +177,7 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
             merged.push_back(step);
             continue;
         }
-        // All of a substep where its first step was.
+        // The first step of a substep's part brings all of its steps.
         const auto substep = substeps.find({place->second.list, step.substep, part});
         if (substep == substeps.end()) continue;
         substep->second.merge(merged);

@@ -28,7 +28,7 @@ std::vector<SkippedGroup> group_skipped(const Graph& graph, const Plan& plan) {
     for (const Pass& pass : graph.passes()) labels.emplace(pass.name, &pass.label);
     std::vector<SkippedGroup> groups;
     std::map<std::pair<std::string, std::string>, std::size_t> places;
-    for (const Skipped& skipped : plan.skipped) {
+    for (const Remark& skipped : plan.skipped) {
         const auto label = labels.find(skipped.what);
         const std::string& what = label == labels.end() ? skipped.what : *label->second;
         const auto [place, added] = places.emplace(std::pair(what, skipped.reason), groups.size());

@@ -124,15 +124,17 @@ class DotWriter {
     }
 
     void write_skipped() {
-        std::vector<std::string> skipped, compromises;
+        std::vector<std::string> skipped, compromises, choices;
         for (const SkippedGroup& group : group_skipped(graph_, plan_)) {
             const std::string times = group.count > 1 ? fmt::format(" x {}", group.count) : "";
             skipped.push_back(group.what + times + ": " + group.reason);
         }
-        for (const Compromised& compromise : graph_.compromises())
+        for (const Remark& compromise : graph_.compromises())
             compromises.push_back(compromise.what + ": " + compromise.reason);
+        for (const Remark& choice : graph_.choices()) choices.push_back(choice.what + ": " + choice.reason);
         write_note("skipped", "gray", std::move(skipped));
         write_note("compromises", "orange", std::move(compromises));
+        write_note("kernels", "gray", std::move(choices));
     }
 
     const Graph& graph_;

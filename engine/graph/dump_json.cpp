@@ -147,9 +147,10 @@ std::string dump_json(const Graph& graph, const Plan& plan) {
         value["reason"] = remark.reason;
         root[list].append(value);
     };
-    root["skipped"] = root["compromises"] = Json::Value(Json::arrayValue);
-    for (const Skipped& skipped : plan.skipped) add_remark("skipped", skipped);
-    for (const Compromised& compromise : graph.compromises()) add_remark("compromises", compromise);
+    root["skipped"] = root["compromises"] = root["choices"] = Json::Value(Json::arrayValue);
+    for (const Remark& skipped : plan.skipped) add_remark("skipped", skipped);
+    for (const Remark& compromise : graph.compromises()) add_remark("compromises", compromise);
+    for (const Remark& choice : graph.choices()) add_remark("choices", choice);
     Json::StreamWriterBuilder writer;
     writer["indentation"] = "  ";
     return Json::writeString(writer, root) + "\n";

@@ -138,9 +138,12 @@ std::string dump_text(const Graph& graph, const Plan& plan) {
         text += fmt::format("  {}{}: {}\n", group.what, times, group.reason);
     }
     if (groups.empty()) text += "  nothing\n";
-    if (!graph.compromises().empty()) text += "compromised:\n";
-    for (const Compromised& compromise : graph.compromises())
-        text += fmt::format("  {}: {}\n", compromise.what, compromise.reason);
+    const auto list = [&](const char* title, const std::vector<Remark>& remarks) {
+        if (!remarks.empty()) text += title;
+        for (const Remark& remark : remarks) text += fmt::format("  {}: {}\n", remark.what, remark.reason);
+    };
+    list("compromised:\n", graph.compromises());
+    list("kernels:\n", graph.choices());
     return text;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "graph/plan.h"
+#include "graph/push_constants.h"
 #include "vulkan/frame_slots.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
@@ -72,52 +73,29 @@ class PassContext {
     /// pipeline and variable, when the pipeline's descriptors and the declared variables differ (one missing on either
     /// side, image against buffer, read against write, format, layout of a buffer's elements), or the push constants'
     /// layouts. A read-write descriptor needs a write of its name, and a read without one.
-    template <class T>
-    void dispatch(const vulkan::ComputePipeline& pipeline, const T& push_constants, std::uint32_t width,
-                  std::uint32_t height, std::uint32_t depth = 1) {
-        bind_uses(pipeline);
-        push(pipeline, push_constants);
-        dispatch_groups(pipeline, width, height, depth);
-    }
-    /// Does the same for a pipeline without push constants.
-    void dispatch(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
-        bind_uses(pipeline);
-        push(pipeline, nullptr, {});
-        dispatch_groups(pipeline, width, height, 1);
-    }
-    /// Does the same with as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
-    template <class T>
-    void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const T& push_constants, Handle arguments,
-                           std::uint64_t offset) {
-        bind_uses(pipeline);
-        push(pipeline, push_constants);
-        dispatch_indirect(arguments, offset);
-    }
+    void dispatch(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants, std::uint32_t width,
+                  std::uint32_t height, std::uint32_t depth = 1);
+    /// Dispatches as many workgroups as `arguments` says at `offset` bytes (VkDispatchIndirectCommand).
+    void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants,
+                           Handle arguments, std::uint64_t offset);
 
     /// Binds the pipeline and pushes one handle per descriptor, as strictly, in a pass that draws several things. Each
     /// stage that uses a descriptor must read the handle by the pass's declaration.
     void bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings);
-    /// Throws GraphError when the shaders' push constants are no T.
-    template <class T>
-    void push(const vulkan::Pipeline& pipeline, const T& push_constants) {
-        push(pipeline, &glsl::layout_of<T>(), std::as_bytes(std::span<const T>(&push_constants, 1)));
-    }
+    /// Throws GraphError when the shaders' push constants have another layout.
+    void push(const vulkan::Pipeline& pipeline, const PushConstants& push_constants);
 
   private:
     friend class Recorder;
     PassContext(VkCommandBuffer commands, std::uint32_t slot, const Graph& graph, const Pass& pass,
                 const ResourcePool& pool)
         : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
-    void dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height,
-                         std::uint32_t depth);
-    void dispatch_indirect(Handle arguments, std::uint64_t offset);
     const Use& use_of(Handle handle) const;
     void bind_uses(const vulkan::ComputePipeline& pipeline);
     void check_use(const vulkan::Pipeline& pipeline, const Use& use) const;
     /// Checks kind, format and element.
     void check_resource(const vulkan::Pipeline& pipeline, std::string_view variable, const Resource& resource) const;
     void push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
-    void push(const vulkan::Pipeline& pipeline, const glsl::StructLayout* layout, std::span<const std::byte> bytes);
     [[noreturn]] void refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;

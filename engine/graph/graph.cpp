@@ -263,6 +263,8 @@ void Graph::add_flops(double flops) {
     passes_.back().flops += flops;
 }
 
+void Graph::choose(std::string what, std::string reason) { choices_.push_back({std::move(what), std::move(reason)}); }
+
 void Graph::compromise(std::string what, std::string reason) {
     compromises_.push_back({std::move(what), std::move(reason)});
 }

@@ -116,12 +116,8 @@ struct Pass {
     double flops = 0;  ///< floating-point operations; 0: not known
 };
 
-struct Skipped {
-    std::string what, reason;
-};
-
-/// Something that was asked for and is done only in part.
-struct Compromised {
+/// Something that a dump says of the graph beside its passes, and why it is so.
+struct Remark {
     std::string what, reason;
 };
 
@@ -166,20 +162,22 @@ class Graph {
     void add_flops(double flops);
     /// Says in every dump that something was left out on purpose, and why.
     void skip(std::string what, std::string reason);
-    /// Says that something is done only in part.
+    /// Says that something asked for is done only in part.
     void compromise(std::string what, std::string reason);
+    /// Says which of several ways something is done in.
+    void choose(std::string what, std::string reason);
 
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Pass>& passes() const { return passes_; }
-    const std::vector<Skipped>& skipped() const { return skipped_; }
-    const std::vector<Compromised>& compromises() const { return compromises_; }
+    const std::vector<Remark>& skipped() const { return skipped_; }
+    const std::vector<Remark>& compromises() const { return compromises_; }
+    const std::vector<Remark>& choices() const { return choices_; }
 
   private:
     friend class PassSetup;
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
-    std::vector<Skipped> skipped_;
-    std::vector<Compromised> compromises_;
+    std::vector<Remark> skipped_, compromises_, choices_;
 };
 
 }  // namespace drape::graph

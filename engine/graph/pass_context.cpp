@@ -164,18 +164,19 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
                               static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 
-void PassContext::push(const vulkan::Pipeline& pipeline, const glsl::StructLayout* layout,
-                       std::span<const std::byte> bytes) {
-    const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), layout);
+void PassContext::push(const vulkan::Pipeline& pipeline, const PushConstants& push_constants) {
+    const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), push_constants.layout);
     if (!difference.empty()) refuse(pipeline, "push constants", difference);
-    if (!layout) return;
+    if (!push_constants.layout) return;
     // The bytes that C++ adds at the end are no part of the pipeline's range.
     vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
-                       pipeline.push_constants()->size, bytes.data());
+                       pipeline.push_constants()->size, push_constants.bytes.data());
 }
 
-void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::uint32_t width, std::uint32_t height,
-                                  std::uint32_t depth) {
+void PassContext::dispatch(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants,
+                           std::uint32_t width, std::uint32_t height, std::uint32_t depth) {
+    bind_uses(pipeline);
+    push(pipeline, push_constants);
     const auto [x, y, z] = pipeline.local_size();
     const std::uint32_t columns = width / x + (width % x != 0), rows = height / y + (height % y != 0);
     const auto& limit = pool_.device().limits().maxComputeWorkGroupCount;
@@ -186,7 +187,10 @@ void PassContext::dispatch_groups(const vulkan::ComputePipeline& pipeline, std::
     vkCmdDispatch(commands_, columns, rows, depth);
 }
 
-void PassContext::dispatch_indirect(Handle arguments, std::uint64_t offset) {
+void PassContext::dispatch_indirect(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants,
+                                    Handle arguments, std::uint64_t offset) {
+    bind_uses(pipeline);
+    push(pipeline, push_constants);
     vkCmdDispatchIndirect(commands_, buffer(arguments).handle(), offset);
 }
 

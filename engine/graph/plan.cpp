@@ -53,7 +53,7 @@ class Culling {
 
     bool alive(std::size_t pass) const { return alive_[pass]; }
 
-    void explain(std::vector<Skipped>& skipped) const {
+    void explain(std::vector<Remark>& skipped) const {
         // The culled passes that read each resource let the end of a dead chain be told.
         std::vector<std::vector<std::uint32_t>> readers(graph_.resources().size());
         for (std::size_t p = 0; p < alive_.size(); ++p) {

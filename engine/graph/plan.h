@@ -43,7 +43,7 @@ struct Plan {
     std::vector<PlannedPass> passes;      ///< in execution order = declaration order
     std::vector<Barrier> final_barriers;  ///< after the last pass: device writes to the host
     std::vector<Lifespan> lifespans;      ///< per resource of the graph
-    std::vector<Skipped> skipped;         ///< the graph's own, then what culling removed and why
+    std::vector<Remark> skipped;          ///< the graph's own, then what culling removed and why
     std::uint64_t byte_count = 0;         ///< bytes of all used resources, copies per frame slot counted
 };
 

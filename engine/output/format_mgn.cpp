@@ -72,7 +72,6 @@ extern const OutputFormat mgn_format{
     .holds =
         "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
         "cells [1, cell, 3], node_type [1, node, 1]; not with cutters",
-    .load = "`numpy.load(\"out/trajectory.npz\")`",
     .follows_cuts = false,
     .frame_files = false,
     .owns = [](std::string_view name) { return name == "trajectory.npz" || name == "trajectory_frames.npz"; },

@@ -45,7 +45,6 @@ extern const OutputFormat npy_format{.name = "npy",
                                      .holds =
                                          "positions, float32 [frame, row, column, 3], metres; with cutters "
                                          "faces_FRAME.npy too, int32 [face, 3], from that frame on",
-                                     .load = "`numpy.load(\"out/positions.npy\")`",
                                      .frame_files = false,
                                      .owns =
                                          [](std::string_view name) {

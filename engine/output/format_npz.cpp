@@ -143,7 +143,6 @@ extern const OutputFormat npz_format{
         "column, 2]; frames and times (s) [frame]; the manifest's numbers of each frame, stretch_error_rms, "
         "kinetic_energy_j and so on [frame]; seed, of the gusts; parameters, what the run chose, and scene, with "
         "every default, JSON",
-    .load = "`run = numpy.load(\"out/positions.npz\"); scene = json.loads(run[\"scene\"].item())`",
     .details = true,
     .frame_files = false,
     .owns = owns,

@@ -19,7 +19,6 @@ extern const OutputFormat obj_format{
     .name = "obj",
     .files = "mesh_FRAME.obj",
     .holds = "every particle, texture coordinates, and the triangles that no cut has split",
-    .load = "any 3D program; `meshio.read(\"out/mesh_0000.obj\")`",
     .frame_files = true,
     .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "obj"); },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {

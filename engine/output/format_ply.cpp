@@ -40,7 +40,6 @@ extern const OutputFormat ply_format{
     .name = "ply",
     .files = "mesh_FRAME.ply",
     .holds = "the same, binary",
-    .load = "any 3D program; `meshio.read(\"out/mesh_0000.ply\")`",
     .frame_files = true,
     .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "ply"); },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {

@@ -31,17 +31,13 @@ class PngWriter : public FrameWriter {
 
 }  // namespace
 
-extern const OutputFormat png_format{
-    .name = "png",
-    .files = "frame_FRAME.png",
-    .holds = "the pictures, 8-bit sRGB",
-    .load =
-        "`ffmpeg -framerate 60 -pattern_type glob -i 'out/frame_*.png' -vf 'pad=2*ceil(iw/2):2*ceil(ih/2)' -pix_fmt "
-        "yuv420p flag.mp4`, whichever frames, whatever size",
-    .draws = true,
-    .resumes = true,
-    .frame_files = true,
-    .owns = is_frame_file_name,
-    .open = open_writer<PngWriter>};
+extern const OutputFormat png_format{.name = "png",
+                                     .files = "frame_FRAME.png",
+                                     .holds = "the pictures, 8-bit sRGB",
+                                     .draws = true,
+                                     .resumes = true,
+                                     .frame_files = true,
+                                     .owns = is_frame_file_name,
+                                     .open = open_writer<PngWriter>};
 
 }  // namespace drape

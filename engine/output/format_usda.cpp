@@ -159,7 +159,6 @@ extern const OutputFormat usda_format{
     .holds =
         "a USD mesh whose points are time samples by frame number, with texture coordinates; after a cut its faces "
         "are too",
-    .load = "Houdini, Maya, Omniverse, Blender 3.5 or newer: import as USD; `Usd.Stage.Open(\"out/positions.usda\")`",
     .frame_files = false,
     .owns = [](std::string_view name) { return is_cloth_file_name(name, "positions", "usda"); },
     .open = open_writer<UsdaFiles>};

@@ -133,7 +133,6 @@ extern const OutputFormat y4m_format{
     .holds =
         "uncompressed video, 4:2:0, BT.709, limited range, of even size (odd sides get their last pixels twice); "
         "with -o - on stdout",
-    .load = "`ffmpeg -i out/video.y4m -colorspace bt709 -color_primaries bt709 -color_trc bt709 flag.mp4`; mpv",
     .draws = true,
     .frame_files = false,
     .owns = [](std::string_view name) { return name == y4m.file_name; },
@@ -144,7 +143,6 @@ extern const OutputFormat rgb_format{
     .name = "rgb",
     .files = "video.rgb",
     .holds = "bare pixels, 3 bytes each, sRGB, rows from the top, frame after frame; with -o - on stdout",
-    .load = "`numpy.fromfile(\"out/video.rgb\", numpy.uint8).reshape(-1, height, width, 3)`",
     .draws = true,
     .frame_files = false,
     .owns = [](std::string_view name) { return name == rgb.file_name; },

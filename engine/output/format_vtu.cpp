@@ -97,7 +97,6 @@ extern const OutputFormat vtu_format{
     .holds =
         "VTK grids of triangles with velocity (m/s), contact and uv of every particle; mesh.pvd gives them their "
         "times",
-    .load = "ParaView: open `mesh.pvd`; `meshio.read(\"out/mesh_0000.vtu\")`",
     .details = true,
     .frame_files = true,
     .owns =

@@ -77,13 +77,12 @@ class FrameWriter {
 /// Takes a stream's bytes in order; throws what ends the run.
 using ByteSink = std::function<void(std::span<const std::byte>)>;
 
-/// A row of the table. The command line's help, the check of its options, the README's table (output_formats_test) and
-/// the names that `--overwrite` may remove are made of these.
+/// A row of the table. The command line's help, the check of its options, docs/export_formats.md (usage_test) and the
+/// names that `--overwrite` may remove follow from these.
 struct OutputFormat {
     std::string_view name;     ///< value of --export
     std::string_view files;    ///< "positions.npy": with one cloth; FRAME stands for at least four digits
     std::string_view holds;    ///< says what is in them
-    std::string_view load;     ///< says how to open them, a line of Markdown
     bool draws = false;        ///< needs WrittenFrame::rgba, else positions
     bool details = false;      ///< needs velocities and contacts
     bool resumes = false;      ///< its files name their run (kept_frames.h); others' are written anew

@@ -199,7 +199,7 @@ std::string utc_timestamp(std::chrono::system_clock::time_point time) {
 Json::Value solver_json(const Manifest::Solver& solver) {
     Json::Value json;
     json["method"] = solver.method;
-    json["schedule"] = solver.schedule;
+    json["kernels"] = solver.kernels;
     json["substeps"] = solver.substeps;
     json["iterations"] = solver.iterations;
     json["tethers"] = solver.tethers;

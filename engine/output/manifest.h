@@ -49,8 +49,8 @@ struct Manifest {
         double strain_range = 0;    // strain at the end of a heat map; 0: no heat map
     };
     struct Solver {
-        std::string method;    // in use
-        std::string schedule;  // in use
+        std::string method;   // in use
+        std::string kernels;  // in use
         std::uint32_t substeps = 0;
         std::uint32_t iterations = 0;
         bool tethers = false;

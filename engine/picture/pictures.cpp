@@ -25,7 +25,7 @@ Pictures::Pictures(const vulkan::Device& device, const SimulationModel& model, c
     : device_(device),
       model_(model),
       options_(options),
-      solver_(device, model, Schedule::images),
+      solver_(device, model, Kernels()),
       slots_(device),
       most_pending_(most_pending(model)) {
     build();

@@ -204,11 +204,13 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
 void RasterPass::make_compute_pipelines() {
     encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
                                                                    {"sampled", samples_ > 1 && !resolves_}}),
-                              {{"has_floor", has_floor_ ? 1u : 0u}, {"strip_length", compute_.strip_length()}});
+                              [this](std::string_view name) {
+                                  return name == "has_floor" ? (has_floor_ ? 1u : 0u) : compute_.strip_length();
+                              });
     if (!casts_shadow()) return;
     constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
     const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
-    shadow_rows_ = &compute_.get("shadow_rows.comp", {{"texels_each", texels_each}});
+    shadow_rows_ = &compute_.get("shadow_rows.comp", [=](std::string_view) { return texels_each; });
     shadow_rows_invocations_ = side * side / texels_each;
 }
 
@@ -309,7 +311,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.shadow_map, Access::compute_read, "shadow_map");
             targets.shadow_rows = setup.write(targets.shadow_rows, Access::compute_write, "shadow_rows");
         },
-        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, shadow_rows_invocations_, 1); });
+        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, {}, shadow_rows_invocations_, 1); });
 }
 
 void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
@@ -358,7 +360,7 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
         if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
         if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
-        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_share_image", cloth.spring_shares});
+        if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_shares", cloth.spring_shares});
         context.bind(pipeline, bound);
         if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
         if (!scale_) context.push(pipeline, cloth_push(cloth));

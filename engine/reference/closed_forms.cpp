@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// sum of (-z)^k / (k + first)! for k = 0..: phi (first = 1) and psi (first = 2) without cancellation at small z.
+/// phi (first = 1) and psi (first = 2) without cancellation at small z: the sum of (-z)^k / (k + first)! for k = 0..
 double damping_series(double z, int first) {
     double term = 1, sum = 0;
     for (int k = 2; k <= first; ++k) term /= k;
@@ -169,7 +169,7 @@ double membrane_frequency(std::uint32_t m, std::uint32_t n, double side, double 
 
 Catenary catenary(double span, double length) {
     if (!(span > 0 && span < length)) throw std::invalid_argument("catenary: need 0 < span < length");
-    // sinh(q)/q = length/span with q = span/(2 a), increasing in q.
+    // Solves sinh(q)/q = length/span for q = span/(2 a); the left side increases with q.
     const double wanted = length / span;
     double high = 1;
     while (std::sinh(high) / high < wanted) high *= 2;
@@ -219,7 +219,7 @@ ElasticaState moved(const ElasticaState& s, const ElasticaState& d, double h) {
     return {s.delta + h * d.delta, s.slope + h * d.slope, s.drop + h * d.drop, s.reach + h * d.reach};
 }
 
-/// From the tip to the clamp; nothing when delta passes pi/2 on the way. `visit` sees every node, tip included.
+/// Integrates from the tip to the clamp, nothing when delta passes pi/2 on the way. `visit` sees every node, tip too.
 template <class Visit>
 std::optional<ElasticaState> shoot(double gamma, double tip_delta, std::uint32_t segments, const Visit& visit) {
     ElasticaState s{tip_delta, 0, 0, 0};

@@ -1,5 +1,5 @@
-// Closed forms that a cloth solver can be measured against: every row of the accuracy benchmark that has one.
-// Plain functions of SI values in double precision, exact to a few roundings unless a docstring says otherwise.
+// Closed forms that a cloth solver can be measured against, for every row of the accuracy benchmark that has one: plain
+// functions of SI values in double precision, exact to a few roundings unless a docstring says otherwise.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ double damping_lag(double z);
 /// Displacement (m) after `time` (s) from velocity v0 (m/s) under constant acceleration a (m/s^2) and damping c
 /// (1/s): v0 t phi(c t) + a t^2 psi(c t). c = 0 is ballistic flight.
 double flight_displacement(double v0, double acceleration, double damping, double time);
-/// Velocity (m/s) then: v0 e^(-c t) + a t phi(c t).
+/// Velocity (m/s) of that flight after `time`: v0 e^(-c t) + a t phi(c t).
 double flight_velocity(double v0, double acceleration, double damping, double time);
 /// x(0) - x(-h): the displacement of the substep before the start that makes every later substep of
 /// d' = e^(-c h) d + phi h^2 a exact.
@@ -37,26 +37,26 @@ double sphere_leave_angle(double start_angle, double v0, double gravity, double 
 
 /// Complete elliptic integral of the first kind of modulus k (0 <= k < 1), by the arithmetic-geometric mean.
 double complete_elliptic_k(double k);
-/// Period (s) of a pendulum released from rest at `amplitude` (rad, below pi): 4 K(sin(amplitude/2)) sqrt(L/g).
-/// 1.180340599 times 2 pi sqrt(L/g) at 90 degrees.
+/// Period (s) of a pendulum released from rest at `amplitude` (rad, below pi): 4 K(sin(amplitude/2)) sqrt(L/g), which
+/// is 1.180340599 times 2 pi sqrt(L/g) at 90 degrees.
 double pendulum_period(double length, double gravity, double amplitude);
-/// Its angle (rad) at `time` (s): sin(angle/2) = k sn(K + sqrt(g/L) t, k).
+/// Angle (rad) of that pendulum at `time` (s): sin(angle/2) = k sn(K + sqrt(g/L) t, k).
 double pendulum_angle(double length, double gravity, double amplitude, double time);
 
 // --- Hanging cloth and chains -----------------------------------------------------------------------------------
 
-/// Tension (N) of link `link` (0 = top) of a hanging column of `links` links whose particles have mass m (kg):
-/// everything below hangs on it, (links - link) m g; with half_end_mass (Drape's borders) half a particle less.
+/// Tension (N) of link `link` (0 = top) of a hanging column of `links` links whose particles have mass m (kg), on which
+/// everything below hangs: (links - link) m g; with half_end_mass (Drape's borders) half a particle less.
 double hanging_link_tension(std::uint32_t links, std::uint32_t link, double mass, double gravity, bool half_end_mass);
 /// Static length (m) of that column of springs of `stiffness` (N/m) and total rest length `length`.
 double hanging_length(std::uint32_t links, double length, double stiffness, double mass, double gravity,
                       bool half_end_mass);
 
-/// Factors on `stretch_law`, measured (physics: the mean of a sheet with stretch springs only is 1).
+/// Measured factors on `stretch_law`, which itself is the mean of a sheet with stretch springs only.
 inline constexpr double law_all_passes_mean = 0.65, law_all_passes_rms = 0.83, law_chain_rms = 1.6,
                         law_chain_worst = 3.9;
-/// Mean strain of a hanging sheet of rigid stretch springs that parity-split sweeps leave: N^2 g h^2/(2 K L), with
-/// N links over height L (m), K sweeps per substep of h (s). Held to 0.4 % for N = 32..128.
+/// Mean strain of a hanging sheet of rigid stretch springs that parity-split sweeps leave: N^2 g h^2/(2 K L), with N
+/// links over height L (m), K sweeps per substep of h (s). Measured sheets keep to it within 0.4 % for N = 32..128.
 double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t sweeps, double length);
 /// Substeps per frame of 1/fps seconds at which `stretch_law` times `factor` is at most `strain`.
 std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps, double length,
@@ -66,13 +66,13 @@ std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double f
 double bessel_j0_zero(std::uint32_t n);
 /// Angular frequency (rad/s) of small mode n (from 1) of a uniform hanging chain: (j_(0,n)/2) sqrt(g/L).
 double hanging_chain_frequency(std::uint32_t n, double length, double gravity);
-/// Shape of that mode at height z above the free end, 1 at the free end: J0(j_(0,n) sqrt(z/L)).
+/// Shape of small mode n of a hanging chain at height z above the free end, 1 there: J0(j_(0,n) sqrt(z/L)).
 double hanging_chain_shape(std::uint32_t n, double length, double height);
 
 /// Mode n (from 1) of a taut string of `links` links of length l (m), particle mass m (kg), tension T (N), rad/s:
 /// 2 sqrt(T/(m l)) sin(n pi/(2 links)). Exact for the discrete string.
 double taut_string_frequency(std::uint32_t n, std::uint32_t links, double tension, double mass, double link_length);
-/// The same for the continuous string of length L (m) and linear density (kg/m): (n pi/L) sqrt(T/rho).
+/// Mode n of the continuous string of length L (m) and linear density (kg/m), rad/s: (n pi/L) sqrt(T/rho).
 double string_frequency(std::uint32_t n, double length, double tension, double linear_density);
 /// Mode (m, n) of a square membrane with side a (m), tension T (N/m), areal density rho (kg/m^2), rad/s:
 /// (pi/a) sqrt(T/rho) sqrt(m^2 + n^2).
@@ -86,7 +86,7 @@ struct Catenary {
     double sag;      ///< m below the supports
     double tension;  ///< at the supports, per weight per unit length: m
 };
-/// Inextensible chain of `length` over `span` (0 < span < length). Throws std::invalid_argument otherwise.
+/// Inextensible chain of `length` over `span`. Throws std::invalid_argument unless 0 < span < length.
 Catenary catenary(double span, double length);
 
 struct PlanePoint {
@@ -96,9 +96,9 @@ struct PlanePoint {
 PlanePoint catenary_point(const Catenary& curve, double s);
 
 /// Elastic chain of rest length `length` and axial stiffness EA given as `elastic_length` = EA / (weight per rest
-/// length), m; `a` and `tension` as above, per weight per *rest* length. elastic_length -> infinity gives `catenary`.
+/// length), m; `a` and `tension` are per weight per *rest* length. elastic_length -> infinity gives `catenary`.
 Catenary elastic_catenary(double span, double length, double elastic_length);
-/// Its point at signed rest arc length s from the lowest point (0, 0).
+/// Point of the elastic catenary at signed rest arc length s (m) from its lowest point, which is (0, 0).
 PlanePoint elastic_catenary_point(const Catenary& curve, double elastic_length, double s);
 
 // --- Cantilever -------------------------------------------------------------------------------------------------
@@ -112,9 +112,9 @@ struct HeavyElastica {
     std::vector<PlanePoint> shape;  ///< from the clamp (0, 0) to the tip, equally spaced in arc length, y downward
     double ratio() const { return drop / reach; }
 };
-/// Solves theta'' = -gamma (1 - s) cos(theta), theta(0) = 0, theta'(1) = 0 by shooting from the tip with
-/// `segments` fourth-order Runge-Kutta steps. 0 <= gamma <= 1e5; with 4096 segments H/W is right to 1e-9
-/// relative up to gamma = 1000.
+/// Solves theta'' = -gamma (1 - s) cos(theta), theta(0) = 0, theta'(1) = 0 by shooting from the tip with `segments`
+/// fourth-order Runge-Kutta steps. 0 <= gamma <= 1e5; with 4096 segments H/W is right to 1e-9 relative up to gamma =
+/// 1000.
 HeavyElastica heavy_elastica(double gamma, std::uint32_t segments = 4096);
 
 // --- XPBD -------------------------------------------------------------------------------------------------------

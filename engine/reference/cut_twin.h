@@ -1,4 +1,4 @@
-// The cut pass in plain C++, with the shader's own predicate.
+// This is the cut pass in plain C++, with the shader's own predicate.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// What the cut pass finds on `position` (one texel per particle); equals the device's images bit for bit.
+/// Returns the cuts in `position` (one texel per particle), equal to the device's images bit for bit.
 CutFindings find_cuts(const CutTopology& topology, const std::vector<glsl::vec4>& position,
                       const std::vector<glsl::CutterTriangle>& cutters);
 

@@ -82,7 +82,7 @@ class MidpointRun {
             if (!std::isfinite(moved)) break;
             system_->add_to(middle, step, 1);
             if (moved <= options_.position_tolerance) return;
-            // At the floor of rounding corrections stop shrinking; that is the best there is.
+            // At the floor of rounding corrections stop shrinking, and no better solution can be had.
             if (iteration > 2 && moved > 0.9 * before && moved <= 100 * options_.position_tolerance) return;
             if (moved > 0.2 * before) factorise(middle);
             before = moved;

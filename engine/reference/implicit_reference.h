@@ -1,5 +1,5 @@
-// Reference (b): Newton's method with a sparse Cholesky factorisation, for statics and as a check of (a) that shares
-// nothing with it but the model.
+// Reference (b) solves statics by Newton's method with a sparse Cholesky factorisation, and checks reference (a), with
+// which it shares nothing but the model.
 #pragma once
 
 #include <span>
@@ -12,35 +12,35 @@
 namespace drape {
 
 struct StaticOptions {
-    /// Done when a full step moves no particle by more than this (m). At a minimum such steps converge quadratically,
-    /// so the remaining error is far smaller.
+    /// The solve is done when a full step moves no particle by more than this (m). At a minimum such steps converge
+    /// quadratically, so the remaining error is far smaller.
     double position_tolerance = 1e-10;
     std::uint32_t iteration_limit = 2000;
-    /// First solve with springs so soft that they stretch by about a tenth, then ten times stiffer until they are what
-    /// they are: stiff cloth far from its equilibrium takes ten times fewer steps so. false: stays nearer to the start
-    /// where there are several minima.
+    /// true: solves first with springs so soft that they stretch by about a tenth, then ten times stiffer up to their
+    /// true stiffness, which takes ten times fewer steps for stiff cloth far from its equilibrium. false: stays nearer
+    /// to the start where there are several minima.
     bool soften_first = true;
-    double time = 0;  ///< s: pins hold what they hold then; steady wind is not part of the energy and is left out
+    double time = 0;  ///< s, time of the pins; steady wind is not part of the energy and is left out
 };
 
 struct StaticResult {
     std::vector<Vec3> position;  ///< m
     bool converged = false;      ///< the last full step was within the tolerance
-    /// The exact Hessian there is positive definite. A flat hanging sheet without bending can be in equilibrium but not
-    /// at a minimum: the compression beside its pins would rather make wrinkles, which a flat start never does.
+    /// The exact Hessian at `position` is positive definite. A flat hanging sheet without bending can be in equilibrium
+    /// but not at a minimum: the compression beside its pins would rather make wrinkles, which a flat start never does.
     bool minimum = false;
-    double last_step = 0;          ///< m, largest movement of a particle by the last step: the error estimate
+    double last_step = 0;          ///< m, largest movement of a particle by the last step, which estimates the error
     double residual = 0;           ///< N, largest force left on a free particle
     double energy = 0;             ///< J
-    std::uint32_t iterations = 0;  ///< of all stages
+    std::uint32_t iterations = 0;  ///< sum over all stages
 };
 
-/// Minimum of the potential energy (gravity, springs, bending) near `start`, held particles where `time` puts them.
-/// Newton with the exact Hessian where it is positive definite, else shifted by a multiple of the mass (also when the
-/// line search cuts steps short), else with compression clamped.
+/// Finds a minimum of the potential energy (gravity, springs, bending) near `start`, held particles where `time` puts
+/// them, by Newton with the exact Hessian where it is positive definite, else shifted by a multiple of the mass (also
+/// when the line search cuts steps short), else with compression clamped.
 StaticResult find_equilibrium(const SpringNetwork& network, std::span<const Vec3> start,
                               const StaticOptions& options = {});
-/// From the network's start.
+/// Starts from the network's start.
 StaticResult find_equilibrium(const SpringNetwork& network, const StaticOptions& options = {});
 
 struct ImplicitOptions {
@@ -56,11 +56,11 @@ struct ImplicitOptions {
 ReferenceRun run_implicit(const SpringNetwork& network, std::span<const double> times,
                           const ImplicitOptions& options = {});
 
-/// One run at steps of at most `step` seconds, without an estimate.
+/// Makes one run at steps of at most `step` seconds, without an estimate.
 std::vector<NetworkState> implicit_states(const SpringNetwork& network, std::span<const double> times, double step,
                                           const ImplicitOptions& options = {});
 
-/// Text that names the run completely: for ReferenceCache.
+/// Text that names the run completely, for ReferenceCache.
 std::string implicit_key(const SpringNetwork& network, std::span<const double> times,
                          const ImplicitOptions& options = {});
 

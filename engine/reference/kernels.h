@@ -1,4 +1,4 @@
-// The shaders' own functions, compiled as C++: one source for the projection, the contact and the wind.
+// The shaders' own functions compiled as C++, so that the projection, the contact and the wind have one source.
 #pragma once
 
 #include "shared/closed_loop_types.h"

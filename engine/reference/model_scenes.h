@@ -1,4 +1,4 @@
-// The model sheets that tests and benchmarks measure on, built in code: one cloth, no camera.
+// Tests and benchmarks measure on these model sheets, built in code: one cloth, no camera.
 #pragma once
 
 #include <cmath>
@@ -31,18 +31,17 @@ inline Pin pin_box(std::uint32_t c0, std::uint32_t r0, std::uint32_t c1, std::ui
     return pin;
 }
 
-/// The whole of row 0.
 inline Pin pin_top(const Cloth& cloth) { return pin_box(0, 0, cloth.grid[0] - 1, 0); }
 
-/// Stretch of the given wave speed (m/s), shear a tenth of it.
+/// Sets the stretch stiffness of a wave speed (m/s), and a shear stiffness that is `shear_share` of it.
 inline void set_wave_speed(Cloth& cloth, double wave_speed, double shear_share = 0.1) {
     cloth.areal_density = 0.2;
     cloth.stiffness.stretch = cloth.areal_density * wave_speed * wave_speed;
     cloth.stiffness.shear = shear_share * cloth.stiffness.stretch;
 }
 
-/// A sheet pinned along its top row and turned by `degrees` about it (90: horizontal), links x links over 1
-/// m, of the given wave speed (m/s) and shear a tenth of stretch.
+/// A sheet of links x links over 1 m, pinned along its top row and turned by `degrees` about it (90: horizontal), with
+/// springs of the given wave speed (m/s).
 inline SceneDescription swing(std::uint32_t links, double wave_speed, double degrees) {
     SceneDescription scene = sheet(links + 1, links + 1, 1.0, 1.0, 1);
     Cloth& cloth = scene.cloths[0];
@@ -55,21 +54,20 @@ inline SceneDescription swing(std::uint32_t links, double wave_speed, double deg
 
 inline constexpr double cantilever_length = 0.1, cantilever_gravity = 9.81;  ///< m, m/s^2
 
-/// Slowest angular frequency (rad/s) of the cantilever below: beam and pendulum together, about the first
-/// mode.
+/// Slowest angular frequency (rad/s) of the cantilever below, about its first mode as beam and pendulum together.
 inline double cantilever_frequency(double gamma) {
     return std::sqrt((12.36 / gamma + 1.4) * cantilever_gravity / cantilever_length);
 }
 
-/// A strip clamped level at one end, of the rigidity that makes gamma = w L^3/B: `segments` cells from the
-/// clamp to the free end, 1000 frames/s, substeps as the method needs them (line: 60 frames/s, 8 substeps). Two held
-/// columns clamp the middle of their cell, so the free length is half a cell more than the free columns.
+/// A strip clamped level at one end, of the rigidity that makes gamma = w L^3/B: `segments` cells from the clamp to the
+/// free end, 1000 frames/s, substeps as the method needs them (line: 60 frames/s, 8 substeps). Two held columns clamp
+/// the middle of their cell, so the free length is half a cell more than the free columns.
 inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverMethod method) {
     constexpr double density = 0.2, stretch = 500, length = cantilever_length;
     const double cell = length / (segments + 0.5), mass = density * cell * cell;
     const double rigidity = density * cantilever_gravity * length * length * length / gamma;
     const double bend = rigidity / (cell * cell);
-    // Relaxation in steps of m/(b h^2) = 60; explicit steps a little shorter than their limit.
+    // Relaxation takes steps of m/(b h^2) = 60, explicit steps are a little shorter than their limit.
     const double steps_per_second = method == SolverMethod::relax
                                         ? std::sqrt(60 * bend / mass)
                                         : std::sqrt(std::max(48 * bend, 4 * 1.54 * stretch) / mass);
@@ -89,7 +87,7 @@ inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverM
     return scene;
 }
 
-/// The cantilever until it hangs still: damped a little less than critically, so that nothing creeps.
+/// The cantilever until it hangs still, damped a little less than critically, so that nothing creeps.
 inline SceneDescription hanging_cantilever(std::uint32_t segments, double gamma, SolverMethod method) {
     SceneDescription scene = cantilever(segments, gamma, method);
     const double slowest = cantilever_frequency(gamma);

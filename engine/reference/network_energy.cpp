@@ -1,4 +1,4 @@
-// Energies of a spring network with their first and second derivatives: the plain definition, spring by spring. The
+// Energies of a spring network with their first and second derivatives, by the plain definition, spring by spring. The
 // fast kernel of network_kernel.h is tested against it.
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ std::vector<Vec3> SpringNetwork::gradient(std::span<const Vec3> position) const 
     for (const NetworkSpring& spring : springs) {
         const Vec3 edge = position[spring.second] - position[spring.first];
         const double size = length(edge);
-        if (size == 0) continue;  // no direction: a stationary, unstable point
+        if (size == 0) continue;  // without a direction it is a stationary, unstable point
         const double factor = spring.stiffness_at(size) * (1 - spring.rest_length / size);
         add_scaled(result[spring.first], -factor, edge);
         add_scaled(result[spring.second], factor, edge);

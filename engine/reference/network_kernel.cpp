@@ -48,7 +48,7 @@ void NetworkKernel::add_run(const Run& run, const Planes& position, Planes& forc
     const double* pushed = &compression_[run.constant];
     for (std::size_t i = 0; i < run.count; ++i) {
         const double x = bx[i] - ax[i], y = by[i] - ay[i], z = bz[i] - az[i];
-        // A spring without length has no direction: the bound makes its force 0 instead of NaN.
+        // A spring without length has no direction; the bound makes its force 0 instead of NaN.
         const double size = std::max(std::sqrt(x * x + y * y + z * z), 1e-200);
         const double pull = k[i] - kl[i] / size;
         const double factor = pull * (pull < 0 ? pushed[i] : 1.0);

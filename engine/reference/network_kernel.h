@@ -1,5 +1,5 @@
-// The accelerations of a spring network, fast: one value per particle in planes (all x, all y, all z), springs in runs
-// of neighbours so that the compiler makes vector code.
+// Computes the accelerations of a spring network fast: values lie in planes (all x, all y, all z), and springs in runs
+// of neighbours, so that the compiler makes vector code.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ std::vector<Vec3> from_planes(const Planes& planes);
 
 class NetworkKernel {
   public:
-    /// Keeps a copy of what it needs of `network`.
+    /// Copies the parts of `network` that it needs.
     explicit NetworkKernel(const SpringNetwork& network);
 
     /// Accelerations (m/s^2) of gravity, springs and bending at positions (m); particles without mass get 0.
     void accelerations(const Planes& position, Planes& acceleration) const;
 
   private:
-    /// Springs first + i to second + i, i < count, with their constants from `constant` on.
+    /// Springs first + i to second + i, i < count; their constants start at `constant`.
     struct Run {
         std::size_t first, second, count, constant;
     };

@@ -1,4 +1,4 @@
-// Tridiagonal systems by cyclic reduction, as shaders/include/cyclic_group.h solves them, in its order of operations.
+// Solves tridiagonal systems by cyclic reduction in the order of operations of shaders/include/cyclic_group.h.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// The unknowns of a system, given its rows.
+/// Returns the unknowns of the system with these rows.
 std::vector<glsl::vec3> reduced(std::vector<glsl::CyclicRow> rows);
 
 }  // namespace drape

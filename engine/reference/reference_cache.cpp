@@ -27,8 +27,8 @@ std::uint64_t hash_of(std::string_view bytes) {
     return hash.value();
 }
 
-/// File: magic, version, key, method, step, particles, times, then per time its estimate, order, positions and
-/// velocities; at the end the hash of everything before. Texts are a length and their bytes; all numbers 8 bytes.
+/// The file holds magic, version, key, method, step, particles, times, then per time its estimate, order, positions and
+/// velocities; at the end the hash of everything before. Texts are a length and their bytes; all numbers take 8 bytes.
 class Writer {
   public:
     void bytes(std::string_view data) { data_.append(data); }
@@ -46,7 +46,7 @@ class Writer {
     std::string data_;
 };
 
-/// Every read is checked against what is left; after the first failure `ok()` stays false and values are 0.
+/// Checks every read against the bytes that are left; after the first failure `ok()` stays false and values are 0.
 class Reader {
   public:
     explicit Reader(std::string_view data) : rest_(data) {}

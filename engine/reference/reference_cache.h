@@ -1,5 +1,5 @@
-// Reference runs kept on disk, with their error estimates. A file that does not hold exactly what it should is
-// treated as absent and written anew.
+// Keeps reference runs on disk, with their error estimates. A file that does not hold exactly what it should is treated
+// as absent and written anew.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,15 @@
 
 namespace drape {
 
-/// Canonical text of a run: method with its version, sizes and fingerprint of the network, options, times. Numbers are
-/// written so that they read back exactly.
+/// Canonical text of a run: method with its version, sizes and fingerprint of the network, options, times. Numbers read
+/// back exactly.
 std::string reference_key(std::string_view method, const SpringNetwork& network, std::span<const double> times,
                           std::initializer_list<std::pair<std::string_view, double>> options);
 
 struct CachedRun {
     ReferenceRun run;
     bool from_cache = false;
-    std::string store_error;  ///< why a fresh run could not be kept; empty when it was
+    std::string store_error;  ///< reason why a fresh run could not be kept; empty when it was
 };
 
 class ReferenceCache {
@@ -31,11 +31,11 @@ class ReferenceCache {
     /// Creates the folder. Throws std::filesystem::filesystem_error when that fails.
     explicit ReferenceCache(std::filesystem::path folder);
 
-    /// reference_<hash of the key>.bin in the folder.
+    /// Path of reference_<hash of the key>.bin in the folder.
     std::filesystem::path file_of(std::string_view key) const;
 
-    /// The run of a key; nothing when there is none, or when the file is damaged, of another version, or of another
-    /// key with the same hash.
+    /// Returns the run of a key; nothing when there is none, or when the file is damaged, of another version, or of
+    /// another key with the same hash.
     std::optional<ReferenceRun> load(std::string_view key) const;
 
     /// Writes beside and renames, so that readers see the old file or the new one. Throws std::runtime_error.

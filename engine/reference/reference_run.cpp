@@ -33,7 +33,7 @@ void check_times(std::span<const double> times) {
 ReferenceRun refine(std::string_view method, double step, std::span<const double> times, const StatesAtStep& states_at,
                     const ReferenceProgress& progress) {
     check_times(times);
-    // The two coarse runs together take three quarters of the finest one's time, beside it.
+    // The two coarse runs together take three quarters of the finest one's time, so they run beside it.
     std::atomic<bool> is_cancelled = false;
     const ReferenceProgress heed_cancel = [&is_cancelled](double) {
         if (is_cancelled) throw std::runtime_error("reference run cancelled");

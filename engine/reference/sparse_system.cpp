@@ -29,7 +29,7 @@ bool SparseSystem::factorise(std::span<const Vec3> position, HessianForm form, d
         }
     Eigen::SparseMatrix<double> matrix(unknown_count(), unknown_count());
     matrix.setFromTriplets(triplets.begin(), triplets.end());
-    // The pattern is the network's: zeros are stored too.
+    // Zeros are stored too, so the pattern depends on the network alone.
     if (!analysed_) cholesky_.analyzePattern(matrix);
     analysed_ = true;
     cholesky_.factorize(matrix);

@@ -1,5 +1,5 @@
-// The linear systems of the implicit reference: Hessian of the free particles plus a multiple of their masses,
-// factorised by sparse Cholesky. Includes Eigen: only for .cpp files of this room.
+// The linear systems of the implicit reference, the Hessian of the free particles plus a multiple of their masses, are
+// factorised by sparse Cholesky. This header includes Eigen, so only .cpp files of this room include it.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -20,11 +20,11 @@ class SparseSystem {
     Eigen::Index unknown_count() const { return static_cast<Eigen::Index>(3 * free_.size()); }
     const std::vector<std::uint32_t>& free_particles() const { return free_; }
 
-    /// Factorises hessian(position, form) + shift * mass, shift in 1/s^2. False when not positive definite.
+    /// Factorises hessian(position, form) + shift * mass, shift in 1/s^2; false when that is not positive definite.
     bool factorise(std::span<const Vec3> position, HessianForm form, double shift);
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return cholesky_.solve(right); }
 
-    /// The free particles' entries, and back.
+    /// Picks the free particles' entries out of `vectors`, and adds to them.
     Eigen::VectorXd gather(std::span<const Vec3> vectors) const;
     void add_to(std::vector<Vec3>& vectors, const Eigen::VectorXd& unknowns, double factor) const;
 

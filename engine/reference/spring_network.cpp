@@ -22,8 +22,8 @@ Vec3 transformed(const RigidTransform& motion, const Vec3& pivot, const Vec3& re
     return result;
 }
 
-/// How many of the two sides of a line of particles are cloth, halved: `left` and `right` are the cells on either
-/// side of the middle particle on one side of the line; a hole on either ends the cloth there.
+/// Half the number of sides of a line of particles that are cloth. `left` and `right` are the cells on either side of
+/// the middle particle on one side of the line; a hole on either ends the cloth there.
 double bending_share(bool left_above, bool right_above, bool left_below, bool right_below) {
     return 0.5 * (left_above && right_above) + 0.5 * (left_below && right_below);
 }
@@ -152,8 +152,8 @@ Vec3 SpringNetwork::pinned_position(std::uint32_t particle, double time) const {
 }
 
 Vec3 SpringNetwork::pinned_velocity(std::uint32_t particle, double time) const {
-    // Backward difference, exact for the cubics that paths are made of: a particle released at a key leaves with the
-    // velocity it had before, and the curvature jumps there.
+    // The backward difference is exact for the cubics that paths are made of: a particle released at a key leaves with
+    // the velocity it had before, and the curvature jumps there.
     const double step = 1e-5, weight[4] = {11, -18, 9, -2};
     Vec3 velocity{};
     for (int n = 0; n < 4; ++n) {

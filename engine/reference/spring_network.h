@@ -1,6 +1,6 @@
-// The spring network of one cloth in double precision: the physical model that Drape's solvers approximate, as plain
-// data with its energy, gradient and Hessian. Built from the grid by docs/physics.md 1, independently of the arrays
-// that the device gets. Colliders are not part of it. Pure.
+// The spring network of one cloth in double precision is the physical model that Drape's solvers approximate, as plain
+// data with its energy, gradient and Hessian. It is built from the grid by docs/physics.md 1, independently of the
+// arrays that the device gets, and has no colliders. Pure.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace drape {
 
-/// Energy stiffness/2 (|r| - rest_length)^2: force stiffness (|r| - rest_length) along r; both times `compression`
-/// where |r| < rest_length.
+/// Its energy is stiffness/2 (|r| - rest_length)^2 and its force stiffness (|r| - rest_length) along r, both times
+/// `compression` where |r| < rest_length.
 struct NetworkSpring {
     std::uint32_t first, second;
     double stiffness;    ///< N/m, the border's half included
@@ -27,19 +27,19 @@ struct NetworkSpring {
     double stiffness_at(double size) const { return size < rest_length ? compression * stiffness : stiffness; }
 };
 
-/// Energy stiffness/2 |sum_k coefficient_k x_(particle_k)|^2, coefficients summing to zero. Along an axis of spacing h
-/// (perpendicular spacing p) the coefficients are 1 -2 1 (0) and the stiffness is B w p/h^3, w = 1 inside, 1/2 along a
-/// border; on the corners 00 10 01 11 of a cell 1 -1 -1 1 and 2 B/(dx dy). Then sum E = B/2 integral of
-/// kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0 (the axes alone would be half as stiff along 45
-/// degrees), and a narrow strip is the elastica of rigidity B per width. It is the quadratic bending of isometric
-/// surfaces (Bergou et al. 2006) reduced to a regular grid.
+/// Its energy is stiffness/2 |sum_k coefficient_k x_(particle_k)|^2, with coefficients that sum to zero. Along an axis
+/// of spacing h (perpendicular spacing p) the coefficients are 1 -2 1 (0) and the stiffness is B w p/h^3, w = 1 inside,
+/// 1/2 along a border; on the corners 00 10 01 11 of a cell they are 1 -1 -1 1 and 2 B/(dx dy). Then sum E = B/2
+/// integral of kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0 (the axes alone would be half as stiff
+/// along 45 degrees), and a narrow strip is the elastica of rigidity B per width. It is the quadratic bending of
+/// isometric surfaces (Bergou et al. 2006) reduced to a regular grid.
 struct BendingElement {
     std::array<std::uint32_t, 4> particle;
     std::array<double, 4> coefficient;  ///< 0 where unused
     double stiffness;                   ///< N/m
 };
 
-/// Particles that the scene moves; `release` as in the scene.
+/// A pin's particles move along `path` and are free from `release` on.
 struct NetworkPin {
     MotionPath path;
     Vec3 pivot{0, 0, 0};            ///< m
@@ -62,39 +62,39 @@ struct NetworkStrain {
     std::size_t count = 0;
 };
 
-/// One entry of the Hessian's lower triangle; particle p's axis k is row 3 p + k. Equal places add up.
+/// An entry of the Hessian's lower triangle; particle p's axis k is row 3 p + k. Entries at equal places add up.
 struct HessianEntry {
     std::uint32_t row, column;
     double value;  ///< N/m
 };
 
-/// clamped: springs under compression contribute no negative geometric stiffness, so the sum is positive
+/// With `clamped`, springs under compression contribute no negative geometric stiffness, so the sum is positive
 /// semidefinite for any positions.
 enum class HessianForm { exact, clamped };
 
 struct SpringNetwork {
-    /// Empty, to be filled by hand (chains, pendulums, pretensioned drums: every member is plain data).
+    /// An empty network, to be filled by hand (chains, pendulums, pretensioned drums: every member is plain data).
     SpringNetwork() = default;
     /// Throws std::invalid_argument for rigid cloth (no finite stiffness, no energy) and for colliders unless ignored.
     SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options = {});
 
-    std::vector<double> mass;          ///< kg; 0: a particle without a cell, held for ever
+    std::vector<double> mass;          ///< kg; 0 for a particle without a cell, held for ever
     std::vector<Vec3> rest_position;   ///< m, at the start
     std::vector<std::int32_t> pin_of;  ///< index into pins, -1 = free
     std::vector<NetworkPin> pins;
     std::vector<NetworkSpring> springs;
     std::vector<BendingElement> bending;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< that feel wind
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< triangles that feel wind
     Vec3 start_velocity{0, 0, 0};                         ///< m/s, of free particles
     Vec3 gravity{0, -9.81, 0};                            ///< m/s^2
     double damping = 0;                                   ///< 1/s: acceleration -damping * velocity
     Wind wind;
 
     std::size_t particle_count() const { return mass.size(); }
-    /// Whether a particle is held at `time`; from its release on it is free.
+    /// Returns whether a particle is held at `time`; from its release on it is free.
     bool held(std::uint32_t particle, double time) const;
     bool has_moving_pins() const;
-    /// Where the pin holds a particle (position and velocity); the rest position for a particle without a pin.
+    /// Position and velocity at which the pin holds a particle; the rest position for a particle without a pin.
     Vec3 pinned_position(std::uint32_t particle, double time) const;
     Vec3 pinned_velocity(std::uint32_t particle, double time) const;
     /// Release times > 0, sorted, each once.
@@ -105,12 +105,12 @@ struct SpringNetwork {
     double gravity_energy(std::span<const Vec3> position) const;  ///< J, 0 at the origin, pinned ones included
     double spring_energy(std::span<const Vec3> position) const;   ///< J
     double bending_energy(std::span<const Vec3> position) const;  ///< J
-    /// Gravity, springs and bending, J.
+    /// Sums gravity, springs and bending, J.
     double potential_energy(std::span<const Vec3> position) const;
 
-    /// dE/dx of the potential energy: minus the forces (N), held particles included.
+    /// dE/dx of the potential energy, which is minus the forces (N), held particles included.
     std::vector<Vec3> gradient(std::span<const Vec3> position) const;
-    /// Adds the wind's force (N): the scene's formula per triangle, a third to each corner.
+    /// Adds the wind's force (N) by the scene's formula per triangle, a third to each corner.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;
     std::vector<HessianEntry> hessian(std::span<const Vec3> position, HessianForm form) const;
@@ -119,7 +119,7 @@ struct SpringNetwork {
 
     /// Upper bound (Gershgorin) of the angular frequencies, rad/s; an explicit step must stay below 2 over it.
     double highest_frequency_bound() const;
-    /// 64-bit hash of every number above: equal for equal networks, on every machine.
+    /// 64-bit hash of every number above, equal for equal networks on every machine.
     std::uint64_t fingerprint() const;
 
   private:

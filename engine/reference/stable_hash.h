@@ -1,4 +1,4 @@
-// A 64-bit hash that is the same on every machine and in every version: for keys on disk.
+// A 64-bit hash for keys on disk: it is the same on every machine and in every version.
 #pragma once
 
 #include <bit>
@@ -17,7 +17,7 @@ class StableHash {
         state_ ^= state_ >> 31;
     }
     void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-    /// Length and bytes.
+    /// Adds the length and the bytes.
     void add(std::string_view bytes) {
         add(std::uint64_t{bytes.size()});
         std::uint64_t word = 0;

@@ -1,4 +1,4 @@
-// Statics: the minimum of the potential energy.
+// Solves statics, the minimum of the potential energy.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -19,7 +19,7 @@ class EnergyMinimiser {
         result_.position.assign(start.begin(), start.end());
         for (std::uint32_t p = 0; p < network.particle_count(); ++p)
             if (network.held(p, options.time)) result_.position[p] = network.pinned_position(p, options.time);
-        // A shift that resists a particle as gravity's pull does over the cloth's size is a small one.
+        // The smallest shift is small against one that resists a particle as gravity's pull does over the cloth's size.
         double extent = 1e-3;
         for (const Vec3& x : result_.position)
             for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, std::abs(x[k] - result_.position[0][k]));
@@ -41,8 +41,8 @@ class EnergyMinimiser {
     }
 
   private:
-    /// Solves for a descent direction with, in this order: the exact Hessian, the exact one with a shift (which leaves
-    /// a saddle fast), the clamped one.
+    /// Solves for a descent direction with the exact Hessian, else with the exact one and a shift (which leaves a
+    /// saddle fast), else with the clamped one.
     void find_step(Eigen::VectorXd& step) {
         exact_ = system_.factorise(result_.position, HessianForm::exact, shift_);
         double added = 0;
@@ -57,7 +57,7 @@ class EnergyMinimiser {
         step = system_.solve(-gradient_);
     }
 
-    /// One step. False when no step lowers the energy any more.
+    /// Makes one step; returns false when no step lowers the energy any more.
     bool iterate() {
         Eigen::VectorXd step;
         find_step(step);
@@ -68,7 +68,7 @@ class EnergyMinimiser {
             system_.add_to(tried, step, fraction);
             const double energy = network_.potential_energy(tried);
             const Eigen::VectorXd gradient = system_.gather(network_.gradient(tried));
-            // Where the energy cannot tell any more, the gradient decides.
+            // Where the energy cannot tell any more, the gradient's norm decides.
             const bool indistinct = std::abs(slope) <= 1e-11 * std::abs(energy_);
             const bool better =
                 energy <= energy_ + 1e-4 * fraction * slope || (indistinct && gradient.norm() <= gradient_.norm());
@@ -87,7 +87,7 @@ class EnergyMinimiser {
         return !hopeless;
     }
 
-    /// Short steps mean that the quadratic model reaches too far.
+    /// Adapts the shift: short steps mean that the quadratic model reaches too far.
     void adapt_shift(double fraction) {
         if (fraction < 0.2)
             shift_ = std::max(smallest_shift_, 4 * shift_);

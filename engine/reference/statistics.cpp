@@ -33,7 +33,7 @@ std::vector<StatisticsRecord> joined_in_chunks(const std::vector<StatisticsRecor
     return result;
 }
 
-/// One cloth's state as the shader's invocations see it.
+/// Reduces one cloth's state as the shader's invocations do.
 class Reduction {
   public:
     Reduction(const SimulationModel& model, const ClothModel& cloth, const TwinCloth& state, const FrameInputs& inputs)

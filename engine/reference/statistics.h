@@ -1,4 +1,4 @@
-// The C++ twin of the statistics passes: the same functions, joined in the same order.
+// The C++ twin of the statistics passes calls the same functions and joins in the same order.
 #pragma once
 
 #include "cloth/cloth_statistics.h"
@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Of one cloth's state at the end of a frame; `inputs` are that frame's (they hold the colliders' poses).
+/// Statistics of one cloth's state at the end of a frame; `inputs` are that frame's (they hold the colliders' poses).
 glsl::StatisticsRecord twin_statistics(const SimulationModel& model, std::size_t cloth, const TwinCloth& state,
                                        const FrameInputs& inputs);
 

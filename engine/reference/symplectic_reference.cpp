@@ -13,7 +13,7 @@ namespace drape {
 
 namespace {
 
-/// Held particles of one interval between releases; moving ones follow their pins.
+/// Runs interval by interval, between releases, while the same particles are held; moving ones follow their pins.
 class SymplecticRun {
   public:
     explicit SymplecticRun(const SpringNetwork& network) : network_(network), kernel_(network) {

@@ -1,4 +1,4 @@
-// Reference (a): symplectic Verlet far below the stability limit, with exact per-second damping.
+// Reference (a) is symplectic Verlet far below the stability limit, with exact per-second damping.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 namespace drape {
 
 struct SymplecticOptions {
-    /// Step of the finest run as a fraction of the stability limit 2/omega_max (omega_max by Gershgorin's bound).
-    /// The error estimate takes runs at 2 and 4 times that step, so it must stay at or below 0.24.
+    /// Step of the finest run as a fraction of the stability limit 2/omega_max (omega_max by Gershgorin's bound). The
+    /// error estimate takes runs at 2 and 4 times that step, so it must stay at or below 0.24.
     double cfl = 0.1;
     ReferenceProgress progress{};
 };
@@ -19,20 +19,20 @@ struct SymplecticOptions {
 /// Longest step (s) of the finest run.
 double symplectic_step(const SpringNetwork& network, const SymplecticOptions& options = {});
 
-/// States at `times` (increasing, >= 0; 0 is the start), integrated three times for the error estimate. Kick-drift-kick
-/// with the flight of constant force and damping solved exactly, so free fall is exact at every step: with z = c h,
+/// Returns states at `times` (increasing, >= 0; 0 is the start), integrated three times for the error estimate.
+/// Kick-drift-kick solves the flight of constant force and damping exactly, so free fall is exact: with z = c h,
 ///   x' = x + phi h v + psi h^2 a,   v' = e^(-z)/phi (x' - x)/h + (phi - psi)/phi h a',
-/// which is d' = e^(-z) d + phi h^2 a with the start of docs/physics.md 3. Second order; wind takes its velocity from
-/// v + e^(-z), phi h a (still second order). Steps divide every interval between times and pin releases evenly.
+/// which is d' = e^(-z) d + phi h^2 a with the start of docs/physics.md 3. It is of second order, also with wind, which
+/// takes its velocity from e^(-z) v + phi h a. Steps divide every interval between times and pin releases evenly.
 /// Throws std::runtime_error when the positions stop being finite, std::invalid_argument for wrong options or times.
 ReferenceRun run_symplectic(const SpringNetwork& network, std::span<const double> times,
                             const SymplecticOptions& options = {});
 
-/// One run at steps of at most `step` seconds, without an estimate.
+/// Makes one run at steps of at most `step` seconds, without an estimate.
 std::vector<NetworkState> symplectic_states(const SpringNetwork& network, std::span<const double> times, double step,
                                             const ReferenceProgress& progress = {});
 
-/// Text that names the run completely: for ReferenceCache.
+/// Text that names the run completely, for ReferenceCache.
 std::string symplectic_key(const SpringNetwork& network, std::span<const double> times,
                            const SymplecticOptions& options = {});
 

@@ -1,4 +1,3 @@
-// The triangles around a particle, for the twin's passes that gather.
 #pragma once
 
 #include "cloth/grid.h"

@@ -1,8 +1,9 @@
 #include "reference/twin.h"
 
 #include <cstring>
+#include <map>
 
-#include "cloth/cyclic_lines.h"
+#include "cloth/kernel_steps.h"
 #include "cloth/step_change.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
@@ -63,15 +64,16 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
     return std::as_bytes(std::span(integer_fields[place]));
 }
 
-Twin::Twin(const SimulationModel& model, Schedule schedule) : model_(&model), schedule_(schedule) {
+Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model) {
+    for (const Kernel kernel : {Kernel::line_cyclic, Kernel::nested_cyclic})
+        if (kernels.has(kernel)) kernels_.add(kernel);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
 void Twin::run_frame(std::uint32_t frame) {
     const FrameInputs inputs = frame_inputs(*model_, frame);
-    const bool cyclic = schedule_ == Schedule::cyclic;
-    for (const Step& step : cyclic ? cyclic_steps(*model_) : frame_steps(*model_)) run_step(step, inputs);
+    for (const Step& step : kernel_steps(*model_, kernels_)) run_step(step, inputs);
 }
 
 void Twin::change_step(const SimulationModel& run) {
@@ -93,64 +95,12 @@ void Twin::change_step(const SimulationModel& run) {
     }
 }
 
-void Twin::run_step(const Step& step, const FrameInputs& inputs) {
-    if (step.cloth == between_cloths) return run_contact(step);
-    if (step.cloth != all_cloths) return run_step(step.cloth, step, inputs);
-    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) run_step(cloth, step, inputs);
-}
+namespace {
 
-void Twin::run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs) {
-    const ClothModel& model = model_->cloths[cloth];
-    TwinCloth& state = cloths_[cloth];
-    if (step.conditional && !state.iterates) return;
-    switch (step.kind) {
-        case StepKind::release:
-            return release(model, state, inputs.pins[cloth], step.substep);
-        case StepKind::wind:
-            return wind(model, state, inputs, step.substep);
-        case StepKind::control:
-            return control(state, step);
-        case StepKind::predict:
-            return predict(state, step);
-        case StepKind::force:
-            return force(state, step);
-        case StepKind::explicit_step:
-            return explicit_step(state, step);
-        case StepKind::pin:
-            return pin(model, state, inputs.pins[cloth], step.substep);
-        case StepKind::bend:
-            return bend(state, step);
-        case StepKind::twist:
-            return twist(state, step);
-        case StepKind::spring:
-            return spring(model, state, step);
-        case StepKind::line:
-            return line(model, state, step);
-        case StepKind::nested:
-            return nested(model, state, step);
-        case StepKind::tether:
-            return tether(state);
-        case StepKind::box_edges:
-            return box_edges(model, state, inputs, step);
-        case StepKind::collide:
-            return collide(model, state, inputs, step);
-        case StepKind::check:
-            return check(model, state, step);
-        case StepKind::advance:
-            return advance(model, state);
-        case StepKind::self_gather:
-        case StepKind::self_gather_again:
-            return self_gather(state, step);
-        case StepKind::self_return:
-            return self_return(model, state, step);
-        default:
-            return;  // of all cloths at once
-    }
-}
-
-void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep) {
-    const vec3 velocity = xyz(inputs.wind[substep]);
-    const bool advance = substep > 0;
+void run_wind(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const vec3 velocity = xyz(inputs.wind[step.substep]);
+    const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
     const auto now = [&](std::size_t index) {
         const vec3 start = xyz(state[Field::position][index]);
@@ -175,7 +125,8 @@ void Twin::wind(const ClothModel& model, TwinCloth& state, const FrameInputs& in
         }
 }
 
-void Twin::force(TwinCloth& state, const Step& step) {
+void run_force(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<ForcePush>();
     const bool advance = step.substep > 0;
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
@@ -197,9 +148,9 @@ void Twin::force(TwinCloth& state, const Step& step) {
     }
 }
 
-void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
-               std::uint32_t substep) {
-    const std::size_t first = substep * model.dynamic_pins.size();
+void run_pin(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const std::size_t first = step.substep * model.dynamic_pins.size();
     for (const PinnedParticle& pin : model.pinned) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
         if (motion.held.x == 0.0f) continue;
@@ -208,7 +159,8 @@ void Twin::pin(const ClothModel& model, TwinCloth& state, const std::vector<PinM
     }
 }
 
-void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
+void run_spring(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SpringPush>();
     std::vector<float>& tensions = state.tension(static_cast<std::size_t>(push.channel));
     const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
@@ -233,7 +185,8 @@ void Twin::spring(const ClothModel& model, TwinCloth& state, const Step& step) {
         }
 }
 
-void Twin::tether(TwinCloth& state) {
+void run_tether(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<ParticleTethers>& tethers = state.topology.tethers();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
@@ -252,7 +205,8 @@ void Twin::tether(TwinCloth& state) {
     }
 }
 
-void Twin::advance(const ClothModel& model, TwinCloth& state) {
+void run_advance(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<vec4>& before =
         state[model.plan.spare_state ? Field::displacement_spare : Field::displacement_before];
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
@@ -264,6 +218,38 @@ void Twin::advance(const ClothModel& model, TwinCloth& state) {
                             xyz(state[Field::position_remainder][i]));
         state[Field::position][i] = texel(advanced.value, state[Field::position][i].w);
         state[Field::position_remainder][i] = texel(advanced.remainder);
+    }
+}
+
+std::vector<TwinRow> common_rows() {
+    return {{StepKind::wind, run_wind},     {StepKind::force, run_force},   {StepKind::pin, run_pin},
+            {StepKind::spring, run_spring}, {StepKind::tether, run_tether}, {StepKind::advance, run_advance}};
+}
+
+using StepFunction = void (*)(const TwinPlace&);
+/// Returns the function of a step by its kind. Throws std::out_of_range for a step that does several plain ones at
+/// once.
+StepFunction function_of(StepKind kind) {
+    static const std::map<StepKind, StepFunction> functions = [] {
+        std::map<StepKind, StepFunction> all;
+        for (const auto& rows :
+             {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(),
+              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows()})
+            for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
+        return all;
+    }();
+    return functions.at(kind);
+}
+
+}  // namespace
+
+void Twin::run_step(const Step& step, const FrameInputs& inputs) {
+    if (step.cloth == between_cloths) return run_contact(step);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        if (step.cloth != all_cloths && step.cloth != cloth) continue;
+        if (step.conditional && !cloths_[cloth].iterates) continue;
+        function_of(step.kind)({*model_, model_->cloths[cloth], cloths_[cloth], step, inputs, inputs.pins[cloth],
+                                contact_ ? &*contact_ : nullptr});
     }
 }
 

@@ -1,6 +1,6 @@
-// The C++ twin: every plain simulation pass in plain C++, with the shaders' own functions, in the shaders'
-// order of operations. On a device with IEEE arithmetic (lavapipe) its images equal the device's bit for bit;
-// that the passes are *right* is shown elsewhere, against closed forms in double precision.
+// The C++ twin runs every plain simulation pass in plain C++, with the shaders' own functions, in the shaders' order of
+// operations. On a device with IEEE arithmetic (lavapipe) its images equal the device's bit for bit. That the passes
+// are *right* is shown elsewhere, against closed forms in double precision.
 #pragma once
 
 #include <array>
@@ -10,19 +10,19 @@
 #include "cloth/cloth_state.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/schedule.h"
-#include "drape/schedule.h"
+#include "cloth/frame_steps.h"
 
 namespace drape {
 
-/// The fields of one cloth that the passes compute, row by row, and what cuts made of it. A field that the cloth does
-/// not need, or that holds something else, is empty.
+/// The fields of one cloth that the passes compute, row by row, and its topology after cuts. A field that the cloth
+/// does not need, or that holds something else, is empty.
 struct TwinCloth {
     TwinCloth(const SimulationModel& model, std::size_t cloth);
 
     std::vector<glsl::vec4>& operator[](Field field) { return vectors[static_cast<std::size_t>(field)]; }
     const std::vector<glsl::vec4>& operator[](Field field) const { return vectors[static_cast<std::size_t>(field)]; }
-    /// m, by first particle: what the tension applied in the last substep would stretch a spring by.
+    /// Returns the extension (m) by which the tension applied in the last substep would stretch each spring, by first
+    /// particle.
     std::vector<float>& tension(std::size_t direction) {
         return scalars[static_cast<std::size_t>(tension_of(direction))];
     }
@@ -33,32 +33,32 @@ struct TwinCloth {
     const std::vector<glsl::uint>& integers(Field field) const {
         return integer_fields[static_cast<std::size_t>(field)];
     }
-    /// N; w: drag, N/m.
+    /// Returns the wind's force on a particle (N) and, in w, its drag (N/m).
     glsl::vec4 force_on(std::size_t particle) const;
-    /// Writes displacement + increment, less the share `loss` that drag takes, and what rounding lost of the sum.
+    /// Writes displacement + increment, less the share `loss` that drag takes, and the rounding that the sum lost.
     void step_displacement(std::size_t particle, glsl::vec3 displacement, glsl::vec3 increment, float loss);
-    /// Inverse mass that springs and bending feel.
+    /// Returns the inverse mass that springs and bending feel.
     float dragged_weight_of(std::size_t particle) const;
-    /// A displacement that keeps what the prediction noted beside it.
+    /// Writes a displacement and keeps the mark that the prediction left beside it.
     void move_to(std::size_t particle, glsl::vec3 displacement);
-    /// Whatever the field holds.
     std::span<const std::byte> bytes(Field field) const;
 
     std::array<std::vector<glsl::vec4>, field_count> vectors;
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    bool iterates = true;               ///< what the last check found: conditional steps run
-    std::uint32_t iteration_count = 0;  ///< of the frame, when adaptive
+    glsl::ResidualRecord residual{};    ///< result of the last residual step
+    bool iterates = true;               ///< last decision: whether conditional steps run
+    std::uint32_t iteration_count = 0;  ///< iterations of the frame, when adaptive
 };
 
 /// A pair of primitives that may meet.
 struct TwinPair {
-    bool edges;  ///< two, else a particle and a triangle
+    bool edges;  ///< whether it is two edges, else a particle and a triangle
     glsl::uvec4 corners;
 };
 
-/// What the passes of contact hand each other: by place on the sheet of all cloths, as on the device.
+/// The passes of contact hand each other these lists, by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);
 
@@ -68,63 +68,61 @@ struct TwinContact {
     std::vector<glsl::SelfBox> boxes;
     std::vector<TwinPair> pairs;
     std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
-    std::vector<glsl::vec3> led;                 ///< by cloth
+    std::vector<glsl::vec3> led;                 ///< displacement that leads each cloth apart from others, m
     std::vector<glsl::ivec4> corrections;
     std::vector<glsl::vec4> before;
-    std::vector<float> shares;  ///< of their motions that the particles make, after the last round
+    std::vector<float> shares;  ///< shares of their motions that the particles make, after the last round
     glsl::SelfRecord record{};
 };
 
+/// A step of one cloth, as its function in the twin gets it.
+struct TwinPlace {
+    const SimulationModel& scene;
+    const ClothModel& model;
+    TwinCloth& state;
+    const Step& step;
+    const FrameInputs& inputs;
+    const std::vector<glsl::PinMotion>& motions;
+    TwinContact* contact;  ///< null where no cloths meet
+};
+
+/// A kind of step and its function. Every file of such functions gives their rows.
+struct TwinRow {
+    StepKind kind;
+    void (*run)(const TwinPlace&);
+};
+std::vector<TwinRow> twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(), twin_bend_rows(),
+    twin_contact_rows(), twin_check_rows(), twin_sheet_rows();
+
 class Twin {
   public:
-    /// `schedule`: of them all only `cyclic` has bits of its own.
-    explicit Twin(const SimulationModel& model, Schedule schedule = Schedule::images);
+    /// Takes the kernels of cyclic reduction where `kernels` has them, as they round otherwise, and plain steps else:
+    /// all other kernels give the bits of the plain ones.
+    explicit Twin(const SimulationModel& model, const Kernels& kernels = {});
 
-    /// Simulates from frame-1 to `frame`, step by step of the schedule.
+    /// Simulates from frame - 1 to `frame`, step by step.
     void run_frame(std::uint32_t frame);
-    /// Goes on with other substeps: those of `run`, the same scene's, which must outlive this.
+    /// Goes on with the substeps of `run`, a model of the same scene, which must outlive this.
     void change_step(const SimulationModel& run);
-    /// One step, of one cloth or all of them.
+    /// Takes one step, of one cloth or of all of them.
     void run_step(const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);
-    /// explicit: the tension at a frame's end, for the statistics.
+    /// Computes the tension at a frame's end, for the statistics of an explicit method.
     void tension(std::size_t cloth);
 
     const TwinCloth& cloth(std::size_t index) const { return cloths_[index]; }
     TwinCloth& cloth(std::size_t index) { return cloths_[index]; }
-    /// Of a scene that has contact between cloths.
+    /// The scene must have contact between cloths.
     const TwinContact& contact() const { return *contact_; }
-    /// What cuts made of a cloth; cutting it acts from the next step on.
+    /// A cut of this topology acts from the next step on.
     CutTopology& topology(std::size_t index) { return cloths_[index].topology; }
 
   private:
-    void run_step(std::size_t cloth, const Step& step, const FrameInputs& inputs);
-    void release(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
-                 std::uint32_t substep);
-    void wind(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, std::uint32_t substep);
-    void force(TwinCloth& state, const Step& step);
-    void explicit_step(TwinCloth& state, const Step& step);
-    void control(TwinCloth& state, const Step& step);
-    void predict(TwinCloth& state, const Step& step);
-    void line(const ClothModel& model, TwinCloth& state, const Step& step);
-    void nested(const ClothModel& model, TwinCloth& state, const Step& step);
-    void tether(TwinCloth& state);
-    void pin(const ClothModel& model, TwinCloth& state, const std::vector<glsl::PinMotion>& motions,
-             std::uint32_t substep);
-    void spring(const ClothModel& model, TwinCloth& state, const Step& step);
-    void bend(TwinCloth& state, const Step& step);
-    void twist(TwinCloth& state, const Step& step);
-    void box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
-    void collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step);
-    void check(const ClothModel& model, TwinCloth& state, const Step& step);
-    void self_gather(TwinCloth& state, const Step& step);
-    void self_return(const ClothModel& model, TwinCloth& state, const Step& step);
-    /// A step of all cloths at once.
+    /// Takes a step of contact, of all cloths at once.
     void run_contact(const Step& step);
-    void advance(const ClothModel& model, TwinCloth& state);
 
     const SimulationModel* model_;
-    Schedule schedule_;
+    Kernels kernels_;
     std::vector<TwinCloth> cloths_;
     std::optional<TwinContact> contact_;
 };

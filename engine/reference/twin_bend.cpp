@@ -1,4 +1,4 @@
-// Relaxation of bending in the twin.
+// The twin relaxes bending and twist.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"
@@ -7,7 +7,10 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::bend(TwinCloth& state, const Step& step) {
+namespace {
+
+void run_bend(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<BendPush>();
     const CutTopology& topology = state.topology;
     const auto share = [&](ivec2 owner) {
@@ -37,7 +40,8 @@ void Twin::bend(TwinCloth& state, const Step& step) {
         }
 }
 
-void Twin::twist(TwinCloth& state, const Step& step) {
+void run_twist(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<TwistPush>();
     const CutTopology& topology = state.topology;
     const std::vector<vec4>& shares = topology.spring_shares();
@@ -68,5 +72,9 @@ void Twin::twist(TwinCloth& state, const Step& step) {
             state.move_to(i[3], moved_by(moved[3], correction, weight[3]));
         }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_bend_rows() { return {{StepKind::bend, run_bend}, {StepKind::twist, run_twist}}; }
 
 }  // namespace drape

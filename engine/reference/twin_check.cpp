@@ -1,4 +1,4 @@
-// The twin of the check between iterations: the same records in the same order.
+// The twin decides whether another iteration follows, from the same records in the same order as the device.
 #include <array>
 
 #include "cloth/texels.h"
@@ -57,12 +57,17 @@ ResidualRecord residual(const ClothModel& model, const TwinCloth& state) {
     return joined_over_workgroup(lanes);
 }
 
-}  // namespace
+void run_residual(const TwinPlace& where) { where.state.residual = drape::residual(where.model, where.state); }
 
-void Twin::check(const ClothModel& model, TwinCloth& state, const Step& step) {
-    if (step.substep == 0 && step.iteration == 0) state.iteration_count = model_->scene.solver.substeps;
-    state.iterates = needs_iteration(residual(model, state), model_->iteration_limit());
+void run_decide(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    if (step.substep == 0 && step.iteration == 0) state.iteration_count = scene.scene.solver.substeps;
+    state.iterates = needs_iteration(state.residual, scene.iteration_limit());
     if (state.iterates) ++state.iteration_count;
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_check_rows() { return {{StepKind::residual, run_residual}, {StepKind::decide, run_decide}}; }
 
 }  // namespace drape

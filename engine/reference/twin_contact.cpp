@@ -1,4 +1,4 @@
-// The twin's passes of contact with colliders.
+// These passes of the twin are contact with colliders.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -12,11 +12,11 @@ using namespace glsl;
 
 namespace {
 
-/// What the triangles around a particle ask of it, and how it then moves.
+/// Finds the displacement by which the triangles around a particle ask it to leave a box.
 struct BoxEdges {
     const ClothModel& model;
     const TwinCloth& state;
-    Field from;  ///< where they are
+    Field from;  ///< field of the displacements to start from
     CollisionPush push;
 
     std::size_t place(ivec2 texel) const {
@@ -43,12 +43,11 @@ struct BoxEdges {
     }
 };
 
-}  // namespace
-
-void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+void run_box_edges(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const BoxEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement, model.box_edges()};
-    const std::vector<drape::Collider>& colliders = model_->scene.colliders;
-    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
+    const std::vector<drape::Collider>& colliders = scene.scene.colliders;
+    const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (int y = 0; y < edges.push.grid.y; ++y)
         for (int x = 0; x < edges.push.grid.x; ++x) {
             const std::size_t i = edges.place({x, y});
@@ -68,9 +67,10 @@ void Twin::box_edges(const ClothModel& model, TwinCloth& state, const FrameInput
         }
 }
 
-void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs& inputs, const Step& step) {
+void run_collide(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
-    const auto first = static_cast<std::size_t>(first_collider(*model_, model, step.substep));
+    const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
@@ -80,12 +80,12 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
             displacement = xyz(state[Field::lifted][i]);
             touched = state[Field::lifted][i].w > 0.0f;
         }
-        for (std::uint32_t round = 0; round < model_->collision_rounds(); ++round) {
+        for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
-            for (std::size_t k = 0; k < model_->scene.colliders.size(); ++k) {
+            for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
-                    collider_contact(model_->scene.colliders[k].kind(), inputs.colliders[first + k], start,
-                                     displacement, push.contact.x, push.contact.y, push.contact.w);
+                    collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
+                                     push.contact.x, push.contact.y, push.contact.w);
                 displacement = contact.displacement;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }
@@ -99,6 +99,12 @@ void Twin::collide(const ClothModel& model, TwinCloth& state, const FrameInputs&
         }
         state.move_to(i, displacement);
     }
+}
+
+}  // namespace
+
+std::vector<TwinRow> twin_contact_rows() {
+    return {{StepKind::box_edges, run_box_edges}, {StepKind::collide, run_collide}};
 }
 
 }  // namespace drape

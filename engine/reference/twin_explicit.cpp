@@ -1,4 +1,4 @@
-// The explicit micro-step of the twin.
+// The twin takes explicit steps.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"
@@ -11,7 +11,7 @@ namespace {
 
 bool inside(ivec2 p, ivec2 grid) { return p.x >= 0 && p.y >= 0 && p.x < grid.x && p.y < grid.y; }
 
-/// The images that a micro-step reads.
+/// An explicit step reads the fields through this, as they are before it.
 struct Before {
     const TwinCloth& state;
     const ExplicitPush& push;
@@ -80,9 +80,8 @@ struct Before {
     }
 };
 
-}  // namespace
-
-void Twin::explicit_step(TwinCloth& state, const Step& step) {
+void run_explicit_step(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<ExplicitPush>();
     const bool advance = step.substep > 0;
     const Before before{state, push, advance};
@@ -118,6 +117,10 @@ void Twin::explicit_step(TwinCloth& state, const Step& step) {
     std::swap(state[Field::position], state[Field::position_spare]);
     std::swap(state[Field::displacement], state[Field::displacement_spare]);
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_explicit_rows() { return {{StepKind::explicit_step, run_explicit_step}}; }
 
 void Twin::tension(std::size_t index) {
     const TensionPush& push = model_->cloths[index].plan.gathered_tension.value();

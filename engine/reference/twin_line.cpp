@@ -1,4 +1,4 @@
-// The twin's line solver: control, prediction in second order, tridiagonal solves.
+// The twin's line solver consists of the control, the prediction in second order and tridiagonal solves.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -10,14 +10,18 @@ namespace drape {
 
 using namespace glsl;
 
-void Twin::control(TwinCloth& state, const Step& step) {
+namespace {
+
+void run_control(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     auto& texels = state.integers(Field::line_control);
     const LineControl next = next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]},
                                           step.push<LineControlPush>().most_wrong);
     texels = {next.order, next.wrong_lines, next.hold};
 }
 
-void Twin::predict(TwinCloth& state, const Step& step) {
+void run_predict(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
@@ -55,15 +59,15 @@ void Twin::predict(TwinCloth& state, const Step& step) {
 
 namespace {
 
-/// One line as the shader sees it.
+/// A line as the shader sees it.
 struct LineView {
     const ClothModel& model;
     const LinePush& push;
     const TwinCloth& state;
     std::vector<ivec2> particles;
-    std::vector<vec3> moved;       ///< displacements as the first system leaves them
-    std::vector<vec3> delta;       ///< what it changed
-    std::vector<float> tension{};  ///< likewise, by spring: extensions by the compliance in use
+    std::vector<vec3> moved;       ///< displacements as the first system leaves them, m
+    std::vector<vec3> delta;       ///< changes that the first system made, m
+    std::vector<float> tension{};  ///< by spring, as the first system leaves it: extension by the compliance in use, m
 
     LineView(const ClothModel& cloth, const LinePush& pass, const TwinCloth& images, int line)
         : model(cloth), push(pass), state(images), particles{line_start(line, pass.step)} {
@@ -89,7 +93,7 @@ struct LineView {
     }
 };
 
-/// The first system of a line: changes of its particles' displacements.
+/// Solves the first system of a line. Returns the changes of its particles' displacements, m.
 std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<vec4> eliminated;
     EliminatedParticle previous = unmoved_start();
@@ -110,7 +114,7 @@ std::vector<vec3> tension_deltas(const LineView& line, const std::vector<float>&
     return delta;
 }
 
-/// The first system by cyclic reduction.
+/// Solves the first system by cyclic reduction.
 std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>& stiffness) {
     std::vector<CyclicRow> rows;
     vec3 edge_before{0, 0, 0};
@@ -126,7 +130,7 @@ std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>&
     return reduced(rows);
 }
 
-/// The same of a line that bends.
+/// Solves the first system of a line that bends.
 std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
     std::vector<BentParticle> eliminated;
     BentLine bent = unbent_line();
@@ -166,7 +170,7 @@ void filter(LineView& line, float compliance, float followed, bool by_reduction,
         line.tension.push_back(filtered_tension(per_length[e], line.spring(e)));
 }
 
-/// The second system: changes of the multipliers; `largest` hears of the worst spring.
+/// Solves the second system. Returns the changes of the multipliers and raises `largest` to the worst spring's |C - T|.
 std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
                          float& largest) {
     std::vector<vec2> eliminated(springs.size());
@@ -187,7 +191,7 @@ std::vector<float> solve(const LineView& line, const std::vector<LineSpring>& sp
     return change;
 }
 
-/// The same by cyclic reduction.
+/// Solves the second system by cyclic reduction.
 std::vector<float> reduced_changes(const LineView& line, const std::vector<LineSpring>& springs, float compliance,
                                    float& largest) {
     const vec3 none{0, 0, 0};
@@ -206,8 +210,10 @@ std::vector<float> reduced_changes(const LineView& line, const std::vector<LineS
 
 }  // namespace
 
-void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
+void run_line(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<LinePush>();
+    const bool by_reduction = step.kernel == Kernel::line_cyclic;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
@@ -215,14 +221,14 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
     for (int k = 0; k < push.line_count; ++k) {
         LineView line(model, push, state, k);
         if (step.iteration == 0)
-            filter(line, compliance, followed, step.reduced, is_bdf2 ? push.bend_bdf2 : push.bend);
+            filter(line, compliance, followed, by_reduction, is_bdf2 ? push.bend_bdf2 : push.bend);
         else
             for (std::size_t e = 0; e < line.spring_count(); ++e)
                 line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
         float largest = 0;
-        const std::vector<float> change = step.reduced ? reduced_changes(line, springs, compliance, largest)
+        const std::vector<float> change = by_reduction ? reduced_changes(line, springs, compliance, largest)
                                                        : solve(line, springs, compliance, largest);
         if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
         const vec3 none{0, 0, 0};
@@ -239,6 +245,12 @@ void Twin::line(const ClothModel& model, TwinCloth& state, const Step& step) {
                 changed_tension(line.tension[p], change[p], share, shared_compliance(compliance, share)), followed);
         }
     }
+}
+
+}  // namespace
+
+std::vector<TwinRow> twin_line_rows() {
+    return {{StepKind::control, run_control}, {StepKind::predict, run_predict}, {StepKind::line, run_line}};
 }
 
 }  // namespace drape

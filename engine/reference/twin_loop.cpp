@@ -14,7 +14,7 @@ using namespace glsl;
 
 namespace {
 
-/// As the comparison's workgroups do.
+/// Joins the differences in the order of the workgroups of difference.comp. Returns a record per workgroup.
 std::vector<DifferenceRecord> partial_differences(const Grid& grid, const TwinCloth& fine, const TwinCloth& coarse) {
     std::vector<DifferenceRecord> partials;
     const ivec2 size = grid.size();
@@ -98,7 +98,7 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
     for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)
         judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2).first);
-    attempt_statistics_.clear();  // of the coarse run
+    attempt_statistics_.clear();  // the coarse run's are of no use
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const auto [stretch, implausible] = run(fine, k, segment.substeps);
         judgement.plausible = judgement.plausible && implausible <= 1;

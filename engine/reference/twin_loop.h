@@ -1,4 +1,4 @@
-// The twin of the closed loop: the same control asked the same questions about the twin's frames. Scenes without
+// The twin of the closed loop asks the same control the same questions about the twin's frames. The scene must have no
 // cutters.
 #pragma once
 
@@ -18,11 +18,11 @@ namespace drape {
 
 class TwinLoop {
   public:
-    /// `model`: of a closed loop; must outlive this.
+    /// `model` must be one of a closed loop and outlive this.
     explicit TwinLoop(const SimulationModel& model);
 
-    /// Frames from the next one to `last`, told in order, with the twin at their end; a probe that goes beyond is run
-    /// to its end.
+    /// Runs the frames from the next one to `last` and calls `finished` for each in order, with the twin at the frame's
+    /// end. A segment that goes beyond `last` is run to its end.
     void run(std::uint32_t last,
              const std::function<void(std::uint32_t frame, const Twin& twin, const FrameEffort& effort)>& finished);
 

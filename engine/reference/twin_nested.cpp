@@ -1,4 +1,4 @@
-// The twin's nested sweeps around lone pins.
+// The twin relaxes nested boxes around lone pins.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/reduced_system.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr vec3 none{0, 0, 0};
 
-/// One line of a box, in one direction, as the shader sees it.
+/// A line of a box, in one direction, as the shader sees it.
 struct NestedLine {
     const ClothModel& model;
     TwinCloth& state;
@@ -20,7 +20,7 @@ struct NestedLine {
     int direction, seam;
     float compliance, followed;
     ivec2 step;
-    std::vector<ivec2> particles;  // in the sheet
+    std::vector<ivec2> particles;  // columns and rows in the cloth
 
     std::size_t index(std::size_t particle) const { return at(model.grid, particles[particle]); }
     float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
@@ -37,7 +37,7 @@ struct NestedLine {
     }
     float& stored(std::size_t e) const { return state.tension(static_cast<std::size_t>(direction))[index(e)]; }
 
-    /// The changes of its springs' multipliers.
+    /// Returns the changes of its springs' multipliers.
     std::vector<float> changes(const std::vector<LineSpring>& springs) const {
         const std::size_t count = springs.size();
         std::vector<vec2> eliminated(count);
@@ -84,7 +84,7 @@ struct NestedLine {
     }
 };
 
-void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
+void solve_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
                      int direction, bool is_bdf2, bool by_reduction) {
     if (!(component(push.rest_length, direction) > 0.0f)) return;
     const ivec2 step = nested_step(direction);
@@ -108,9 +108,8 @@ void sweep_direction(const ClothModel& model, TwinCloth& state, const NestedPush
     }
 }
 
-}  // namespace
-
-void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
+void run_nested(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<NestedPush>();
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const std::vector<ivec4>& table = model.plan.nested_table;
@@ -121,9 +120,13 @@ void Twin::nested(const ClothModel& model, TwinCloth& state, const Step& step) {
         for (std::size_t block = 0; block < static_cast<std::size_t>(push.block_count); ++block)
             for (int sweep = 0; sweep < table[block].z; ++sweep)
                 for (int order = 0; order < 4; ++order)
-                    sweep_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
-                                    nested_direction(order), is_bdf2, step.reduced);
+                    solve_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
+                                    nested_direction(order), is_bdf2, step.kernel == Kernel::nested_cyclic);
     }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_nested_rows() { return {{StepKind::nested, run_nested}}; }
 
 }  // namespace drape

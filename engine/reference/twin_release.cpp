@@ -1,4 +1,4 @@
-// The twin's released pins.
+// The twin releases pins.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -11,7 +11,7 @@ using namespace glsl;
 
 namespace {
 
-/// What the tension of a particle's springs would move an inner particle by in a substep, m.
+/// Returns the displacement by which the tension of a particle's springs would move an inner particle in a substep, m.
 vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here, bool advance) {
     const auto start = [&](ivec2 p) { return xyz(state[Field::position][at(model.grid, p)]); };
     const auto moved = [&](ivec2 p) { return xyz(state[Field::displacement][at(model.grid, p)]); };
@@ -32,11 +32,9 @@ vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here
     return sum;
 }
 
-}  // namespace
-
-void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<PinMotion>& motions,
-                   std::uint32_t substep) {
-    const std::size_t first = substep * model.dynamic_pins.size();
+void run_release(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const std::size_t first = step.substep * model.dynamic_pins.size();
     const std::vector<vec4> position = state[Field::position];
     for (const PinnedParticle& pin : model.pinned) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
@@ -48,8 +46,9 @@ void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_release);
         }
-        const vec3 none{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
-        const vec3 pull = model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, substep > 0) : none;
+        const vec3 nothing{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
+        const vec3 pull =
+            model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : nothing;
         const float surplus = release_surplus(motion);
         const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);
@@ -57,5 +56,9 @@ void Twin::release(const ClothModel& model, TwinCloth& state, const std::vector<
             texel(release_remainder(velocity_step, pin.rest.w, surplus, pull, model.reach()));
     }
 }
+
+}  // namespace
+
+std::vector<TwinRow> twin_release_rows() { return {{StepKind::release, run_release}}; }
 
 }  // namespace drape

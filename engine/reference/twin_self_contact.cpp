@@ -1,5 +1,5 @@
-// The twin of contact between cloths. Pairs are found by trying all boxes against all others: what the device's tree
-// may not miss.
+// The twin of contact between cloths finds pairs by trying all boxes against all others, so it shows any pair that the
+// device's tree misses.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 
 float corner_side(bool edges, int k) { return k == 0 || (edges && k == 1) ? 1.0f : -1.0f; }
 
-/// What the passes over the sheet do in one step.
+/// A step of contact: each function is a pass over the sheet.
 class ContactStep {
   public:
     ContactStep(TwinContact& contact, const SelfContactPush& push)
@@ -29,7 +29,7 @@ class ContactStep {
     void pairs();
     void contact();
     void push();
-    void room();
+    void limit();
     void move();
 
   private:
@@ -162,7 +162,7 @@ void ContactStep::boxes() {
         }
 }
 
-/// What is not there is not looked at.
+/// Returns a cell with zeros for corners beyond the cloth: no triangle or edge that exists has them.
 SelfCell ContactStep::cell(std::size_t place) const {
     const ivec2 own = texel_of(place);
     const SelfCloth& cloth = cloth_at(place);
@@ -202,7 +202,8 @@ void ContactStep::apart() {
     }
 }
 
-/// Whether what a cell and its neighbours to the right and below own is apart because the cloth is flat there.
+/// Returns whether primitives of a cell and of its neighbours to the right and below are kept apart because the cloth
+/// is flat there.
 bool ContactStep::lies_flat(ivec2 cell) const {
     const SelfCloth& cloth = cloth_at(place(cell));
     if (!inside(cloth, {cell.x + 2, cell.y + 2})) return false;
@@ -241,7 +242,7 @@ vec3 ContactStep::cell_normal(ivec2 own) const {
     return self_cell_normal(true, at(0, 0), at(1, 0), at(0, 1), at(1, 1));
 }
 
-/// The pairs of what two particles own.
+/// Adds the pairs of primitives that two particles own.
 void ContactStep::add_between(ivec2 a, ivec2 b) {
     const vec3 axis = cell_normal(a);
     add_triangles(a, b, axis);
@@ -326,7 +327,7 @@ void ContactStep::push() {
     }
 }
 
-void ContactStep::room() {
+void ContactStep::limit() {
     std::vector<float>& shares = contact_.shares;
     if (push_.round == 0) shares.assign(contact_.before.size(), 0);
     std::vector<float> next(shares.size(), 1);
@@ -353,7 +354,7 @@ void ContactStep::room() {
 void ContactStep::move() {
     SelfRecord& record = contact_.record;
     record.most_pairs = std::max(record.most_pairs, record.point_count + record.edge_count);
-    // The device also counts what a search and boxes found.
+    // The device also counts the entries that a search and boxes found, in the same maxima.
     record.most_cells = std::max(record.most_cells, record.cell_count);
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (!owned(i)) continue;
@@ -379,32 +380,25 @@ std::size_t place_of(const SelfClothPush& push, std::size_t particle) {
            static_cast<std::size_t>(push.first.x) + column;
 }
 
-}  // namespace
-
-TwinContact::TwinContact(const SelfContact& contact)
-    : model(&contact),
-      owners(contact.owners()),
-      positions(owners.size()),
-      displacements(owners.size()),
-      before(owners.size()) {}
-
-void Twin::self_gather(TwinCloth& state, const Step& step) {
+void run_self_gather(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
         const std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
         const std::size_t place = place_of(push, i);
-        contact_->positions[place] = state[Field::position][i];
-        contact_->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
+        meeting->positions[place] = state[Field::position][i];
+        meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
     }
 }
 
-void Twin::self_return(const ClothModel& model, TwinCloth& state, const Step& step) {
+void run_self_return(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const std::size_t place = place_of(push, i);
-        if (std::exchange(contact_->before[place].w, 0.0f) == 0.0f) continue;
-        const vec3 displacement = xyz(contact_->displacements[place]);
+        if (std::exchange(meeting->before[place].w, 0.0f) == 0.0f) continue;
+        const vec3 displacement = xyz(meeting->displacements[place]);
         state.move_to(i, displacement);
         if (!model.plan.second_order) continue;
         state[Field::displacement_before][i] = texel(displacement);
@@ -413,30 +407,34 @@ void Twin::self_return(const ClothModel& model, TwinCloth& state, const Step& st
     }
 }
 
+}  // namespace
+
+std::vector<TwinRow> twin_sheet_rows() {
+    return {{StepKind::self_gather, run_self_gather},
+            {StepKind::self_gather_again, run_self_gather},
+            {StepKind::self_return, run_self_return}};
+}
+
+TwinContact::TwinContact(const SelfContact& contact)
+    : model(&contact),
+      owners(contact.owners()),
+      positions(owners.size()),
+      displacements(owners.size()),
+      before(owners.size()) {}
+
 void Twin::run_contact(const Step& step) {
+    // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent and
+    // self_primitives.
+    static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
+        {StepKind::self_common, &ContactStep::common},       {StepKind::self_boxes, &ContactStep::boxes},
+        {StepKind::self_crossings, &ContactStep::crossings}, {StepKind::self_apart, &ContactStep::apart},
+        {StepKind::self_pairs, &ContactStep::pairs},         {StepKind::self_contact, &ContactStep::contact},
+        {StepKind::self_push, &ContactStep::push},           {StepKind::self_limit, &ContactStep::limit},
+        {StepKind::self_move, &ContactStep::move},
+    };
     ContactStep contact(*contact_, step.push<SelfContactPush>());
-    switch (step.kind) {
-        case StepKind::self_common:
-            return contact.common();
-        case StepKind::self_boxes:
-            return contact.boxes();
-        case StepKind::self_crossings:
-            return contact.crossings();
-        case StepKind::self_apart:
-            return contact.apart();
-        case StepKind::self_pairs:
-            return contact.pairs();
-        case StepKind::self_contact:
-            return contact.contact();
-        case StepKind::self_push:
-            return contact.push();
-        case StepKind::self_room:
-            return contact.room();
-        case StepKind::self_move:
-            return contact.move();
-        default:
-            return;  // it tries all pairs of cells: blocks, cells, near, bent, primitives
-    }
+    for (const auto& [kind, function] : rows)
+        if (kind == step.kind) (contact.*function)();
 }
 
 }  // namespace drape

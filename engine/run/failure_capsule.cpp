@@ -29,7 +29,7 @@ Json::Value settings_json(const FailureCapsule& capsule) {
     json["overrides"] = Json::arrayValue;
     for (const std::string& each : capsule.scene.overrides) json["overrides"].append(each);
     json["skip"] = capsule.scene.skip;
-    json["schedule"] = std::string(spelling(schedule_spellings, capsule.scene.schedule));
+    json["kernels"] = capsule.scene.kernels.text();
     json["keep_failed"] = capsule.keep_failed;
     json["start"] = capsule.start;
     json["end"] = capsule.end;
@@ -63,10 +63,9 @@ void take_about(const Json::Value& json, FailureCapsule& capsule) {
     capsule.scene.path = settings["path"].asString();
     for (const Json::Value& each : settings["overrides"]) capsule.scene.overrides.push_back(each.asString());
     capsule.scene.skip = settings["skip"].asBool();
-    const auto* schedule =
-        std::ranges::find(schedule_spellings, settings["schedule"].asString(), &Spelling<Schedule>::name);
-    if (schedule == std::end(schedule_spellings)) throw Error("it names no schedule");
-    capsule.scene.schedule = schedule->value;
+    const auto kernels = Kernels::parse(settings["kernels"].asString());
+    if (!kernels) throw Error("it names no kernels");
+    capsule.scene.kernels = *kernels;
     capsule.keep_failed = settings["keep_failed"].asBool();
     capsule.start = settings["start"].asUInt();
     capsule.end = settings["end"].asUInt();

@@ -59,7 +59,7 @@ SimulationOptions simulation_options(const SceneRequest& request, bool draw, boo
     options.positions = positions;
     options.velocities = velocities;
     options.skip = request.skip;
-    options.schedule = request.schedule;
+    options.kernels = request.kernels;
     return options;
 }
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "drape/error.h"
+#include "drape/kernels.h"
 #include "drape/scene_reader.h"
-#include "drape/schedule.h"
 #include "drape/simulation.h"
 #include "drape/view.h"
 #include "output/output_folder.h"
@@ -32,10 +32,10 @@ struct SceneRequest {
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
     PictureView view;
-    std::string device;     ///< selects the device; empty: the best there is
+    std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation
     bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
-    Schedule schedule = Schedule::automatic;
+    Kernels kernels = Kernels::automatic();
 };
 
 struct RunRequest {

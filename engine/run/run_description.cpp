@@ -35,7 +35,7 @@ std::string run_parameters(const SceneDescription& scene, const Manifest& manife
     value["driver"] = manifest.device.driver + " " + manifest.device.driver_version;
     value["scene_hash"] = manifest.scene.hash;
     value["method"] = manifest.solver.method;
-    value["schedule"] = manifest.solver.schedule;
+    value["kernels"] = manifest.solver.kernels;
     value["substeps"] = manifest.solver.substeps;
     value["iterations"] = manifest.solver.iterations;
     value["tolerance"] = manifest.solver.tolerance;
@@ -85,7 +85,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     if (request.draws()) manifest.picture = picture_of(scene, request.scene.view);
     const bool chosen = facts.asked_method != facts.method;
     manifest.solver = {facts.method,
-                       facts.schedule,
+                       facts.kernels,
                        scene.solver.substeps,
                        scene.solver.iterations,
                        scene.solver.tethers,

@@ -47,28 +47,56 @@ std::string escaped(std::string_view text) {
     return markdown;
 }
 
+/// A paragraph, or with `first` = "- " an item of a list, in lines of at most 120 columns that end outside of code.
+std::string filled(const std::string& first, const std::string& text) {
+    std::string lines = first, word;
+    std::size_t column = first.size();
+    bool in_code = false;
+    for (const char c : text + ' ') {
+        if (c == '`') in_code = !in_code;
+        if (c != ' ' || in_code) {
+            word += c;
+            continue;
+        }
+        const bool begins = column == first.size();
+        if (!begins && column + 1 + word.size() > 120) {
+            lines += '\n' + std::string(first.size(), ' ');
+            column = first.size();
+        } else if (!begins) {
+            lines += ' ';
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+        word.clear();
+    }
+    return lines + '\n';
+}
+
 std::string object_section(const Definition& object) {
-    std::string section = fmt::format("\n## {}\n\n{}\n\n| key | value | default | |\n|---|---|---|---|\n", object.name,
-                                      escaped(object.help));
+    std::string section = fmt::format("\n## {}\n\n{}\n", object.name, filled("", escaped(object.help)));
     for (const KeyText& key : object.keys)
-        section += fmt::format("| `{}` | {} | {} | {} |\n", key.name, key.words,
-                               key.required                ? "required"
-                               : key.default_value.empty() ? ""
-                                                           : "`" + key.default_value + "`",
-                               escaped(key.help));
-    if (!object.other_keys.empty()) section += "| any other | number | | A limit of the check. |\n";
+        section += filled("- ", fmt::format("`{}`: {}{}. {}", key.name, key.words,
+                                            key.required                ? ", required"
+                                            : key.default_value.empty() ? ""
+                                                                        : ", default `" + key.default_value + "`",
+                                            escaped(key.help)));
+    if (!object.other_keys.empty()) section += "- any other key: number. A limit of the check.\n";
     return section;
 }
 
 std::string oracle_section() {
-    std::string section =
-        "\n## oracles\n\nThe checks that a scene may name; every limit of a check must be given. `drape verify` judges "
-        "them.\n\n| check | what it says | limits |\n|---|---|---|\n";
+    std::string section = "\n## oracles\n\n" +
+                          filled("",
+                                 "The checks that a scene may name; every limit of a check must be given. "
+                                 "`drape verify` judges them.") +
+                          '\n';
     for (const OracleKind& kind : oracle_kinds()) {
         std::string limits;
         for (const OracleLimit& limit : kind.limits)
-            limits += fmt::format("{}`{}`: {}", limits.empty() ? "" : "; ", limit.name, escaped(limit.help));
-        section += fmt::format("| `{}` | {} | {} |\n", kind.name, escaped(kind.help), limits);
+            limits += fmt::format("{}`{}`: {}", limits.empty() ? " Limits: " : "; ", limit.name, escaped(limit.help));
+        section +=
+            filled("- ", fmt::format("`{}`: {}{}{}", kind.name, escaped(kind.help), limits, limits.empty() ? "" : "."));
     }
     return section;
 }
@@ -94,15 +122,15 @@ std::string scene_format_markdown() {
         if (!definition->keys.empty())
             objects += object_section(*definition);
         else
-            values += fmt::format("| {} | {} | {} |\n", definition->name, definition->words, escaped(definition->help));
+            values += filled(
+                "- ", fmt::format("**{}**: {}. {}", definition->name, definition->words, escaped(definition->help)));
     }
-    return "# The scene file\n\n"
-           "Every object of a scene file and its keys, from the table that the program reads scenes by. "
-           "`drape schema` prints the same as a JSON Schema, for editors; `drape check SCENE` says what is wrong with "
-           "a "
-           "scene.\n" +
-           objects + oracle_section() +
-           "\n## values\n\nWhat several keys have.\n\n| value | form | |\n|---|---|---|\n" + values;
+    return "# What may stand in a scene file?\n\n" +
+           filled("",
+                  "A scene file is JSON with // comments. Here are all its objects and their keys, from the table that "
+                  "the program reads scenes by. `drape schema` prints the same as a JSON Schema, for editors; "
+                  "`drape check SCENE` says what is wrong with a scene.") +
+           objects + oracle_section() + "\n## values\n\nSeveral keys have values of these forms.\n\n" + values;
 }
 
 }  // namespace drape

@@ -14,7 +14,7 @@
 
 #include "cloth/drive.h"
 #include "cloth/frame_judgement.h"
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
@@ -38,7 +38,7 @@ struct FrameLoopOptions : PictureOptions {
     bool velocities = false;    ///< arrays of velocities are wanted; needs statistics
     bool normals = false;       ///< arrays of normals are wanted
     bool statistics = false;    ///< statistics of every frame handed out are wanted
-    Schedule schedule = Schedule::automatic;
+    Kernels kernels = Kernels::automatic();
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
     /// Each cut is told here, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
@@ -105,7 +105,7 @@ class FrameLoop {
     const graph::Plan& plan(FrameKind kind) const { return frames_[static_cast<std::size_t>(kind)].plan; }
     const graph::ResourcePool& pool() const { return *pool_; }
     /// In use.
-    Schedule schedule() const { return solver_.schedule(); }
+    const Kernels& kernels() const { return solver_.kernels(); }
 
   private:
     struct Frame {

@@ -20,7 +20,7 @@
 #include "scene/start_crossings.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
-#include "solver/device_schedule.h"
+#include "solver/kernel_choice.h"
 
 namespace drape {
 
@@ -99,7 +99,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.velocities = wanted.velocities;
     options.statistics = wanted.statistics || wanted.velocities;
     options.keep_promises = wanted.keep_promises;
-    options.schedule = wanted.schedule;
+    options.kernels = wanted.kernels;
     options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
@@ -296,7 +296,7 @@ SimulationFacts Simulation::facts() const {
     const SimulationModel& model = parts_->model;
     const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
     SimulationFacts facts{.method = std::string(model.method().name),
-                          .schedule = std::string(spelling(schedule_spellings, parts_->loop.schedule())),
+                          .kernels = used_kernels(model, parts_->loop.kernels()).text(),
                           .asked_method = std::string(named(model.asked_method).name),
                           .choice_reason = model.choice.reason,
                           .tolerance = model.asked_tolerance,
@@ -313,7 +313,7 @@ SimulationFacts Simulation::facts() const {
         facts.pass_count += output.plan.passes.size();
         facts.barrier_count += graph::barrier_count(output.plan);
         const std::vector<SimulationFacts::Skipped> before = facts.skipped;  // both graphs say what the scene lacks
-        for (const graph::Skipped& skipped : output.plan.skipped)
+        for (const graph::Remark& skipped : output.plan.skipped)
             if (std::ranges::find(before, skipped.what, &SimulationFacts::Skipped::what) == before.end())
                 facts.skipped.push_back({skipped.what, skipped.reason});
     }

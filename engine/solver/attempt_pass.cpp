@@ -1,6 +1,7 @@
 #include "solver/attempt_pass.h"
 
 #include "cloth/frame_judgement.h"
+#include "solver/compute_pass.h"
 #include "vulkan/api.h"
 
 namespace drape {
@@ -74,48 +75,22 @@ void add_remember(graph::Graph& graph, ClothState& state) {
 
 void add_change_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                      std::size_t cloth) {
-    const bool second_order = state.model->plan.second_order;
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("change_step.comp", {{"second_order", second_order}}));
-    graph.add_pass(
-        state.pass_name("change step", "judge"),
-        [&](graph::PassSetup& setup) {
-            update(setup, state[Field::displacement], "displacement");
-            const auto write = [&](Field field, const char* variable) {
-                state[field] = setup.write(state[field], graph::Access::compute_write, variable);
-            };
-            write(Field::displacement_remainder, "displacement_remainder");
-            update(setup, state[Field::end_excess], "end_excess");
-            setup.read(inputs.attempt, graph::Access::compute_read, "attempt");
-            if (!second_order) return;
-            write(Field::displacement_before, "displacement_before");
-            write(Field::velocity_excess, "velocity_excess");
-        },
-        [&pipeline,
-         push = glsl::ChangeStepPush{state.model->grid.size(), static_cast<int>(cloth)}](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
-        });
+        pipelines.get(vulkan::variant_name("change_step.comp", {{"second_order", state.model->plan.second_order}}));
+    const glsl::ChangeStepPush push{state.model->grid.size(), static_cast<int>(cloth)};
+    add_compute_pass(graph, state.pass_name("change step", "judge"), pipeline, push,
+                     {state.model->grid.columns(), state.model->grid.rows()}, {&state, nullptr, inputs});
 }
 
 void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const Grid& grid = state.model->grid;
-    const graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
-        difference_readback_name(*state.model), difference_count(grid), graph::Lifetime::host_output);
+    graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(difference_readback_name(*state.model),
+                                                                  difference_count(grid), graph::Lifetime::host_output);
+    graph::Handle coarse = copy_of(graph, state, Field::position, coarse_run);
     constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
-    const vulkan::ComputePipeline& pipeline = pipelines.get("difference.comp");
-    const graph::Handle coarse = copy_of(graph, state, Field::position, coarse_run);
-    graph.add_pass(
-        state.pass_name("compare", "judge"),
-        [&](graph::PassSetup& setup) {
-            setup.read(state[Field::position], graph::Access::compute_read, "position");
-            setup.read(coarse, graph::Access::compute_read, "coarse_position");
-            static_cast<void>(setup.write(partials, graph::Access::compute_write, "partials"));
-        },
-        [&pipeline, push = glsl::GridPush{grid.size()},
-         height = (grid.rows() + rows - 1) / rows](graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x), height);
-        });
+    add_compute_pass(graph, state.pass_name("compare", "judge"), pipelines.get("difference.comp"),
+                     glsl::GridPush{grid.size()}, {grid.columns(), (grid.rows() + rows - 1) / rows},
+                     {&state, nullptr, {}, {{"coarse_position", &coarse}, {"partials", &partials}}});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What surrounds the attempts at a frame in a closed loop: keeping the state that the frame starts from, going back to
+// Passes around the attempts at a frame in a closed loop: keeping the state that the frame starts from, going back to
 // it, giving it substeps of another length, remembering where a run with half the substeps ended, comparing with it.
 #pragma once
 

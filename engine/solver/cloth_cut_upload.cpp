@@ -38,7 +38,7 @@ void upload_change(const graph::ResourcePool& pool, const FieldRow& row, const F
         vulkan::upload_range(pool.device(), pool.buffer(name), first * size, changed);
 }
 
-/// What the host makes and a cut may change.
+/// Returns whether the host makes a field that a cut may change.
 bool follows_cuts(const FieldRow& row) { return row.life == FieldLife::constant && row.start != nullptr; }
 
 }  // namespace

@@ -6,29 +6,16 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "cloth/kernel_steps.h"
 #include "cloth/step_flops.h"
 #include "cloth/together.h"
 #include "solver/attempt_pass.h"
-#include "solver/bend_pass.h"
-#include "solver/box_edge_pass.h"
-#include "solver/check_pass.h"
-#include "solver/collision_pass.h"
 #include "solver/cut_pass.h"
-#include "solver/device_schedule.h"
-#include "solver/explicit_pass.h"
-#include "solver/force_pass.h"
-#include "solver/line_pass.h"
-#include "solver/nested_pass.h"
-#include "solver/normal_pass.h"
-#include "solver/pin_pass.h"
+#include "solver/kernel_choice.h"
 #include "solver/position_upload.h"
-#include "solver/self_contact_pass.h"
-#include "solver/spring_pass.h"
+#include "solver/readback_pass.h"
 #include "solver/statistics_pass.h"
-#include "solver/sweep_pass.h"
-#include "solver/tension_pass.h"
-#include "solver/tether_pass.h"
-#include "solver/wind_pass.h"
+#include "solver/step_row.h"
 
 namespace drape {
 
@@ -64,32 +51,41 @@ Lifetime lifetime_of(FieldLife life) {
     return Lifetime::persistent;
 }
 
-VkFormat format_of(const FieldRow& row) {
+template <class Row>
+VkFormat format_of(const Row& row) {
     if (&row.element == &glsl::layout_of<glsl::vec4>()) return VK_FORMAT_R32G32B32A32_SFLOAT;
     return &row.element == &glsl::layout_of<float>() ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT;
 }
 
-graph::Handle declare_field(graph::Graph& graph, const FieldRow& row, const FieldContext& about, bool buffered) {
+/// `slices`: the names of the cloths whose fields lie below each other in one image; none: the field is one resource.
+template <class Row, class Context>
+graph::Handle declare_row(graph::Graph& graph, const std::string& name, const Row& row, const Context& about,
+                          bool buffered, const std::vector<std::string>& slices = {}) {
     const FieldExtent extent = row.extent(about);
-    const std::string name = resource_name(about.cloth, row);
     if (!row.is_image())
         return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element,
                              row.view == FieldView::texel_buffer});
+    const std::uint64_t height = extent.height * std::max<std::size_t>(slices.size(), 1);
     return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
-                        static_cast<std::uint32_t>(extent.height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
-                        buffered && row.view == FieldView::image_and_buffer});
+                        static_cast<std::uint32_t>(height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
+                        !slices.empty() || (buffered && row.view == FieldView::image_and_buffer), slices});
 }
 
-/// The same field of several cloths of one size in one image.
-graph::Handle declare_below(graph::Graph& graph, const FieldRow& row, const FieldContext& about,
-                            const std::string& name, const std::vector<std::string>& slices) {
-    const FieldExtent extent = row.extent(about);
-    return graph.image({fmt::format("{}/{}", name, row.name), format_of(row), static_cast<std::uint32_t>(extent.width),
-                        static_cast<std::uint32_t>(extent.height * slices.size()), VK_SAMPLE_COUNT_1_BIT,
-                        lifetime_of(row.life), true, slices});
+/// Uploads what a field starts with, where it is somewhere and starts with anything.
+template <class Row, class Context>
+void upload_row(const graph::ResourcePool& pool, const std::string& name, const Row& row, const Context& about) {
+    if (!row.start || !pool.has(name)) return;
+    const std::vector<std::byte> bytes = row.start(about);
+    if (row.is_image())
+        vulkan::upload(pool.device(), pool.image(name), bytes);
+    else
+        vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
 }
 
-/// Which no cloth has.
+constexpr const char* contact_readback_name = "contact record on the host";
+std::string iteration_readback_name(const std::string& cloth) { return cloth + "/iterations on the host"; }
+
+/// A name that no cloth has.
 std::string together_name(const SimulationModel& model, const std::vector<std::size_t>& cloths) {
     std::string name = fmt::format("{} and {} more", model.cloths[cloths.front()].name, cloths.size() - 1);
     while (std::ranges::find(model.cloths, name, &ClothModel::name) != model.cloths.end()) name += '.';
@@ -98,18 +94,19 @@ std::string together_name(const SimulationModel& model, const std::vector<std::s
 
 }  // namespace
 
-ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule)
+ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels)
     : model_(model),
       run_(&model),
-      schedule_(possible_schedule(device, model, schedule)),
+      kernels_(possible_kernels(device, model, kernels)),
+      verdicts_(kernel_verdicts(device, model, kernels)),
       pipelines_(device),
       most_list_bytes_(std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.max_buffer_size())) {
-    if (model.self_contact) self_room_ = limited(model.self_contact->room, most_list_bytes_);
+    if (model.self_contact) contact_.capacity = limited(model.self_contact->capacity, most_list_bytes_);
     for (const ClothModel& cloth : model.cloths) {
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
     }
-    if (stores_through_buffers(schedule_)) find_together(device);
+    if (kernels_.has(Kernel::buffer_store)) find_together(device);
     together_of_.assign(model.cloths.size(), together_.size());
     for (std::size_t k = 0; k < together_.size(); ++k)
         for (const std::size_t cloth : together_[k].cloths) together_of_[cloth] = k;
@@ -132,6 +129,15 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
                                           .texels = true});
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
     for (Together& together : together_) declare_together(graph, together, needs);
+    if (run.self_contact) declare_contact(graph);
+}
+
+void ClothSolver::declare_contact(graph::Graph& graph) {
+    const ContactContext about = contact_context();
+    contact_.buffered = kernels_.has(Kernel::buffer_store);
+    for (const ContactRow& row : contact_fields())
+        if (row.needed(about))
+            contact_[row.field] = declare_row(graph, resource_name(row), row, about, contact_.buffered);
 }
 
 ClothState ClothSolver::state_of(std::size_t index) const {
@@ -142,7 +148,7 @@ ClothState ClothSolver::state_of(std::size_t index) const {
     state.index = index;
     state.pinned_count = state.model->pinned.size();
     state.pin_count = state.model->dynamic_pins.size();
-    state.buffered = stores_through_buffers(schedule_);
+    state.buffered = kernels_.has(Kernel::buffer_store);
     state.index_count = static_cast<std::uint32_t>(topologies_[index].indices().size());
     state.iteration_sizes = iteration_sizes_[index];
     return state;
@@ -153,8 +159,8 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
     ClothState state = state_of(index);
     const bool alone = together_of_[index] == together_.size();
     for (const FieldRow& row : cloth_fields())
-        if (row.needed(about) && (alone || !row.lies_together()))
-            state[row.field] = declare_field(graph, row, about, state.buffered);
+        if (row.needed(about) && (alone || !lies_together(row)))
+            state[row.field] = declare_row(graph, resource_name(about.cloth, row), row, about, state.buffered);
     cloths_.push_back(state);
 }
 
@@ -164,14 +170,16 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
     together.state.count = count;
     together.state.name = together_name(model_, together.cloths);
     for (const FieldRow& row : cloth_fields()) {
-        if (!row.lies_together()) continue;
+        if (!lies_together(row)) continue;
         graph::Handle whole;
         std::vector<std::string> slices;
         for (const std::size_t cloth : together.cloths) slices.push_back(resource_name(model_.cloths[cloth], row));
         for (std::uint32_t k = 0; k < count; ++k) {
             const FieldContext about = context(together.cloths[k], needs, *run_);
             if (!row.needed(about)) continue;
-            if (!whole.valid()) whole = declare_below(graph, row, about, together.state.name, slices);
+            if (!whole.valid())
+                whole =
+                    declare_row(graph, fmt::format("{}/{}", together.state.name, row.name), row, about, true, slices);
             cloths_[together.cloths[k]][row.field] = {whole.resource, whole.version, k};
         }
         together.state[row.field] = whole;
@@ -208,135 +216,50 @@ void ClothSolver::add_positions(graph::Graph& graph) {
 }
 
 void ClothSolver::add_simulation(graph::Graph& graph) {
-    const auto add = [&](ClothState& state, const Step& step) {
-        add_step(graph, state, step);
-        if (const double flops = step_flops(step, *state.model); flops > 0)
-            graph.add_flops(flops * step.count * state.count);
-    };
+    for (const KernelVerdict& each : verdicts_)
+        graph.choose(fmt::format("{} is {}used", name_of(each.kernel), each.is_used ? "" : "not "), each.reason);
     for (const Step& step : steps()) {
         if (step.cloth == between_cloths) {
-            add(cloths_.front(), step);
+            add_step(graph, nullptr, step);
         } else if (step.together) {
-            add(together_[together_of_[step.cloth]].state, step);
+            add_step(graph, &together_[together_of_[step.cloth]].state, step);
         } else if (step.cloth != all_cloths) {
             take(step.cloth);
-            add(cloths_[step.cloth], step);
+            add_step(graph, &cloths_[step.cloth], step);
             give(step.cloth);
         } else {
-            for_each_dispatch([&](ClothState& state) { add(state, step); });
+            for_each_dispatch([&](ClothState& state) { add_step(graph, &state, step); });
         }
     }
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
-    if (run_->self_contact) add_self_readback(graph, cloths_.front());
+    const char* const name = "self record readback";
+    if (run_->self_contact)
+        add_buffer_readback(graph, {name, "simulate", name}, contact_[ContactField::record], 0,
+                            sizeof(glsl::SelfRecord), contact_readback_name);
 }
 
 std::vector<Step> ClothSolver::steps() const {
-    const std::vector<Step> steps = scheduled_steps(*run_, schedule_);
+    const std::vector<Step> steps = kernel_steps(*run_, kernels_);
     std::vector<std::vector<std::size_t>> lists;
     for (const Together& together : together_) lists.push_back(together.cloths);
     return lists.empty() ? steps : steps_together(steps, lists);
 }
 
-void ClothSolver::add_step(graph::Graph& graph, ClothState& state, const Step& step) {
-    if (step.cloth == between_cloths) return add_contact_step(graph, state, step);
-    switch (step.kind) {
-        case StepKind::release:
-            return add_pin_release(graph, pipelines_, state, step);
-        case StepKind::wind:
-            return add_wind(graph, pipelines_, state, inputs_, step);
-        case StepKind::control:
-            return add_line_control(graph, pipelines_, state, step);
-        case StepKind::predict:
-            return add_predict(graph, pipelines_, state, step);
-        case StepKind::force:
-            return add_force(graph, pipelines_, state, step);
-        case StepKind::explicit_step:
-            return add_explicit_step(graph, pipelines_, state, step);
-        case StepKind::pin:
-            return add_pin_motion(graph, pipelines_, state, step);
-        case StepKind::bend:
-            return add_bend(graph, pipelines_, state, step);
-        case StepKind::twist:
-            return add_twist(graph, pipelines_, state, step);
-        case StepKind::twist_sweep:
-            return add_twist_sweep(graph, pipelines_, state, step);
-        case StepKind::spring:
-            return add_spring(graph, pipelines_, state, step);
-        case StepKind::sweep:
-            return add_sweep(graph, pipelines_, state, step);
-        case StepKind::line:
-            return add_line(graph, pipelines_, state, step);
-        case StepKind::nested:
-            return add_nested(graph, pipelines_, state, step);
-        case StepKind::tether:
-            return add_tether(graph, pipelines_, state, step);
-        case StepKind::box_edges:
-            return add_box_edges(graph, pipelines_, state, inputs_, *run_, step);
-        case StepKind::collide:
-            return add_collision(graph, pipelines_, state, inputs_, *run_, step);
-        case StepKind::check:
-            return add_check(graph, pipelines_, state, *run_, step);
-        case StepKind::self_gather:
-            return add_self_gather(graph, pipelines_, state, cloths_.front(), step);
-        case StepKind::self_gather_again:
-            return add_self_gather_again(graph, pipelines_, state, cloths_.front(), step);
-        case StepKind::self_return:
-            return add_self_return(graph, pipelines_, state, cloths_.front(), step);
-        case StepKind::advance:
-            return add_advance(graph, pipelines_, state);
-        default:
-            throw std::logic_error("a step of contact that is no cloth's");
-    }
-}
-
-void ClothSolver::add_contact_step(graph::Graph& graph, ClothState& state, const Step& planned) {
-    Step step = planned;
-    auto& push = std::get<glsl::SelfContactPush>(step.constants);
-    push.pair_room = static_cast<int>(self_room_.pairs);
-    push.near_room = static_cast<int>(self_room_.near);
-    push.cell_room = static_cast<int>(self_room_.cells);
-    switch (step.kind) {
-        case StepKind::self_common:
-            return add_self_common(graph, pipelines_, state, step);
-        case StepKind::self_boxes:
-            return add_self_boxes(graph, pipelines_, state, step);
-        case StepKind::self_search:
-            return add_self_search(graph, pipelines_, state, step);
-        case StepKind::self_kept:
-            return add_self_kept(graph, pipelines_, state, step);
-        case StepKind::self_levels:
-            return add_self_levels(graph, pipelines_, state, step);
-        case StepKind::self_blocks:
-            return add_self_blocks(graph, pipelines_, state, step);
-        case StepKind::self_cells:
-            return add_self_cells(graph, pipelines_, state, step);
-        case StepKind::self_near:
-            return add_self_near(graph, pipelines_, state, step);
-        case StepKind::self_bent:
-            return add_self_bent(graph, pipelines_, state, run_->self_contact->largest, step);
-        case StepKind::self_crossings:
-            return add_self_crossings(graph, pipelines_, state, step);
-        case StepKind::self_apart:
-            return add_self_apart(graph, pipelines_, state, step);
-        case StepKind::self_primitives:
-            return add_self_primitives(graph, pipelines_, state, step);
-        case StepKind::self_pairs:
-            return add_self_pairs(graph, pipelines_, state, step);
-        case StepKind::self_contact:
-            return add_self_contact(graph, pipelines_, state, step);
-        case StepKind::self_push:
-            return add_self_push(graph, pipelines_, state, step);
-        case StepKind::self_room:
-            return add_self_room(graph, pipelines_, state, step);
-        case StepKind::self_move:
-            return add_self_move(graph, pipelines_, state, step);
-        default:
-            return;
-    }
+void ClothSolver::add_step(graph::Graph& graph, ClothState* state, const Step& step) {
+    add_step_pass(graph, pipelines_, state, run_->self_contact ? &contact_ : nullptr, inputs_, *run_, step);
+    const ClothModel& cloth = state ? *state->model : run_->cloths.front();
+    if (const double flops = step_flops(step, cloth); flops > 0)
+        graph.add_flops(flops * step.count * (state ? state->count : 1));
 }
 
 void ClothSolver::add_normals(graph::Graph& graph) {
-    for_each_dispatch([&](ClothState& state) { drape::add_normals(graph, pipelines_, state); });
+    for_each_dispatch([&](ClothState& state) {
+        const vulkan::ComputePipeline& pipeline =
+            pipelines_.get(vulkan::variant_name("normal.comp", {{"masked", state.masked()}}));
+        const Grid& grid = state.model->grid;
+        add_compute_pass(graph, state.pass_name("normals", "normals"), pipeline, glsl::GridPush{grid.size()},
+                         {grid.columns(), grid.rows(), state.count}, {&state});
+    });
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
@@ -357,9 +280,15 @@ std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, st
 
 void ClothSolver::add_statistics(graph::Graph& graph) {
     for_each_dispatch([&](ClothState& state) {
-        if (state.model->plan.gathered_tension) add_tension(graph, pipelines_, state);
+        const Grid& grid = state.model->grid;
+        if (const auto& push = state.model->plan.gathered_tension)
+            add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get("tension.comp"), *push,
+                             {grid.columns(), grid.rows(), state.count}, {&state});
         drape::add_statistics(graph, pipelines_, state, inputs_, *run_);
-        if (model_.adaptive()) add_iteration_readback(graph, state);
+        if (model_.adaptive())
+            add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
+                                glsl::iteration_size_count * sizeof(glsl::uvec4), sizeof(glsl::uvec4),
+                                iteration_readback_name(state.name));
     });
     if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
@@ -382,7 +311,7 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
         all.push_back(cloth_statistics(run, cloth, record));
         if (!run.adaptive()) continue;
         glsl::uvec4 used;
-        std::memcpy(&used, pool.buffer(iteration_readback_name(cloth), slot).mapped().data(), sizeof used);
+        std::memcpy(&used, pool.buffer(iteration_readback_name(cloth.name), slot).mapped().data(), sizeof used);
         all.back().iteration_count = used.x;
     }
     return all;
@@ -390,38 +319,34 @@ std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& 
 
 glsl::SelfRecord ClothSolver::self_record(const graph::ResourcePool& pool, std::uint32_t slot) const {
     glsl::SelfRecord record{};
-    if (model_.self_contact) std::memcpy(&record, pool.buffer(self_readback_name, slot).mapped().data(), sizeof record);
+    if (model_.self_contact)
+        std::memcpy(&record, pool.buffer(contact_readback_name, slot).mapped().data(), sizeof record);
     return record;
 }
 
 double ClothSolver::self_list_use(const glsl::SelfRecord& record) const {
-    return model_.self_contact ? drape::self_list_use(self_room_, record) : 0;
+    return model_.self_contact ? drape::self_list_use(contact_.capacity, record) : 0;
 }
 
 bool ClothSolver::grow_lists(const glsl::SelfRecord& record) {
-    const SelfRoom before = self_room_;
-    self_room_ = limited(more_self_room(before, record), most_list_bytes_);
-    return self_room_ != before;
+    const ContactCapacity before = contact_.capacity;
+    contact_.capacity = limited(grown_capacity(before, record), most_list_bytes_);
+    return contact_.capacity != before;
 }
 
 void ClothSolver::upload(const graph::ResourcePool& pool) const {
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) {
         const FieldContext about = context(index);
-        for (const FieldRow& row : cloth_fields()) {
-            const std::string name = resource_name(about.cloth, row);
-            if (!row.start || !pool.has(name)) continue;
-            const std::vector<std::byte> bytes = row.start(about);
-            if (row.is_image())
-                vulkan::upload(pool.device(), pool.image(name), bytes);
-            else
-                vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
-        }
+        for (const FieldRow& row : cloth_fields()) upload_row(pool, resource_name(about.cloth, row), row, about);
         const std::string name = resource_name(about.cloth, row_of(Field::iteration_sizes));
         if (!pool.has(name)) continue;
         std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
         sizes.resize(glsl::iteration_size_count);
         vulkan::upload(pool.device(), pool.buffer(name), bytes_of(sizes));
     }
+    if (model_.self_contact)
+        for (const ContactRow& row : contact_fields())
+            upload_row(pool, resource_name(row), row, ContactContext{*model_.self_contact, contact_.capacity});
     upload_pins(pool);
 }
 

@@ -1,4 +1,4 @@
-// Strings the simulation passes of every cloth together by the schedule of the scene's method.
+// The steps of every frame of a scene as passes of a graph, and the state that they work on.
 #pragma once
 
 #include <cstddef>
@@ -9,47 +9,49 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/cut_topology.h"
 #include "cloth/frame_judgement.h"
-#include "drape/schedule.h"
 #include "solver/attempt_pass.h"
+#include "solver/kernel_choice.h"
 #include "solver/pass_kit.h"
 
 namespace drape {
 
-/// What the host had put into a cloth's fields before a cut, by field.
+/// The bytes that the host had put into a cloth's fields before a cut, by field.
 struct CutImages {
     std::array<std::vector<std::byte>, field_count> fields;
-    std::size_t index_count, vertex_count;  ///< drawn
+    std::size_t index_count, vertex_count;  ///< those of the triangles that were drawn
 };
 
-/// Whether what is drawn of a cloth after a cut needs other buffers.
+/// Returns whether a cut leaves so much to draw that it needs other buffers.
 bool draws_outgrown(const CutImages& before, const CutTopology& topology);
 
 class ClothSolver {
   public:
-    /// Makes no pipeline yet: `add_*` makes what the graph needs.
-    /// Throws VulkanError when the device has not what the schedule needs.
-    ClothSolver(const vulkan::Device& device, const SimulationModel& model, Schedule schedule = Schedule::automatic);
-    /// In use.
-    Schedule schedule() const { return schedule_; }
+    /// Makes no pipeline yet; the functions that add passes make those that the graph needs. Throws VulkanError when
+    /// the device has not what a kernel that is asked for needs.
+    ClothSolver(const vulkan::Device& device, const SimulationModel& model,
+                const Kernels& kernels = Kernels::automatic());
+    /// The kernels that its steps may use.
+    const Kernels& kernels() const { return kernels_; }
 
-    /// What cuts made of each cloth; what changes them acts from the next `declare` or `upload_cut` on.
+    /// The topology that cuts have left of each cloth. A change acts from the next `declare` or `upload_cut` on.
     std::vector<CutTopology>& topologies() { return topologies_; }
     const std::vector<CutTopology>& topologies() const { return topologies_; }
-    /// Declares the images and host inputs that the scene and what is wanted of the frame need, and only those.
+    /// Declares the images and host inputs that the scene and the wanted frame need, and only those.
     void declare(graph::Graph& graph, const FrameNeeds& needs) { declare(graph, needs, model_); }
-    /// Likewise for a run of the same scene at other substeps, which must outlive the graph and what is added to it.
+    /// Declares those of a run of the same scene at other substeps, which must outlive the graph and what is added to
+    /// it.
     void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
-    /// Adds what takes every cloth's positions from the host (solver/position_upload.h).
+    /// Adds passes that take every cloth's positions from the host (solver/position_upload.h).
     void add_positions(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
     void add_normals(graph::Graph& graph);
     /// Adds the statistics of every cloth (solver/statistics_pass.h), to be read by `statistics`.
     void add_statistics(graph::Graph& graph);
-    /// Closed loops: adds what surrounds the attempts at a frame (solver/attempt_pass.h).
+    /// Adds a pass that a closed loop needs around the attempts at a frame (solver/attempt_pass.h).
     void add_attempt(graph::Graph& graph, AttemptStep step);
-    /// Per cloth, m, of the slot's last comparison.
+    /// Returns how far the slot's last comparison found each cloth from the coarse run, m.
     std::vector<double> differences(const graph::ResourcePool& pool, std::uint32_t slot) const;
     /// Adds the search for springs and triangles that the cutters cross.
     void add_cuts(graph::Graph& graph);
@@ -58,13 +60,13 @@ class ClothSolver {
 
     /// Uploads the initial state, masks, triangles and pins to whatever of them the pool holds.
     void upload(const graph::ResourcePool& pool) const;
-    /// The fields of all cloths that are state, by resource: to carry the state over to new resources.
+    /// Fetches the state of all cloths, by resource, so that it can be carried over to new resources.
     std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
     void upload_state(const graph::ResourcePool& pool,
                       const std::map<std::string, std::vector<std::byte>>& state) const;
-    /// Uploads what of a cut cloth's fields differs from `before`.
+    /// Uploads the parts of a cut cloth's fields that differ from `before`.
     void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
-    /// What `upload_cut` compares with: copies of the host's side.
+    /// Copies the host's side of a cloth's fields, for `upload_cut` to compare with.
     CutImages cut_images(std::size_t cloth) const;
     /// Writes the cutters of the frame that spans the two times (s).
     void write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start, double frame_end) const;
@@ -75,18 +77,18 @@ class ClothSolver {
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                       const SimulationModel& run) const;
 
-    /// Per cloth, of the slot's last finished frame; its graph must have had `add_statistics`.
+    /// Returns each cloth's statistics of the slot's last finished frame, whose graph must have had `add_statistics`.
     std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
         return statistics(pool, slot, model_);
     }
     std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot,
                                             const SimulationModel& run) const;
 
-    /// What contact between the cloths was in the slot's last simulated frame; where there is none, nothing.
+    /// Returns the record of contact between the cloths in the slot's last simulated frame, zeros where there is none.
     glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
-    /// How full its fullest list came, 0 where there is none; above 1 the frame is no result.
+    /// Returns how full the fullest of contact's lists was, 0 where there is none; above 1 the frame is no result.
     double self_list_use(const glsl::SelfRecord& record) const;
-    /// Gives the lists of that frame room for more, from the next `declare` on; false: the device cannot.
+    /// Lengthens the lists that were too short for that frame, from the next `declare` on; false: the device cannot.
     bool grow_lists(const glsl::SelfRecord& record);
 
     const SimulationModel& model() const { return model_; }
@@ -97,10 +99,10 @@ class ClothSolver {
         return context(cloth, needs, model_);
     }
     FieldContext context(std::size_t cloth, const FrameNeeds& needs, const SimulationModel& run) const {
-        return {run, run.cloths[cloth], topologies_[cloth], needs, self_room_};
+        return {run, run.cloths[cloth], topologies_[cloth], needs};
     }
-    /// Cloths that are simulated together: fields that are images lie below each other in one image each, and are known
-    /// here. A cloth's own handles to them are slices, and old until `take` renews them.
+    /// Cloths that are simulated together. Their images of a field lie below each other in one image, whose handle is
+    /// here. A cloth's own handles to it are slices, and old until `take` renews them.
     struct Together {
         std::vector<std::size_t> cloths;
         ClothState state;
@@ -113,12 +115,13 @@ class ClothSolver {
                     std::uint32_t substeps) const;
     ClothState state_of(std::size_t index) const;
     void find_together(const vulkan::Device& device);
-    /// Gives a cloth the newest handles, and takes over those that it made.
+    /// Gives a cloth the newest handles of the images that it shares.
     void take(std::size_t cloth);
+    /// Makes the handles that a cloth made those of the images that it shares.
     void give(std::size_t cloth);
-    /// Among those that it is together with; 0 of one alone.
+    /// Returns a cloth's place among those that it is together with; 0 when it is alone.
     std::uint32_t place_of(std::size_t cloth) const;
-    /// Whatever is done for cloths together, and for each of the others.
+    /// Calls `add` once for cloths together, and for each of the others.
     template <class Add>
     void for_each_dispatch(const Add& add);
     template <class Add>
@@ -126,23 +129,25 @@ class ClothSolver {
     glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
                                              std::size_t cloth) const;
     std::vector<Step> steps() const;
-    void add_step(graph::Graph& graph, ClothState& state, const Step& step);
-    /// One of contact between the cloths.
-    void add_contact_step(graph::Graph& graph, ClothState& state, const Step& planned);
+    /// `state` is null where contact is of all cloths at once.
+    void add_step(graph::Graph& graph, ClothState* state, const Step& step);
+    void declare_contact(graph::Graph& graph);
+    ContactContext contact_context() const { return {*run_->self_contact, contact_.capacity}; }
 
     const SimulationModel& model_;
-    const SimulationModel* run_;  ///< of the graph being built
-    Schedule schedule_;
+    const SimulationModel* run_;  ///< the run of the graph that is being built
+    Kernels kernels_;
+    std::vector<KernelVerdict> verdicts_;
     std::vector<CutTopology> topologies_;
     Pipelines pipelines_;
-    /// Per cloth; the same in the graph of every kind of frame.
+    /// The sizes that iterations of each cloth choose from, which the graphs of all kinds of frames share.
     std::vector<std::shared_ptr<std::vector<glsl::uvec4>>> iteration_sizes_;
     std::vector<ClothState> cloths_;
     std::vector<Together> together_;
-    std::vector<std::size_t> together_of_;  ///< by cloth: index into `together_`, its size: none
+    std::vector<std::size_t> together_of_;  ///< index into `together_` by cloth; the size of that: alone
     SceneInputs inputs_;
     std::uint64_t most_list_bytes_;
-    SelfRoom self_room_;  ///< of contact's lists, where there is any
+    ContactHandles contact_;
 };
 
 }  // namespace drape

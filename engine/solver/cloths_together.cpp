@@ -10,6 +10,7 @@
 
 #include "cloth/together.h"
 #include "solver/cloth_solver.h"
+#include "solver/kernel_choice.h"
 
 namespace drape {
 
@@ -17,13 +18,13 @@ using graph::Lifetime;
 
 namespace {
 
-/// Of the pins of cloths together.
+/// Returns the name of the buffer with all pins of cloths together.
 std::string pins_name(const ClothState& whole, Field field) {
     return fmt::format("{}/{}", whole.name, row_of(field).name);
 }
 
-/// Alike, of the same contact with colliders, which depends on where cloth is placed, and where steps go to and fro
-/// between two sets of images, together in each of them.
+/// Returns lists of cloths that are alike, have the same contact with colliders, which depends on where they are
+/// placed, and turn at the same steps where steps go to and fro between two sets of images.
 std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
@@ -46,7 +47,7 @@ void ClothSolver::find_together(const vulkan::Device& device) {
         const Grid& grid = model_.cloths[alike.front()].grid;
         // Halves, until they fit.
         std::size_t count = alike.size();
-        while (count > 1 && !buffered_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
+        while (count > 1 && !buffer_store_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
             count = (count + 1) / 2;
         for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
             const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
@@ -70,7 +71,7 @@ void ClothSolver::take(std::size_t cloth) {
     state.away = together.state.away;
     for (const FieldRow& row : cloth_fields()) {
         const graph::Handle whole = together.state[row.field];
-        if (row.lies_together() && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
+        if (lies_together(row) && state[row.field].valid()) state[row.field] = {whole.resource, whole.version, place};
     }
 }
 
@@ -80,7 +81,7 @@ void ClothSolver::give(std::size_t cloth) {
     const ClothState& state = cloths_[cloth];
     if (state.away != whole.away) throw std::logic_error("a cloth left those that it is together with");
     for (const FieldRow& row : cloth_fields())
-        if (row.lies_together() && state[row.field].valid())
+        if (lies_together(row) && state[row.field].valid())
             whole[row.field] = {state[row.field].resource, state[row.field].version};
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "solver/compute_pass.h"
 #include "vulkan/api.h"
 
 namespace drape {
@@ -21,11 +22,10 @@ void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph
              std::size_t cutter_count) {
     const ClothModel& model = *state.model;
     const Grid& grid = model.grid;
-    const graph::Handle flags = graph.image({cut_flags_name(model), VK_FORMAT_R32_UINT, 2 * (grid.columns() - 1),
-                                             grid.rows() - 1, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
-    const graph::Handle fractions =
-        graph.image({cut_fractions_name(model), VK_FORMAT_R32G32B32A32_SFLOAT, grid.columns(), grid.rows(),
-                     VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
+    graph::Handle flags = graph.image({cut_flags_name(model), VK_FORMAT_R32_UINT, 2 * (grid.columns() - 1),
+                                       grid.rows() - 1, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
+    graph::Handle fractions = graph.image({cut_fractions_name(model), VK_FORMAT_R32G32B32A32_SFLOAT, grid.columns(),
+                                           grid.rows(), VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     graph::Handle count = graph.buffer<glsl::uint>(cut_count_name(model), 1, graph::Lifetime::host_output);
     const auto cleared = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
     graph.add_pass(
@@ -36,23 +36,12 @@ void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph
         });
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("cut.comp", {{"masked", state.masked()}}));
-    graph.add_pass(
-        state.pass_name("cut", "cut"),
-        [&](graph::PassSetup& setup) {
-            setup.read(state[Field::position], Access::compute_read, "position");
-            (void)setup.write(flags, Access::compute_write, "cut_flags");
-            (void)setup.write(fractions, Access::compute_write, "cut_fractions");
-            setup.read(cutters, Access::compute_read, "cutters");
-            update_in_place(setup, count, "count");
-            if (!state.masked()) return;
-            setup.read(state[Field::spring_share], Access::compute_read, "spring_share_image");
-            setup.read(state[Field::cells], Access::compute_read, "cells");
-        },
-        [&pipeline, push = glsl::CutPush{grid.size(), static_cast<int>(cutter_count) * glsl::cutter_triangle_count, 0}](
-            graph::PassContext& context) {
-            context.dispatch(pipeline, push, static_cast<std::uint32_t>(push.grid.x),
-                             static_cast<std::uint32_t>(push.grid.y));
-        });
+    const int triangles = static_cast<int>(cutter_count) * glsl::cutter_triangle_count;
+    add_compute_pass(
+        graph, state.pass_name("cut", "cut"), pipeline, glsl::CutPush{grid.size(), triangles, 0},
+        {grid.columns(), grid.rows()},
+        {.cloth = &state,
+         .own = {{"cut_flags", &flags}, {"cut_fractions", &fractions}, {"cutters", &cutters}, {"count", &count}}});
 }
 
 CutFindings read_findings(const graph::ResourcePool& pool, const ClothModel& cloth) {

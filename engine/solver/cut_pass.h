@@ -1,4 +1,4 @@
-// Which springs and triangles of a cloth the cutters cross, at the end of a frame.
+// The search for springs and triangles of a cloth that the cutters cross, at the end of a frame.
 #pragma once
 
 #include "cloth/cut_topology.h"

@@ -27,4 +27,21 @@ void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, s
         });
 }
 
+void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle buffer, std::uint64_t offset,
+                         std::uint64_t byte_count, const std::string& host_name) {
+    const graph::Handle empty = graph.buffer({host_name, byte_count, graph::Lifetime::host_output});
+    const auto target = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
+    graph.add_pass(
+        name,
+        [&](graph::PassSetup& setup) {
+            setup.read(buffer, graph::Access::transfer_read);
+            *target = setup.write(empty, graph::Access::transfer_write);
+        },
+        [buffer, offset, byte_count, target](graph::PassContext& context) {
+            const VkBufferCopy region{offset, 0, byte_count};
+            vkCmdCopyBuffer(context.commands(), context.buffer(buffer).handle(), context.buffer(*target).handle(), 1,
+                            &region);
+        });
+}
+
 }  // namespace drape

@@ -11,4 +11,8 @@ std::string readback_name(const ClothModel& cloth, std::string_view what);
 /// Copies an image of four floats per particle, the cloth's `what`, into a host_output buffer.
 void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, std::string_view what);
 
+/// Copies `byte_count` bytes of a buffer from `offset` on into a host_output buffer called `host_name`.
+void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle buffer, std::uint64_t offset,
+                         std::uint64_t byte_count, const std::string& host_name);
+
 }  // namespace drape

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "simulation/frame_loop.h"
 
 namespace drape::verify {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "simulation/frame_checks.h"
-#include "solver/device_schedule.h"
+#include "solver/kernel_choice.h"
 #include "verify/scene_oracles.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"

@@ -12,7 +12,7 @@ namespace drape::verify {
 
 struct Request {
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
-    std::string device;                  ///< selects the device; empty: the best there is
+    std::string device;                  ///< a selector of Device; may be empty
     bool validate = true;                ///< core and synchronization validation, each message a failure
     /// Limits of every frame and cloth, where they are wanted: RMS strain of the stretch springs; their RMS stretch
     /// error; m below the surface that contact keeps free.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <vector>
@@ -65,8 +66,23 @@ std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory
 
 Device::Device(const Instance& instance, DeviceInfo info, Empty) : instance_(instance), info_(std::move(info)) {}
 
+namespace {
+
+DeviceInfo selected(const Instance& instance, std::string_view selector) {
+    constexpr const char* variable = "DRAPE_DEVICE";
+    const char* preferred = selector.empty() ? std::getenv(variable) : nullptr;
+    if (!preferred) return select_device(instance.devices(), selector);
+    try {
+        return select_device(instance.devices(), preferred);
+    } catch (const VulkanError& error) {
+        throw VulkanError(fmt::format("{}: {}", variable, error.what()));
+    }
+}
+
+}  // namespace
+
 Device::Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked)
-    : Device(instance, select_device(instance.devices(), selector), Empty{}) {
+    : Device(instance, selected(instance, selector), Empty{}) {
     physical_ = instance.physical_device(info_.index);
     read_limits();
     read_features(asked);

@@ -44,8 +44,10 @@ struct SpecializationConstant;
 
 class Device {
   public:
-    /// `selector` is empty (a GPU is preferred when there is one), INDEX, NAME (unique, case-insensitive part), UUID or
-    /// "cpu". Throws VulkanError listing the devices and why each was rejected. The instance must outlive the device.
+    /// `selector`: INDEX, NAME (unique, case-insensitive part), UUID or "cpu"; empty: what the environment variable
+    /// DRAPE_DEVICE says, else a GPU when there is one. Throws VulkanError listing the devices and why each was
+    /// rejected.
+    /// The instance must outlive the device.
     Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked = {});
     ~Device();
     Device(const Device&) = delete;

@@ -4,7 +4,9 @@
 #include <spirv_cross_c.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "spirv_modules.h"
 
@@ -293,7 +295,16 @@ std::span<const std::uint32_t> spirv_module(std::string_view name) {
     throw VulkanError(fmt::format("there is no shader module \"{}\"", name));
 }
 
-std::string variant_name(std::string_view shader, std::initializer_list<std::pair<std::string_view, bool>> variants) {
+const ReflectedModule& module_interface(const std::string& name) {
+    static std::mutex guard;
+    static std::map<std::string, ReflectedModule> modules;
+    const std::scoped_lock lock(guard);
+    const auto found = modules.find(name);
+    return found != modules.end() ? found->second
+                                  : modules.emplace(name, reflect(spirv_module(name), name)).first->second;
+}
+
+std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants) {
     const std::size_t dot = shader.rfind('.');
     std::string name(shader.substr(0, dot));
     for (const auto& [variant, chosen] : variants)

@@ -73,8 +73,12 @@ std::string push_constant_difference(const std::optional<ReflectedStruct>& shade
 /// Returns the committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
+/// Returns what the committed module of that name says of itself; it is read once. Throws as `reflect` and `spirv_module`
+/// do.
+const ReflectedModule& module_interface(const std::string& name);
+
 /// Returns the name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true},
 /// {"tension", false}} -> "line_masked.comp". Variants stand in the order of the shader's pragma.
-std::string variant_name(std::string_view shader, std::initializer_list<std::pair<std::string_view, bool>> variants);
+std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants);
 
 }  // namespace drape::vulkan

@@ -1,9 +1,9 @@
-// BDF2 in displacement form (docs/solvers.md, "Line solve"), with a backward Euler step, which is Verlet's (verlet.h)
-// with implicit springs, where there is no history worth trusting, and the control that decides which of the two a
-// substep is.
-// State beside the position X: d = displacement of the substep, d_before = that of the substep before, and `excess` =
-// u - d = (d - d_before)/2, where u is h times the velocity at the substep's end and d h times its mean. Small numbers
-// are stored and added, so no digits are lost to d. Both steps, and changes between them, are exact in free flight.
+// This header holds BDF2 in displacement form (docs/solvers.md, "Line solve"), the backward Euler step (Verlet's,
+// verlet.h, with implicit springs) that replaces it where there is no history worth trusting, and the control that
+// decides which of the two a substep is. A particle's state beside its position: d, the displacement of the substep,
+// d_before, that of the substep before, and `excess` = u - d = (d - d_before)/2, where u is h times the velocity at the
+// substep's end and d is h times its mean. Small numbers are stored and added, so no digits are lost to d. Both steps,
+// and changes between them, are exact in free flight.
 #ifndef DRAPE_BDF2_H
 #define DRAPE_BDF2_H
 
@@ -12,16 +12,16 @@ SHARED vec3 velocity_excess(vec3 displacement, vec3 displacement_before) {
     return excess;
 }
 
-/// h^2 times the acceleration of gravity and a force, weighted by the method.
+/// Returns h^2 times the acceleration by gravity and a force, weighted by the method.
 SHARED vec3 forced_step(vec3 gravity_step, vec3 force, float inverse_mass, float force_step) {
     precise vec3 forced = gravity_step + force * (inverse_mass * force_step);
     return forced;
 }
 
-/// Increment to d of x* = (4 x_n - x_(n-1))/3 + f [(8/9) u_n - (2/9) u_(n-1) + (4/9) h^2 a], f = 1/(1 + (2/3) c h):
+/// Returns d* - d, where x* = (4 x_n - x_(n-1))/3 + f [(8/9) u_n - (2/9) u_(n-1) + (4/9) h^2 a], f = 1/(1 + (2/3) c h):
 ///   d* - d = f [(2/9) ((d - d_before) - excess_before) + (8/9) excess] - (2/3) (1 - f) d + f (4/9) h^2 a.
-/// `forced` = f (4/9) h^2 a; `old_weight` = f 2/9; `new_weight` = f 8/9; `loss` = (2/3) (1 - f); both corrected so
-/// that damped flight is exact (engine/cloth/method_line.cpp).
+/// `forced` = f (4/9) h^2 a, `old_weight` = f 2/9, `new_weight` = f 8/9, `loss` = (2/3) (1 - f). The caller corrects
+/// the weights and the loss so that damped flight is exact (engine/cloth/method_line.cpp).
 SHARED vec3 bdf2_increment(vec3 displacement, vec3 displacement_before, vec3 excess, vec3 excess_before, vec3 forced,
                            float old_weight, float new_weight, float loss) {
     precise vec3 change = ((displacement - displacement_before) - excess_before) * old_weight + excess * new_weight;
@@ -29,24 +29,24 @@ SHARED vec3 bdf2_increment(vec3 displacement, vec3 displacement_before, vec3 exc
     return increment;
 }
 
-/// The drag k (N/m) of a BDF2 step, from that of a Verlet step: its force acts at the step's end, where the velocity is
-/// (3 d' - d)/(2 h), and the wind's force was taken at d/h, so it changes by -2 k 3/2 (d' - d); a Verlet step takes
-/// half of its change of velocity, at the middle.
+/// Returns the drag k (N/m) of a BDF2 step, given that of a Verlet step. The force of a BDF2 step acts at its end,
+/// where the velocity is (3 d' - d)/(2 h), while the wind's force was taken at d/h, so it changes by -2 k 3/2 (d' - d).
+/// A Verlet step takes half of its change of velocity, at the middle.
 SHARED float bdf2_drag(float drag) {
     precise float bdf2 = 3.0f * drag;
     return bdf2;
 }
 
-/// What a cloth's substeps know of each other; one integer per texel of the control image.
+/// The control passes this state from a cloth's substep to the next, one integer per texel of the control image.
 struct LineControl {
-    uint order;        // of this substep: 1 backward Euler, 2 BDF2; 0 before the first
-    uint wrong_lines;  // of this substep, that met a spring wrong by more than line_violation_limit
-    uint hold;         // substeps that remain backward Euler, this one too
+    uint order;        // order of this substep: 1 backward Euler, 2 BDF2; 0 before the first
+    uint wrong_lines;  // lines of this substep that met a spring wrong by more than line_violation_limit
+    uint hold;         // substeps that remain backward Euler, this one included
 };
 
-/// The control of the next substep. The first ones are backward Euler, since the history that a cloth starts with does
-/// not know the forces that hold it; and so are those after a spring of |C - T|/L > line_violation_limit was met, or
-/// what else asked for it. Non-negative floats order as their bits do, and NaN lies above them all.
+/// Returns the control of the next substep. The first substeps are backward Euler, since the history that a cloth
+/// starts with does not know the forces that hold it. So are those after more than `most_wrong` lines met a spring of
+/// |C - T|/L > line_violation_limit, or after something else set `hold`.
 SHARED LineControl next_control(LineControl last, uint most_wrong) {
     uint hold = last.order == 0u ? line_hold_start : last.hold > 0u ? last.hold - 1u : 0u;
     if (last.wrong_lines > most_wrong) hold = line_hold_count;

@@ -1,32 +1,32 @@
-// Quadratic bending on the regular grid. Three particles in a row or column: energy b/2 |x1 - 2 x2 + x3|^2, with
-// b = B w p/h^3, rigidity B, spacing h along the axis and p across it, w = 1/2 along a border (docs/physics.md 4;
-// Bergou et al. 2006 for isometric surfaces). The corners of a cell: energy t/2 |x00 - x10 - x01 + x11|^2, t = 2 B/(dx
-// dy). The sum tends to B/2 times the integral of kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0: as
-// stiff in every direction. It is linear in the positions, so its elements are never singular.
+// Quadratic bending on the regular grid. Three particles in a row or column have energy b/2 |x1 - 2 x2 + x3|^2, with b
+// = B w p/h^3, rigidity B, spacing h along the axis and p across it, w = 1/2 along a border (docs/physics.md 4; Bergou
+// et al. 2006 for isometric surfaces); the corners of a cell t/2 |x00 - x10 - x01 + x11|^2, t = 2 B/(dx dy). The sum
+// tends to B/2 times the integral of kxx^2 + kyy^2 + 2 kxy^2, the isotropic plate of Poisson's ratio 0: as stiff in
+// every direction. Its forces are linear in the positions, so its elements are never singular.
 #ifndef DRAPE_BEND_H
 #define DRAPE_BEND_H
 
-/// Second difference x1 - 2 x2 + x3 (m) from the two edges that leave the middle: small numbers from small numbers.
+/// Second difference x1 - 2 x2 + x3 (m). It is taken from the two edges that leave the middle, which are small numbers.
 SHARED vec3 second_difference(vec3 edge_to_first, vec3 edge_to_third) {
     precise vec3 difference = edge_to_first + edge_to_third;
     return difference;
 }
 
-/// `sum` plus an element's pull: `factor` = 2 b on its middle, -b on its ends; of a twist -t on the corners 00 and 11,
-/// t on 10 and 01; times phi h^2/m_inner.
+/// Returns `sum` plus an element's pull. `factor` is 2 b on the element's middle and -b on its ends, or, for a twist,
+/// -t on the corners 00 and 11 and t on 10 and 01; each times phi h^2/m_inner.
 SHARED vec3 add_bend(vec3 sum, vec3 difference, float factor) {
     precise vec3 total = sum + difference * factor;
     return total;
 }
 
-/// Middle particle (column, row) of element `element` of one colour: every third along the axis, so that elements of a
-/// colour share no particle.
+/// Middle particle (column, row) of element `element` of one colour. A colour takes every third along the axis, so that
+/// its elements share no particle.
 SHARED ivec2 bend_middle(ivec2 element, ivec2 axis, int colour) {
     return ivec2(axis.x != 0 ? 3 * element.x + colour + 1 : element.x,
                  axis.y != 0 ? 3 * element.y + colour + 1 : element.y);
 }
 
-/// Share of an element whose two springs have the shares `first` and `second`: a missing spring bends no more.
+/// Share of an element whose two springs have the shares `first` and `second`; over a missing spring nothing bends.
 SHARED float bend_share(float first, float second) { return first < second ? first : second; }
 
 /// Twist x00 - x10 - x01 + x11 (m) of a cell from its upper edge x10 - x00 and its lower one x11 - x01.
@@ -35,15 +35,15 @@ SHARED vec3 twist_difference(vec3 upper_edge, vec3 lower_edge) {
     return difference;
 }
 
-/// Upper left corner of cell `element` of one colour: every second along both axes, so that the cells of a colour share
-/// no particle. `first`: the colour's first cell, 0 or 1 along each axis.
+/// Upper left corner of cell `element` of one colour. A colour takes every second cell along both axes, so that its
+/// cells share no particle. `first`: the colour's first cell, 0 or 1 along each axis.
 SHARED ivec2 twist_corner(ivec2 element, ivec2 first) {
     return ivec2(2 * element.x + first.x, 2 * element.y + first.y);
 }
 
-/// 1 when the cell is whole, else 0: a missing or cut cell twists no more. From the stiffness texels of three of its
-/// corners, which own its four sides (x: rows, y: columns) and its two diagonals (z, w); the diagonals tell a hole of
-/// one cell, whose sides all belong to neighbours too.
+/// Returns 1 when the cell is whole, else 0: a missing or cut cell has no twist. The arguments are the spring shares of
+/// three of its corners, which own its four sides (x: rows, y: columns) and its two diagonals (z, w); the diagonals
+/// reveal a hole of one cell, whose sides all belong to neighbours too.
 SHARED float twist_share(vec4 upper_left, vec4 upper_right, vec4 lower_left) {
     bool sides = upper_left.x > 0.0f && upper_left.y > 0.0f && upper_right.y > 0.0f && lower_left.x > 0.0f;
     return sides && upper_left.z > 0.0f && upper_right.w > 0.0f ? 1.0f : 0.0f;
@@ -61,10 +61,10 @@ SHARED float bend_weight(float weight_first, float weight_middle, float weight_t
     return weight;
 }
 
-/// Correction of one element, to be added to its particles times their w and their coefficient (1 -2 1; of a twist 1 on
-/// the corners 00 and 11, -1 on 10 and 01): one implicit step of its energy, (`weight_sum` + a/s) lambda = -difference
-/// (XPBD eq. 18 with the multiplier at zero, so once per substep); a = `compliance` = m_inner/(b h^2), numerator and
-/// denominator times s = `share`. Stable for every a.
+/// Returns the correction of one element. The caller adds it to each particle times its w and its coefficient (1 -2 1,
+/// or, for a twist, 1 on the corners 00 and 11, -1 on 10 and 01). It is one implicit step of the element's energy,
+/// (`weight_sum` + a/s) lambda = -difference (XPBD eq. 18 with the multiplier at zero, so once per substep), a =
+/// `compliance` = m_inner/(b h^2), with numerator and denominator times s = `share`. It is stable for every a.
 SHARED vec3 project_bend(vec3 difference, float weight_sum, float share, float compliance) {
     precise float denominator = share * weight_sum + compliance;
     precise vec3 correction = difference * (-share / denominator);

@@ -1,8 +1,8 @@
-// What is drawn between particles against the edges and corners of a box: contact that moves particles leaves these
-// alone (colliders.h). An edge of the cloth and an edge of the box, or a triangle and a corner, that have passed each
-// other are led apart along the one direction in which that is the least (separating axes), by shares that the weights
-// of the touching point in its triangle give. Particle by particle: each takes from every triangle around it the most
-// that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
+// This header handles contact of the cloth between its particles with the edges and corners of a box, which the contact
+// of particles (colliders.h) leaves alone. An edge of the cloth and an edge of the box, or a triangle and a corner,
+// that have passed each other are led apart along the one direction in which that is the least (separating axes), by
+// shares that the weights of the touching point in its triangle give. Each particle takes from every triangle around it
+// the most that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
 #ifndef DRAPE_BOX_EDGES_H
 #define DRAPE_BOX_EDGES_H
 
@@ -15,10 +15,10 @@ struct CutCorner {
     float weight;       // relative inverse mass
 };
 
-/// Least way out along one direction.
+/// The least way out of the box along one direction.
 struct BoxCut {
     vec3 normal;  // local, outward, unit length
-    float depth;  // m; not > 0: outside
+    float depth;  // m; outside when not > 0
     vec3 shares;  // weights of the corners at the touching point
 };
 
@@ -27,14 +27,14 @@ SHARED BoxCut no_cut() { return BoxCut(vec3(0.0f, 1.0f, 0.0f), 0.0f, vec3(1.0f, 
 SHARED float smaller_of(float a, float b) { return a < b ? a : b; }
 SHARED float larger_of(float a, float b) { return a > b ? a : b; }
 
-/// m: by how much what spans from `low` to `high` along an axis reaches past either of two faces.
+/// Returns by how much (m) the interval from `low` to `high` along an axis reaches past the nearer of two faces.
 SHARED float past_faces(float low, float high, float half_extent) {
     precise float up = half_extent - low;
     precise float down = half_extent + high;
     return smaller_of(up, down);
 }
 
-/// The same of a triangle and all faces: not > 0 where one of them separates it from the box.
+/// Returns by how much (m) a triangle reaches past the faces; not > 0 where one of them separates it from the box.
 SHARED float past_all_faces(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     float x = past_faces(smaller_of(a.x, smaller_of(b.x, c.x)), larger_of(a.x, larger_of(b.x, c.x)), half_extents.x);
     float y = past_faces(smaller_of(a.y, smaller_of(b.y, c.y)), larger_of(a.y, larger_of(b.y, c.y)), half_extents.y);
@@ -42,17 +42,18 @@ SHARED float past_all_faces(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     return smaller_of(x, smaller_of(y, z));
 }
 
-/// m: by how much a particle is inside, 0 outside: contact of particles moves it as far.
+/// Returns how deep (m) a particle is inside, 0 outside; contact of particles moves it by as much.
 SHARED float inside_faces(vec3 a, vec3 half_extents) {
     float depth = past_all_faces(a, a, a, half_extents);
     return depth > 0.0f ? depth : 0.0f;
 }
 
-/// An edge of the cloth past an edge of the box, seen along the latter: `from` and `along` of the cloth's, half extents
-/// across. xy: direction, z: depth, negative outside, w: share of the far end.
+/// Returns how far an edge of the cloth is past an edge of the box, seen along the latter; `from` and `along` describe
+/// the cloth's edge. xy: direction, z: depth, m, negative outside, w: share of the edge's far end.
 SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
     precise float squared = along.x * along.x + along.y * along.y;
-    if (!(squared > 0.0f)) return vec4(0.0f, 0.0f, 3.0e38f, 0.0f);  // seen as a point: others judge
+    // An edge that is seen as a point leaves the verdict to the other two directions.
+    if (!(squared > 0.0f)) return vec4(0.0f, 0.0f, 3.0e38f, 0.0f);
     precise float side = along.x * from.y - along.y * from.x;
     precise float reach = half_extents.x * abs(along.y) + half_extents.y * abs(along.x);
     float length = sqrt(squared);
@@ -66,8 +67,7 @@ SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
     return vec4(normal.x, normal.y, depth, share);
 }
 
-/// An edge of the cloth in a box, by the box's edges alone: where an end of it is as far inside, contact of particles
-/// leads it out.
+/// Cuts an edge by the box's edges alone; where an end of it is as far inside, contact of particles leads it out.
 SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
     float known = larger_of(inside_faces(a, half_extents), inside_faces(b, half_extents));
     precise vec3 along = b - a;
@@ -82,14 +82,14 @@ SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
     return BoxCut(normal, depth, vec3(rest, share, 0.0f));
 }
 
-/// How far beside a triangle, in its weights, a corner that is past its plane counts as under it. At an edge between
-/// two triangles over a corner it else falls through between them: contact leads that edge aside, and the corner under
-/// one.
+/// A corner of the box past a triangle's plane counts as under it up to this far beside it, in the triangle's weights.
+/// Under an edge between two triangles it would else slip through between them: now contact leads that edge aside, and
+/// the corner is under one of them.
 const float corner_margin = 0.2f;
 
 SHARED float not_below_zero(float x) { return x > 0.0f ? x : 0.0f; }
 
-/// A corner of the box through a triangle.
+/// Cuts a triangle by the box's corner.
 SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     float least = past_all_faces(a, b, c, half_extents);
     precise vec3 ab = b - a;
@@ -114,18 +114,18 @@ SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     return BoxCut(normal, depth, shares);
 }
 
-/// What a cut asks of the triangle's first corner beyond what it has `taken` already (m, local).
+/// Returns `taken` (m, local), by which the triangle's first corner is moved already, with what a cut asks beyond it.
 SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
                      float recovery) {
     precise float mobility = a.weight * cut.shares.x * cut.shares.x + b.weight * cut.shares.y * cut.shares.y +
                              c.weight * cut.shares.z * cut.shares.z;
     if (!(cut.depth > 0.0f) || !(mobility > 0.0f)) return taken;
-    // As for a particle (collider_contact): what was past it when the substep began comes back slowly.
+    // As in collider_contact, the depth that was there when the substep began is given back slowly.
     precise vec3 touching = a.local * cut.shares.x + b.local * cut.shares.y + c.local * cut.shares.z;
     precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
     precise vec3 relative = motion - surface_displacement(collider, touching);
     precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
-    // What leaves by one face is not led to another one.
+    // Cloth that leaves by one face must not be led to another one.
     vec3 way_out = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
     if (before > recovery && has_way_out(collider) && ordered_dot(cut.normal, way_out) < 0.5f) return taken;
     precise float depth = cut.depth - kept_depth(before, recovery);
@@ -135,7 +135,7 @@ SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner
     return sum;
 }
 
-/// Likewise all that a triangle asks of its first corner.
+/// Returns `taken` with all that a triangle asks of its first corner.
 SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider, float recovery) {
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     taken = with_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
@@ -143,14 +143,14 @@ SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, Col
     return with_cut(taken, corner_in_triangle(a.local, b.local, c.local, half_extents), a, b, c, collider, recovery);
 }
 
-/// Whether an edge of the cloth shorter than `reach` that ends at a particle can meet an edge of the box.
+/// Returns whether an edge of the cloth shorter than `reach` that ends at a particle can meet an edge of the box.
 SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
     precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
     int along = (beyond.x > -reach ? 1 : 0) + (beyond.y > -reach ? 1 : 0) + (beyond.z > -reach ? 1 : 0);
     return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
 }
 
-/// Displacement of a particle that has `taken` (m, local) from a box, with friction.
+/// Displacement of a particle that a box has moved by `taken` (m, local), with friction.
 SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 local, ColliderRecord collider, float friction) {
     float squared = ordered_dot(taken, taken);
     if (!(squared > 0.0f)) return displacement;

@@ -1,5 +1,5 @@
-// Where a drawn vertex of a cloth is. The index buffer alone says which: particles first, then, on a cut cloth
-// (CUT), vertices on cut springs, each placed from particles of its own side. Needs `push` (ClothPush) and the
+// Places a drawn vertex of a cloth. Its index alone says which: the particles come first, then, on a cut cloth (CUT),
+// the vertices on cut springs, each placed from particles of its own side. The includer has `push` (ClothPush) and the
 // position image.
 ivec2 particle_texel(uint particle) { return ivec2(particle % push.grid.x, particle / push.grid.x); }
 

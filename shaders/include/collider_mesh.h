@@ -1,4 +1,4 @@
-// Vertices of the colliders' true shapes from gl_VertexIndex, in local coordinates.
+// Makes the vertices of the colliders' true shapes from gl_VertexIndex, in local coordinates.
 #ifndef DRAPE_COLLIDER_MESH_H
 #define DRAPE_COLLIDER_MESH_H
 
@@ -17,8 +17,8 @@ ivec2 quad_corner(int vertex) {
     return ivec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1 : 0, vertex == 2 || vertex == 4 || vertex == 5 ? 1 : 0);
 }
 
-/// Segment around and from pole to pole, at which a vertex of a round mesh is; seen from outside its triangles run
-/// counter-clockwise, though rows are counted downwards.
+/// Returns at which segment around (x) and from pole to pole (y) a vertex of a round mesh is. Seen from outside the
+/// triangles run counter-clockwise, though rows are counted downwards.
 ivec2 round_corner(int vertex) {
     int quad = vertex / 6;
     return ivec2(quad % round_columns, quad / round_columns) + quad_corner(vertex % 6).yx;
@@ -52,7 +52,7 @@ MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
     return MeshVertex(vec3(corner.x, 0.0, corner.y), vec3(0.0, 1.0, 0.0));
 }
 
-/// The ball at the upper end from its pole to where the side touches it, the side in one step, the lower ball.
+/// A capsule's rows are the upper ball from its pole to where the side touches it, the side in one step, and the lower.
 MeshVertex capsule_vertex(vec3 size, int vertex) {
     ivec2 corner = round_corner(vertex);
     const float pi = 3.14159265358979;

@@ -1,5 +1,5 @@
-// Signed distances of the collider kinds in their local frames, and the contact with friction.
-// Positive distance is outside. Each gives the closest surface point's outward normal.
+// This header holds the signed distances of the collider kinds in their local frames, positive outside, each with the
+// outward normal of the closest surface point; and the contact with friction.
 #ifndef DRAPE_COLLIDERS_H
 #define DRAPE_COLLIDERS_H
 
@@ -25,7 +25,7 @@ SHARED vec3 world_direction(ColliderRecord collider, vec3 local) {
                 ordered_dot(vec3(collider.pose_z.x, collider.pose_z.y, collider.pose_z.z), local));
 }
 
-/// How far the collider's material at `local` moved during the substep, world frame, metres.
+/// Returns how far the collider's material at `local` moved during the substep, world frame, m.
 SHARED vec3 surface_displacement(ColliderRecord collider, vec3 local) {
     precise vec3 turned = vec3(ordered_dot(vec3(collider.change_x.x, collider.change_x.y, collider.change_x.z), local),
                                ordered_dot(vec3(collider.change_y.x, collider.change_y.y, collider.change_y.z), local),
@@ -43,7 +43,7 @@ SHARED SurfacePoint sphere_surface(vec3 local, float radius) {
     return SurfacePoint(normal, distance);
 }
 
-/// Outside: nearest point of the box. Inside: nearest face.
+/// Outside, the surface point is the nearest of the box; inside, it is on the nearest face.
 SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
     vec3 side = vec3(local.x < 0.0f ? -1.0f : 1.0f, local.y < 0.0f ? -1.0f : 1.0f, local.z < 0.0f ? -1.0f : 1.0f);
     precise vec3 beyond = local * side - half_extents;
@@ -51,7 +51,7 @@ SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
         precise vec3 outside = vec3(beyond.x > 0.0f ? beyond.x : 0.0f, beyond.y > 0.0f ? beyond.y : 0.0f,
                                     beyond.z > 0.0f ? beyond.z : 0.0f);
         precise float distance = sqrt(ordered_dot(outside, outside));
-        if (distance > 0.0f) {  // else underflow: on the surface, let the nearest face decide below
+        if (distance > 0.0f) {  // else it underflows: on the surface, the nearest face decides
             precise vec3 normal = outside * side / distance;
             return SurfacePoint(normal, distance);
         }
@@ -61,15 +61,15 @@ SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
     return SurfacePoint(vec3(0.0f, 0.0f, side.z), beyond.z);
 }
 
-/// Closest point on the ellipsoid sum (x_i/radii_i)^2 = 1 to `local`. Eberly, "Distance from a Point to an
-/// Ellipse, an Ellipsoid, or a Hyperellipsoid": foot_i = r_i y_i / (s + r_i) with r_i = (e_i/e_min)^2 at the
-/// largest root of g(s) = sum (r_i z_i / (s + r_i))^2 - 1, z_i = y_i / e_i. g is convex and falling right of
-/// -1, so Newton from a point where g >= 0 (one term alone reaches 1) rises monotonically to the root; it stops
-/// when it no longer rises. The unknown here is u = s + 1, so that it keeps its digits next to the pole.
+/// Returns the closest point on the ellipsoid sum (x_i/radii_i)^2 = 1 to `local` (Eberly, "Distance from a Point to an
+/// Ellipse, an Ellipsoid, or a Hyperellipsoid"): foot_i = r_i y_i / (s + r_i) with r_i = (e_i/e_min)^2 at the largest
+/// root of g(s) = sum (r_i z_i / (s + r_i))^2 - 1, z_i = y_i / e_i. g is convex and falling right of -1, so Newton from
+/// a point where g >= 0 (one term alone reaches 1) rises monotonically to the root; it stops when it no longer rises.
+/// The unknown here is u = s + 1, so that it keeps its digits next to the pole.
 SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     float smallest = radii.x < radii.y ? radii.x : radii.y;
     smallest = radii.z < smallest ? radii.z : smallest;
-    // A coordinate of exactly zero along the smallest axis has no start value: shift it by less than rounding.
+    // A coordinate of exactly zero along the smallest axis has no start value, so it is shifted by less than rounding.
     precise float tiny = 1.0e-7f * smallest;
     vec3 magnitude = vec3(abs(local.x), abs(local.y), abs(local.z));
     magnitude = vec3(magnitude.x < tiny ? tiny : magnitude.x, magnitude.y < tiny ? tiny : magnitude.y,
@@ -83,7 +83,7 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     precise vec3 starts = weighted - beyond_one;  // where each term alone is 1
     float u = starts.x > starts.y ? starts.x : starts.y;
     u = starts.z > u ? starts.z : u;
-    // A bound that compilers do not know: lavapipe unrolls 24 rounds, and then all of them run, for every particle.
+    // Compilers do not know this bound; lavapipe would unroll 24 rounds and run all of them for every particle.
     int most = smallest > 0.0f ? 24 : 0;
     for (int step = 0; step < most; ++step) {
         precise vec3 shifted = beyond_one + vec3(u, u, u);
@@ -100,7 +100,7 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
                 local.z < 0.0f ? -foot.z : foot.z);
 }
 
-/// The normal is the surface's own at the foot point (gradient), good however close the point is.
+/// The normal is the surface's own at the foot point (gradient), which is good however close the point is.
 SHARED SurfacePoint ellipsoid_surface(vec3 local, vec3 radii) {
     vec3 foot = ellipsoid_foot(local, radii);
     precise vec3 gradient = foot / (radii * radii);
@@ -109,26 +109,26 @@ SHARED SurfacePoint ellipsoid_surface(vec3 local, vec3 radii) {
     return SurfacePoint(normal, distance);
 }
 
-/// Whether the point is farther than `reach` from the ellipsoid's bounding box: then no root is needed.
+/// Returns whether the point is farther than `reach` from the ellipsoid's bounding box, so that no root is needed.
 SHARED bool beyond_bounds(vec3 local, vec3 radii, float reach) {
     precise vec3 bound = radii + vec3(reach, reach, reach);
     return abs(local.x) > bound.x || abs(local.y) > bound.y || abs(local.z) > bound.z;
 }
 
-/// A capsule along y: `size` is half the distance of its ends' centres, the radius at the lower end, at the upper. Its
+/// Capsule along y; `size`: half the distance of its ends' centres, the radius at the lower end, at the upper (m). Its
 /// side is the cone that touches both balls, along circles; there its normal leans out of the horizontal by an angle
 /// whose sine is the radii's difference over the centres' distance, and beyond the circles the surface is the ball's.
 SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     precise float apart = size.x + size.x;
     precise float narrowing = size.y - size.z;
     bool has_side = abs(narrowing) < apart;  // else one ball holds the other
-    bool upper = narrowing < 0.0f;           // the ball that may be the nearest, without a side the larger
-    precise float above = local.y + size.x;  // the lower end's centre
+    bool upper = narrowing < 0.0f;           // the ball that may be the nearest; without a side it is the larger
+    precise float above = local.y + size.x;  // height above the lower end's centre
     if (has_side) {
         precise float sine = narrowing / apart;
         precise float cosine = sqrt((1.0f - sine) * (1.0f + sine));
         precise float from_axis = sqrt(local.x * local.x + local.z * local.z);
-        precise float along = above * cosine - from_axis * sine;  // the side, from the lower circle
+        precise float along = above * cosine - from_axis * sine;  // place along the side, from the lower circle
         precise float side = apart * cosine;
         if (along > 0.0f && along < side && from_axis > 0.0f) {
             precise vec3 normal = vec3(local.x / from_axis * cosine, sine, local.z / from_axis * cosine);
@@ -145,9 +145,9 @@ SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     return sphere_surface(vec3(local.x, upper ? below_upper : above, local.z), upper ? size.z : size.y);
 }
 
-/// Displacement after contact: moved out by `depth` along `normal`, and the motion relative to the surface
-/// along the tangent reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a) h^2 of
-/// a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): metres.
+/// Returns the displacement after contact: the particle is moved out by `depth` along `normal`, and its motion relative
+/// to the surface along the tangent is reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a)
+/// h^2 of a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): m.
 SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
     precise vec3 relative = displacement - surface;
     precise float along = ordered_dot(relative, normal);
@@ -172,14 +172,14 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
     return now;
 }
 
-/// How deep contact leaves a particle that was `before` deep when the substep began: what it has not run into now is
-/// resolved by `recovery` (m) a substep, so that an overlap does not become speed. 0 for all that began outside.
+/// Returns how deep contact leaves a particle that was `before` deep when the substep began, 0 where it was outside. An
+/// overlap is resolved by `recovery` (m) a substep, so that it does not become speed.
 SHARED float kept_depth(float before, float recovery) {
     precise float kept = before - recovery;
     return kept > 0.0f ? kept : 0.0f;
 }
 
-/// Signed distance and normal of a shape other than the plane, in its own frame.
+/// Signed distance and normal of a shape other than the plane, in the shape's own frame.
 SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     if (kind == kind_sphere) return sphere_surface(local, size.x);
     if (kind == kind_box) return box_surface(local, size);
@@ -187,8 +187,8 @@ SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     return ellipsoid_surface(local, size);
 }
 
-/// Signed distance and normal (of a plane the world's, else local) of the collider's point nearest to one that is
-/// `world`, in its frame `local`.
+/// Signed distance and normal of the collider's surface point nearest to a particle at `world`, which in the collider's
+/// frame is `local`. The normal of a plane is in the world frame, else in the local one.
 SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local) {
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     if (kind != kind_plane) return shape_surface(kind, local, size);
@@ -196,12 +196,12 @@ SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 wor
     return SurfacePoint(size, ordered_dot(from_foot, size));
 }
 
-/// Whether cloth started in a box, so that it leaves it by one face.
+/// Returns whether cloth started in a box, which it then leaves by one face.
 SHARED bool has_way_out(ColliderRecord collider) {
     return collider.way_out.x != 0.0f || collider.way_out.y != 0.0f || collider.way_out.z != 0.0f;
 }
 
-/// That face, for a point at `local`.
+/// The face by which cloth leaves a box that it started in, for a point at `local`.
 SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     vec3 normal = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
@@ -210,8 +210,8 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     return SurfacePoint(normal, distance);
 }
 
-/// Whether a point is so far from a collider that contact leaves it where it is: told without a root, by bounds with
-/// room for all rounding of the distance.
+/// Returns whether a point is so far from a collider that contact leaves it where it is. Bounds tell it without a root,
+/// with room for all rounding of the distance.
 SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
     vec3 local = local_point(collider, now);
     if (kind == kind_plane) {
@@ -231,7 +231,7 @@ SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thic
     return beyond_bounds(local, bound, reach);
 }
 
-/// Of a ball about a collider's centre that holds all of it, m; a plane's holds everything.
+/// Radius of a ball about a collider's centre that holds all of it, m; a plane's holds everything.
 SHARED float bounding_radius(int kind, vec3 size) {
     float widest = size.y > size.z ? size.y : size.z;
     precise float half_length = size.x + widest;
@@ -247,7 +247,7 @@ SHARED vec3 largest_of_each(vec3 a, vec3 b) {
     return vec3(b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z);
 }
 
-/// How far a number is beyond the two ends of an interval.
+/// Returns how far a number is beyond the nearer end of an interval, 0 within it.
 SHARED float beyond_interval(float x, float lower, float upper) {
     precise float below = lower - x;
     precise float above = x - upper;
@@ -255,8 +255,8 @@ SHARED float beyond_interval(float x, float lower, float upper) {
     return most > 0.0f ? most : 0.0f;
 }
 
-/// Whether what is between two corners may be nearer than `thickness` to what is in a ball (w: radius); with room for
-/// all rounding of the distance.
+/// Returns whether something between two corners may be nearer than `thickness` to something in a ball (w: radius),
+/// with room for all rounding of the distance.
 SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
     vec3 off = vec3(beyond_interval(ball.x, lower.x, upper.x), beyond_interval(ball.y, lower.y, upper.y),
                     beyond_interval(ball.z, lower.z, upper.z));
@@ -265,8 +265,8 @@ SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
     return !(ordered_dot(off, off) > squared);
 }
 
-/// What a collider makes of the displacement of a particle that started the substep at `start`. Shaders call it with a
-/// literal kind, so that each loop holds one shape's code alone. `depth` is by how much it is pushed.
+/// Contact of a particle that started the substep at `start` with a collider; `depth` is by how much it is pushed.
+/// Shaders call it with a literal kind, so that each loop holds one shape's code alone.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
                                 float friction, float recovery) {
     vec3 now = moved_position(start, displacement);
@@ -277,7 +277,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     SurfacePoint found = collider_surface(kind, collider, now, local);
     precise float inside = thickness - found.distance;
     if (!(inside > 0.0f)) return Contact(displacement, 0.0f);
-    // Where it began, carried along by the collider.
+    // The overlap at the substep's start is measured where the collider has carried the particle's place since.
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
     vec3 local_carried = local_point(collider, carried);
@@ -296,7 +296,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
 
 #ifndef __cplusplus
 
-// Where each kind ends in the list, which is sorted by kind: loops over kinds that a scene lacks fold away.
+// The list is sorted by kind, and these say where each kind ends: loops over kinds that a scene lacks fold away.
 layout(constant_id = 0) const int planes_end = 0;
 layout(constant_id = 1) const int spheres_end = 0;
 layout(constant_id = 2) const int boxes_end = 0;

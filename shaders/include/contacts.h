@@ -1,10 +1,10 @@
-// Contact of a particle with every collider of the scene. The includer calls read_colliders first of all, and has
-// GL_EXT_control_flow_attributes.
+// Contact of a particle with every collider of the scene. The includer calls read_colliders before anything else, and
+// has GL_EXT_control_flow_attributes.
 #include "include/colliders.h"
 
-/// Most colliders whose records are read where nothing has branched yet: the default device loads there once what else
-/// it loads for every particle anew, number by number (docs/devices.md). Loops over them are unrolled, so that each is
-/// a handful of constants.
+/// Records of at most this many colliders are read before anything has branched: the default device loads them once
+/// there, but anew for every particle and number by number elsewhere (docs/devices.md). Loops over them are unrolled,
+/// so that each is a handful of constants.
 const int early_collider_count = 8;
 ColliderRecord early_colliders[early_collider_count];
 
@@ -14,10 +14,10 @@ void read_colliders(int first) {
     }
 }
 
-/// The same records, as texels: of those that come after the early ones the default device loads what says how far they
-/// reach several times as fast from here (docs/devices.md).
+/// The same records as texels. The bounds of the colliders after the early ones are read from here, which on the
+/// default device is several times as fast (docs/devices.md).
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
-const int collider_texel_count = 8, collider_shape_texel = 6;  // of a record
+const int collider_texel_count = 8, collider_shape_texel = 6;  // texels of a record
 
 int kind_of_collider(int i) {
     return i < planes_end       ? kind_plane
@@ -27,7 +27,7 @@ int kind_of_collider(int i) {
                                 : kind_capsule;
 }
 
-/// Ball about collider i, counted from `first`: centre and radius.
+/// Ball about collider i, counted from `first`: centre and radius, m.
 vec4 collider_ball(int first, int i) {
     int texel = (first + i) * collider_texel_count;
     return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
@@ -35,9 +35,9 @@ vec4 collider_ball(int first, int i) {
                 bounding_radius(kind_of_collider(i), imageLoad(collider_texels, texel + collider_shape_texel).xyz));
 }
 
-layout(constant_id = 18) const bool leaves_out = true;  // what no collider can reach
+layout(constant_id = 18) const bool leaves_out = true;  // whether colliders that are out of reach are left out
 
-/// From the i-th collider on the next that may be near a point; `end` if there is none.
+/// Returns the next collider, from the i-th on, that may be near a point; `end` if there is none.
 int next_near(int first, int i, int end, vec3 now, float thickness) {
     while (leaves_out && i < end && !near_ball(collider_ball(first, i), now, now, thickness)) ++i;
     return i;
@@ -60,7 +60,7 @@ int next_near(int first, int i, int end, vec3 now, float thickness) {
         }                                                                                                            \
     }
 
-/// Whether a point may be nearer than the thickness to one of the early colliders; if not, these leave it.
+/// Returns whether a point may be nearer than the thickness to one of the early colliders; if not, they leave it alone.
 bool near_early(vec3 now, float thickness) {
     bool near = false;
     EACH_EARLY(NEAR, kind_plane, 0, planes_end)
@@ -71,8 +71,8 @@ bool near_early(vec3 now, float thickness) {
     return near;
 }
 
-/// Contact with every collider from `first` on. `in_turn`: each takes the displacement that those before it left, else
-/// the given one, and only the depth counts.
+/// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
+/// else all take the given one, and only the depth counts.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;

@@ -2,9 +2,9 @@
 // "Parallel Computers", 5.4.3; on GPUs Zhang, Cohen and Owens 2010, "Fast Tridiagonal Solvers on the GPU"). A row
 // couples its unknown to those `distance` before and after it:
 //   (shift + |before| + |after|) x_i = before x_(i - distance) + after x_(i + distance) + right.
-// Taking what its two neighbours say of theirs doubles the distance, until nothing is left to couple to. The systems of
-// line.h are written so that what is left of a diagonal, the shift, is a sum of positive terms throughout: nothing
-// cancels, however stiff the line is.
+// Inserting its two neighbours' equations doubles the distance, until nothing is left to couple to. The systems of
+// line.h are written so that the shift, the rest of a diagonal, is a sum of positive terms throughout: nothing cancels,
+// however stiff the line is.
 #ifndef DRAPE_CYCLIC_H
 #define DRAPE_CYCLIC_H
 
@@ -12,11 +12,11 @@
 
 struct CyclicRow {
     float shift;          // > 0
-    float before, after;  // of one sign with what the neighbour couples back with
+    float before, after;  // each has the sign with which that neighbour couples back
     vec3 right;
 };
 
-/// Of what does not exist: x = 0.
+/// The row of a particle or spring that does not exist gives x = 0.
 SHARED CyclicRow no_cyclic_row() { return CyclicRow(1.0f, 0.0f, 0.0f, vec3(0.0f, 0.0f, 0.0f)); }
 
 SHARED float cyclic_diagonal(CyclicRow row) {
@@ -41,7 +41,7 @@ SHARED vec3 cyclic_solution(CyclicRow row) {
     return solution;
 }
 
-/// Row of a particle of the first system, between the springs before and after it; what they are: eliminate_particle.
+/// Row of a particle of the first system, between the springs before and after it, as in eliminate_particle.
 SHARED CyclicRow particle_row(vec3 edge_before, float stiffness_before, vec3 edge_after, float stiffness_after,
                               float weight) {
     precise float before = weight * stiffness_before;
@@ -50,13 +50,13 @@ SHARED CyclicRow particle_row(vec3 edge_before, float stiffness_before, vec3 edg
     return CyclicRow(1.0f, before, after, pull);
 }
 
-/// What is left of a spring's own pull on a particle beside what its neighbour on the line takes over.
+/// Share of a spring's own pull on a particle that its neighbour on the line does not take over.
 SHARED float turned_share(float cosine) {
     precise float left = 1.0f - abs(cosine);
     return left > 0.0f ? left : 0.0f;
 }
 
-/// Row of a spring of the second system, the change of its multiplier in `right.x`; what they are: eliminate_spring.
+/// Row of a spring of the second system, as in eliminate_spring, with the change of its multiplier in `right.x`.
 SHARED CyclicRow spring_row(vec3 normal_before, LineSpring spring, vec3 normal_after, float weight_first,
                             float weight_second, float share, float compression, float compliance, float tension) {
     float acting = acting_share(share, compression, spring.excess);

@@ -1,11 +1,11 @@
-// Cyclic reduction among the invocations of a workgroup, one row each: `group_width` at a time are one system, in which
-// `group_place` is an invocation's place.
+// Cyclic reduction among the invocations of a workgroup, one row each. Each `group_width` invocations solve one system,
+// in which `group_place` is an invocation's place.
 int group_width, group_place;
 shared vec4 handed[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
 shared vec2 handed_too[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
 
 void hand_out(vec4 value) {
-    barrier();  // what was handed out before has been read
+    barrier();  // all have read what was handed out before
     handed[gl_LocalInvocationIndex] = value;
     barrier();
 }
@@ -15,7 +15,7 @@ bool has_neighbour(int by) {
     return place >= 0 && place < group_width;
 }
 
-/// Beyond a system's ends: zeros.
+/// Beyond a system's ends there are zeros.
 vec4 from_neighbour(int by) {
     return has_neighbour(by) ? handed[int(gl_LocalInvocationIndex) + by] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
@@ -27,8 +27,8 @@ CyclicRow row_of_neighbour(int by) {
     return CyclicRow(row.x, row.y, row.z, vec3(row.w, right));
 }
 
-/// This invocation's row of a system of `count`, which the first invocations of each system hold, after all others were
-/// eliminated from it. Every invocation of the workgroup must get here, with the same count.
+/// Returns this invocation's row after all others of its system were eliminated from it. The first `count` invocations
+/// of each system hold its rows. Every invocation of the workgroup must get here, with the same count.
 CyclicRow uncoupled(CyclicRow row, int count) {
     for (int distance = 1; distance < count; distance *= 2) {
         barrier();

@@ -8,10 +8,10 @@
 #include "include/vector.h"
 #include "shared/closed_loop_types.h"
 
-/// Largest |e|/|d| where there are colliders, where there are none.
+/// Largest |e|/|d| with and without colliders: a particle just stopped by one must not be taken to rebound.
 const float contact_excess = 0.5f, free_excess = 1e9f;
 
-/// e, m. `most`: largest |e|/|d|. With contact a particle that has just been stopped must not be taken to rebound.
+/// Returns e (m), shortened to `most` times |d|.
 SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
     precise vec3 excess = (displacement - before) * 0.5f;
     precise float size_squared = ordered_dot(excess, excess);
@@ -25,7 +25,7 @@ SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
 /// State of a substep of another length that ends at the same place with the same velocity and acceleration.
 struct ChangedStep {
     vec3 displacement;
-    vec3 before;  // that of the substep before it
+    vec3 before;  // displacement of the substep before it
     vec3 excess;
     vec3 excess_before;
 };

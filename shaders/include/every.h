@@ -1,15 +1,15 @@
-// A loop over `count` entries, of which an invocation takes every gl_NumWorkGroups.x * workgroup_width-th. On the
-// default device a loop that ends at its top runs its body once more with no invocation in it, which costs as much as a
-// round; so this one ends at its bottom. `statement`: a call, for entry `entry`.
+// Loops over `count` entries, of which an invocation takes every gl_NumWorkGroups.x * workgroup_width-th. `statement`
+// is a call for entry `entry`. On the default device a loop that ends at its top runs its body once more with no
+// invocation in it, which costs as much as a round; so this one ends at its bottom.
 #define FOR_EVERY(entry, count, statement)                  \
     for (int entry = int(gl_GlobalInvocationID.x);;) {      \
         if (entry < (count)) statement;                     \
         entry += int(gl_NumWorkGroups.x) * workgroup_width; \
         if (entry >= (count)) break;                        \
     }
-// Of those entries, the ones for which `test`, a call, says that there is something to do: all tests of a word of bits
-// come first, then `statement` as often as the invocation with the most to do has found something. On the default
-// device what is behind a branch runs for every entry.
+// Loops over those of the entries for which the call `test` says that there is something to do. All tests of a word of
+// bits come first, then `statement` as often as the invocation with the most to do has found something: on the default
+// device the code behind a branch runs for every entry.
 #define FOR_FOUND(entry, count, test, statement)                                                           \
     for (int stride = int(gl_NumWorkGroups.x) * workgroup_width, batch = int(gl_GlobalInvocationID.x);;) { \
         uint found = 0u;                                                                                   \

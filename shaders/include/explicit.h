@@ -1,4 +1,4 @@
-// The explicit micro-step: every particle gathers the forces of the springs around it. Sources: symplectic Euler with
+// The explicit micro-step, in which every particle gathers the forces of the springs around it: symplectic Euler with
 // clamped stiffness and strain-rate damping (docs/solvers.md, "Explicit micro-step").
 #ifndef DRAPE_EXPLICIT_H
 #define DRAPE_EXPLICIT_H
@@ -22,11 +22,11 @@ SHARED ivec4 neighbour(int k) {
 }
 
 /// Pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa (du . r)/|r|^2] r, r =
-/// `edge` and du = `closing`, the change of r in the last substep (m); times `compression` where it is pushed
-/// together. With the stiffness times phi h^2/m_inner it is a
-/// displacement (m) of an inner particle. From the other end every operation sees the negated numbers, so the two pulls
-/// are opposite to the bit (but for the signs of zeros, which explicit_increment loses) and momentum is kept but for
-/// the rounding of the sums. A spring of zero length has no direction and does not pull.
+/// `edge` and du = `closing`, the change of r in the last substep (m), times `compression` where the spring is pushed
+/// together. With the stiffness times phi h^2/m_inner it is a displacement (m) of an inner particle. From the other end
+/// every operation sees the negated numbers, so the two pulls are opposite to the bit (but for the signs of zeros,
+/// which explicit_increment loses) and momentum is kept but for the rounding of the sums. A spring of zero length has
+/// no direction and does not pull.
 SHARED vec3 spring_pull(vec3 edge, vec3 closing, float rest_length, float stiffness, float compression,
                         float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);
@@ -45,7 +45,7 @@ SHARED vec3 add_pull(vec3 sum, vec3 pull) {
 }
 
 /// Tension of one stretch spring as an extension (m) of the whole stiffness asked for (spring.h), of which the
-/// micro-step uses `used_share`; its strain-rate damping included.
+/// micro-step uses `used_share`. It includes the strain-rate damping.
 SHARED float gathered_tension(vec3 edge, vec3 closing, float rest_length, float used_share, float compression,
                               float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);

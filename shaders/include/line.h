@@ -1,12 +1,11 @@
-// Line solve: the springs of one whole line of particles (a row, a column, a diagonal) projected together, their
-// tension implicit (docs/solvers.md, "Implicit tension"), in two tridiagonal systems, each solved by the Thomas
+// Line solve (docs/solvers.md, "Implicit tension"): the springs of one whole line of particles (a row, a column, a
+// diagonal) are projected together, their tension implicit, in two tridiagonal systems, each solved by the Thomas
 // algorithm:
 // 1. The tension T that the springs carried through the last substep resists sideways motion with the geometric
-//    stiffness g = T/length (Tournier et al. 2015, "Stable Constrained Dynamics"): (1 + w sum g) delta = -w sum g x,
-//    unknown the change of every particle's displacement.
-// 2. Where that puts the particles, one Newton step of XPBD (Macklin et al. 2016, eq. 18 as a system), unknown the
-// change
-//    of the multiplier of every spring e, between the particles e and e + 1 of the line.
+//    stiffness g = T/length (Tournier et al. 2015, "Stable Constrained Dynamics"): (1 + w sum g) delta = -w sum g x.
+//    Its unknown is the change of every particle's displacement.
+// 2. From there one Newton step of XPBD (Macklin et al. 2016, eq. 18 as a system) finds the change of the multiplier of
+//    every spring e, between the particles e and e + 1 of the line.
 #ifndef DRAPE_LINE_H
 #define DRAPE_LINE_H
 
@@ -15,24 +14,23 @@
 /// First particle (column, row) of a line: rows start in column 0, all others in row 0.
 SHARED ivec2 line_start(int line, ivec2 step) { return step.y == 0 ? ivec2(0, line) : ivec2(line, 0); }
 
-/// Last of a line's `count` particles.
 SHARED ivec2 line_end(int line, ivec2 step, int count, int columns) {
     ivec2 start = line_start(line, step);
     int x = start.x + step.x * ((count - 1) % columns);
     return ivec2(x < 0 ? x + columns : x >= columns ? x - columns : x, start.y + step.y * (count - 1));
 }
 
-/// The particle `step` further along a line; columns wrap around, so that the diagonals are as many closed lines as the
-/// grid has columns and every particle lies on exactly one. The spring across the seam does not exist.
+/// Returns the particle `step` further along a line. Columns wrap around, so that the diagonals are as many closed
+/// lines as the grid has columns and every particle lies on exactly one. The spring across the seam does not exist.
 SHARED ivec2 next_on_line(ivec2 particle, ivec2 step, int columns) {
     int x = particle.x + step.x;
     return ivec2(x < 0 ? columns - 1 : x == columns ? 0 : x, particle.y + step.y);
 }
 
-// Values are chosen, not branched on: the default device would run both sides anyway, under masks.
+// Values are chosen here, not branched on: the default device would run both sides anyway, under masks.
 
-/// What the second system needs of a spring: its unit edge, its length and how far it is too long, m. The normal is
-/// zero where there is no direction: such a spring pulls on nothing.
+/// A spring as the second system reads it: its unit edge, its length and how far it is too long, m. The normal is zero
+/// where there is no direction: such a spring pulls on nothing.
 struct LineSpring {
     vec3 normal;
     float current;
@@ -48,9 +46,9 @@ SHARED LineSpring line_spring(vec3 edge, float rest_length) {
     return LineSpring(directed ? normal : vec3(0.0f, 0.0f, 0.0f), directed ? current : 0.0f, directed ? excess : 0.0f);
 }
 
-/// Tension in the solve's own units, an extension by the compliance in use (m), from how it is stored: an extension by
-/// the compliance that the scene asks for, which no order and no length of a substep changes. `per_followed`: the
-/// compliance in use over that one.
+/// Returns a tension in the solve's own units, an extension by the compliance in use (m). It is stored as an extension
+/// by the compliance that the scene asks for, which no order and no length of a substep changes; `per_followed` is the
+/// first over the second.
 SHARED float tension_in_use(float stored, float per_followed) {
     precise float tension = stored * per_followed;
     return tension;
@@ -62,29 +60,29 @@ SHARED float stored_tension(float tension, float followed) {
     return stored;
 }
 
-/// Tension of the last substep (`tension`: as an extension by the compliance in use, m) per length of the spring where
-/// the substep starts. Springs that push carry nothing over, and the bound by L makes collapsed starts safe.
+/// Returns the last substep's tension (an extension by the compliance in use, m) per length of the spring where the
+/// substep starts. Springs that push carry nothing over, and the bound by L makes collapsed starts safe.
 SHARED float tension_per_length(float tension, vec3 start_edge, float rest_length) {
     precise float current = sqrt(ordered_dot(start_edge, start_edge));
     precise float per_length = tension / (current > rest_length ? current : rest_length);
     return tension > 0.0f ? per_length : 0.0f;
 }
 
-/// g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
+/// Returns g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
 /// `per_compliance`: 1/alpha.
 SHARED float geometric_stiffness(float tension_per_length, float share, float per_compliance) {
     precise float stiffness = (share * tension_per_length) * per_compliance;
     return stiffness;
 }
 
-/// A particle eliminated from the first system: delta_i = row.xyz + row.w delta_(i+1). `left`: 1 - row.w, in which a
-/// stiff line would lose its digits.
+/// A particle eliminated from the first system: delta_i = row.xyz + row.w delta_(i+1). `left` is 1 - row.w, kept
+/// because a stiff line would lose its digits in the difference.
 struct EliminatedParticle {
     vec4 row;
     float left;
 };
 
-/// Before a line's first particle.
+/// The elimination begins with this particle before a line's first, which does not move.
 SHARED EliminatedParticle unmoved_start() { return EliminatedParticle(vec4(0.0f, 0.0f, 0.0f, 0.0f), 1.0f); }
 
 /// Forward elimination of particle i of the first system, between the springs `before` and `after` it,
@@ -110,25 +108,25 @@ SHARED vec3 substitute_particle(vec4 eliminated, vec3 delta_after) {
     return delta;
 }
 
-/// Tension (m) that the first system leaves a spring with: its direction turned, and its length grew.
+/// Tension (m) that the first system leaves a spring with: it turned the spring and made it longer.
 SHARED float filtered_tension(float tension_per_length, LineSpring spring) {
     precise float tension = tension_per_length * spring.current;
     return tension;
 }
 
-/// Whether a spring takes part in its line's system: it exists and has a direction.
+/// A spring takes part in its line's system if it exists and has a direction.
 SHARED bool pulls(LineSpring spring, float share) {
     return share > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
 }
 
-/// |C - T| (m), what the solve is asked to take back, or `largest` where that is more. At a lone pin of a fine grid C
-/// alone is large at rest, and no error: the spring's tension explains it.
+/// Returns |C - T| (m), which the solve is asked to take back, or `largest` where that is more. At a lone pin of a fine
+/// grid C alone is large at rest and no error, since the spring's tension explains it.
 SHARED float larger_violation(float largest, LineSpring spring, float share, float compression, float tension) {
     precise float unexplained = abs(balancing_tension(spring.excess, compression) - tension);
     return pulls(spring, share) && unexplained > largest ? unexplained : largest;
 }
 
-/// Whether a line met a spring wrong by more than line_violation_limit, given its largest |C - T|.
+/// A line is wrong if its largest |C - T| is more than line_violation_limit rest lengths.
 SHARED bool line_is_wrong(float largest, float rest_length) {
     precise float violation = largest / rest_length;
     return violation > line_violation_limit;
@@ -136,11 +134,11 @@ SHARED bool line_is_wrong(float largest, float rest_length) {
 
 /// Elimination of row e of the second system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
-///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1),
-/// every row times s = `share` (in [0, 1]; 0 = no spring: x_e = 0), of a spring pushed together with c of it left of
-/// its stiffness (`compression`; C stands for f(C), project_spring). It starts at the line's end, where
-/// the first system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' -
-/// a' x_(e-1). `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T, m.
+///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1).
+/// Every row is multiplied by s = `share` (in [0, 1]; 0 = no spring: x_e = 0), of which a spring pushed together keeps
+/// `compression`; C stands for f(C) (project_spring). The elimination starts at the line's end, where the first
+/// system's substitution starts too: `previous`, of spring e + 1, and the result are (a', d') of x_e = d' - a' x_(e-1).
+/// `weight_*`: relative inverse masses of the spring's ends; `compliance` alpha > 0; `tension`: T, m.
 SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring spring, vec3 normal_after,
                              float weight_first, float weight_second, float share, float compression, float compliance,
                              float tension) {
@@ -161,13 +159,13 @@ SHARED float substitute_spring(vec2 eliminated, float change_before) {
     return change;
 }
 
-/// Correction of the particle between two springs of a line, to be added times its w.
+/// Correction of the particle between two springs of a line; the caller adds it times the particle's w.
 SHARED vec3 line_correction(vec3 normal_before, float change_before, vec3 normal_after, float change_after) {
     precise vec3 correction = normal_before * change_before - normal_after * change_after;
     return correction;
 }
 
-/// Displacement after both systems: what they change is added up before it meets the displacement's rounding.
+/// Displacement after both systems. Their changes are added up before they meet the displacement's rounding.
 SHARED vec3 moved_by_both(vec3 displacement, vec3 delta, vec3 correction, float weight) {
     precise vec3 moved = displacement + (delta + correction * weight);
     return moved;
@@ -180,7 +178,7 @@ SHARED float shared_compliance(float compliance, float share) {
 }
 
 #ifndef __cplusplus
-/// Of a spring of a line: divided only where each may have another share.
+/// The compliance alpha/s of a spring is divided only where each may have another share.
 #ifdef MASKED
 #define SPRING_COMPLIANCE(line, share) shared_compliance((line).compliance, share)
 #else

@@ -1,25 +1,25 @@
-// Lines of particles as passes read them: what line.comp and line_cyclic.comp do with one differs, not where it lies.
-// Needs the images `position`, `displacement_in`, `tension_in`, `control`, MASKED: `spring_share_image`, the push
-// constants (LinePush) and `first_iteration`: both systems; later iterations repeat the second alone.
-/// What the walks need to know, read from the push constants once: on the default device a loop that reads them loads
-/// them anew, lane by lane, in each of its rounds. For the same reason only stores in the loops below branch.
+// Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
+// `displacement_in`, `tension_in`, `line_control` and, where MASKED, `spring_shares`, the push constants (LinePush) and
+// `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
+/// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in
+/// each of its rounds. For the same reason only stores in the loops below branch.
 struct Line {
-    int index, last;  // place among the lines; of its particles
+    int index, last;  // index of the line, and of its last particle
     ivec2 step;
     int columns, seam, channel;
-    float share;  // of all its springs, where no image has them
+    float share;  // share of all its springs, where no image has them
     float rest_length, compliance, per_compliance, followed, per_followed, bend, compression;
-    float shared_compliance;  // of springs that have `share`
+    float shared_compliance;  // for springs that have `share`
 };
 
 struct LineParticle {
     ivec2 at;
-    vec4 position;  // w: as its springs feel it, with the wind's drag
-    vec4 moved;     // xyz: displacement before this pass; w: what is kept beside it
+    vec4 position;  // w: inverse mass that its springs feel, with the wind's drag
+    vec4 moved;     // xyz: displacement before this pass; w: the mark kept beside it (verlet.h)
 };
 
 Line read_line(int index) {
-    bool second_order = imageLoad(control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     float share = border_share(line_start(index, push.step), push.step, push.grid);
     float compliance = second_order ? push.compliance_bdf2 : push.compliance;
     float followed = second_order ? push.followed_bdf2 : push.followed;
@@ -30,7 +30,7 @@ Line read_line(int index) {
 
 float share_of(Line line, ivec2 first) {
 #ifdef MASKED
-    float share = LOAD(spring_share_image, first)[line.channel];
+    float share = LOAD(spring_shares, first)[line.channel];
 #else
     float share = line.share;
 #endif
@@ -50,7 +50,6 @@ LineParticle particle_before(Line line, LineParticle particle) {
     return load_particle(next_on_line(particle.at, -line.step, line.columns));
 }
 
-/// Where the first system puts a particle.
 vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
 
 float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.per_followed); }
@@ -68,7 +67,7 @@ float stiffness_of(Line line, LineParticle first, LineParticle second, float sha
     return geometric_stiffness(tension_per_length_of(line, first, second), share, line.per_compliance);
 }
 
-/// Of the spring between two particles after the first system.
+/// Tension of the spring between two particles, after the first system if that is solved.
 float filtered_tension_of(Line line, LineParticle first, LineParticle second, LineSpring spring) {
     if (!first_iteration) return tension_of(line, first.at);
     return filtered_tension(tension_per_length_of(line, first, second), spring);

@@ -1,12 +1,12 @@
-// What fragments of lit surfaces read of the frame's and the cloth's constants. It goes with the triangle as flat
-// inputs, which are one value each; the default device's compiler loads a buffer's constants, and pushed ones, lane by
-// lane in fragments (docs/devices.md).
+// The frame's and the cloth's constants that fragments of lit surfaces read go with the triangle as flat inputs, which
+// are one value each; the default device's compiler loads a buffer's constants, and pushed ones, lane by lane in
+// fragments (docs/devices.md).
 #ifndef DRAPE_LIT_CONSTANTS_H
 #define DRAPE_LIT_CONSTANTS_H
 
 #include "shared/raster_types.h"
 
-/// Members as those of FrameConstants. With the surfaces' own inputs and ClothLook they take 21 of the device's
+/// The members are those of FrameConstants. With the surfaces' own inputs and ClothLook they take 21 of the device's
 /// locations; Vulkan guarantees 16.
 struct LitConstants {
     vec4 eye;
@@ -17,7 +17,7 @@ struct LitConstants {
     vec4 shadow_from_world[3];
 };
 
-/// Colours of a cloth's two sides, and of the pattern on both. front.w: the side of its square, m; back.w: which
+/// Colours of a cloth's two sides, and of the pattern on both. front.w: side of the pattern's square, m; back.w: which
 /// pattern.
 struct ClothLook {
     vec4 front, back, second;

@@ -1,25 +1,25 @@
 // A particle and the six around it that share triangles with it. Passes load them once each, not once for each
-// triangle, and write their loops out: arrays that no loop indexes are values on every device (docs/devices.md; not
-// [[unroll]]: what spirv-opt unrolls is not precise any more). The includer has `push`, and its image of `cells` where
-// MASKED.
+// triangle, and write their loops out, since arrays that no loop indexes are values on every device (docs/devices.md).
+// [[unroll]] would not do: code that spirv-opt unrolls is not precise any more. The includer has `push`, and where
+// MASKED its image of `cells`.
 #include "include/triangles.h"
 
 const int neighbourhood_count = 7;
 
-/// Place of an offset, row by row; the particle itself is the fourth. (-1, -1) and (1, 1) share no triangle with it.
+/// Index of an offset, row by row; the particle itself is the fourth. (-1, -1) and (1, 1) share no triangle with it.
 int place_in_neighbourhood(ivec2 offset) { return offset.y * 3 + offset.x + 3; }
 
-/// Place of corner (0..2) of a triangle of triangle_around.
+/// Index of corner (0..2) of a triangle of triangle_around.
 int corner_in_neighbourhood(ivec4 around, int corner) {
     return place_in_neighbourhood(around.xy + triangle_corner(around.z, corner));
 }
 
-/// Of offset (x, y); past the border another that there is.
+/// Texel of the neighbour at `offset`; past the border it is another particle, which exists.
 ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) {
     return max(min(particle + offset, push.grid - 1), ivec2(0, 0));
 }
 
-/// `load(place, texel)` for every member.
+/// Calls `load(index, texel)` for every member.
 #define FOR_NEIGHBOURHOOD(particle, load)                 \
     load(0, neighbourhood_texel(particle, ivec2(0, -1))); \
     load(1, neighbourhood_texel(particle, ivec2(1, -1))); \
@@ -39,7 +39,7 @@ bool triangle_exists(ivec2 particle, ivec4 around) {
 #endif
 }
 
-/// `add(k)` for every triangle around a particle, in the order of all sums over them.
+/// Calls `add(k)` for every triangle around a particle, in the order of all sums over them.
 #define FOR_TRIANGLES(add) \
     add(0);                \
     add(1);                \

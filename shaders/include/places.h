@@ -1,9 +1,9 @@
-// Places of a grid, counted row by row.
+// Converts places of a grid, counted row by row.
 #ifndef DRAPE_PLACES_H
 #define DRAPE_PLACES_H
 
-/// Row `place / columns` and what remains: the default device divides integers lane by lane. The estimate is one off at
-/// most where the row is below 2^21.
+/// Divides `place` by `columns`. The default device divides integers lane by lane, so floats estimate the row, one off
+/// at most where it is below 2^21.
 ivec2 texel_of(int place, int columns) {
     precise float estimate = float(place) * (1.0f / float(columns));
     int row = int(estimate);

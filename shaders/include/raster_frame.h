@@ -1,4 +1,4 @@
-// What the raster shaders share: the frame's constants, projection, lights, backdrop.
+// The raster shaders share the frame's constants, projection and backdrop.
 #ifndef DRAPE_RASTER_FRAME_H
 #define DRAPE_RASTER_FRAME_H
 
@@ -16,12 +16,12 @@ vec4 clip_position(vec3 world) {
                 dot(frame[0].clip_from_world[2], point), dot(frame[0].clip_from_world[3], point));
 }
 
-/// For gl_ClipDistance: what lies deeper than `margin` under the floor is not drawn, because the floor is drawn behind
-/// all else.
+/// Vertices write it to gl_ClipDistance. The floor is drawn behind all else, so anything deeper than `margin` under it
+/// must not be drawn.
 float clip_distance(vec3 world, float margin) { return dot(frame[0].above_floor, vec4(world, 1.0)) + margin; }
 
-/// Depth as if the cloth were nearer to the eye by its thickness: by so much contact keeps particles off a collider,
-/// and no more does a triangle between them cut into it.
+/// Depth as if the cloth were nearer to the eye by its thickness. Contact keeps particles off a collider by as much,
+/// and a triangle between them cuts into it by no more.
 float depth_of_thickness(vec3 at, float thickness, float clip_w) {
     vec3 to_eye = frame[0].eye.xyz - at;
     vec4 nearer = vec4(at + to_eye * min(thickness * inversesqrt(max(dot(to_eye, to_eye), 1e-30)), 0.5), 1.0);
@@ -34,7 +34,6 @@ vec3 shadow_position(vec4 rows[3], vec3 world) {
     return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
 }
 
-/// For vertices.
 LitConstants lit_constants() {
     return LitConstants(frame[0].eye, frame[0].ambient, frame[0].ground, frame[0].to_light, frame[0].light_radiance,
                         frame[0].shadow_from_world);

@@ -1,4 +1,4 @@
-// How far a substep's solve is from done: the stretch error of its springs, and what is decided from it.
+// The stretch error of a substep's springs says how far its solve is from done.
 #ifndef DRAPE_RESIDUAL_H
 #define DRAPE_RESIDUAL_H
 
@@ -13,9 +13,9 @@ SHARED ResidualRecord joined(ResidualRecord a, ResidualRecord b) {
     return ResidualRecord(squares, a.count + b.count);
 }
 
-/// `record` plus a stretch spring of length |edge|: (f(|edge| - rest_length) - tension)/rest_length, what a perfect
-/// solve makes zero (spring.h). `share` of its stiffness, 0: no such spring, of which `compression` where it is pushed
-/// together.
+/// Returns `record` plus a stretch spring of length |edge|. Its error is (f(|edge| - rest_length) -
+/// tension)/rest_length, which a perfect solve makes zero (spring.h). `share`: of its stiffness, 0 = no such spring, of
+/// which a spring pushed together keeps `compression`.
 SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_length, float share, float compression,
                                    float tension) {
     if (!(rest_length > 0.0f) || !(share > 0.0f)) return record;
@@ -26,7 +26,7 @@ SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_
     return ResidualRecord(squares, record.count + 1u);
 }
 
-/// Whether the RMS is not within the tolerance; a sum that is not finite is not.
+/// Returns whether the RMS is above the tolerance or not finite.
 SHARED bool needs_iteration(ResidualRecord record, float squared_tolerance) {
     precise float limit = squared_tolerance * float(record.count);
     return !(record.squares <= limit);

@@ -1,6 +1,6 @@
-// A workgroup that streams down the rows of a strip of columns takes a band of them: an even number, from `begin` to
-// before `end`. It begins `lead` rows above, an even number, whose springs reach into the band; those are other bands'
-// to store. Bands are one tall where the cloth is short (shared/stream_types.h). Needs `push.grid`.
+// A workgroup that streams down the rows of a strip of columns takes a band of them, an even number, from `begin` to
+// before `end`. It starts `lead` rows above (an even number), whose springs reach into the band and which other bands
+// store. Where the cloth is short one band holds all rows (shared/stream_types.h). The includer has `push.grid`.
 struct RowBand {
     int begin, end;
 };
@@ -11,7 +11,6 @@ RowBand row_band() {
     return RowBand(begin, min(begin + height, push.grid.y));
 }
 
-/// The row to begin at.
 int lead_in(RowBand band, int lead) { return max(band.begin - lead, 0); }
 
 bool is_of(RowBand band, int y) { return y >= band.begin && y < band.end; }

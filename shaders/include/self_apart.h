@@ -1,20 +1,20 @@
-// How cloths that started through each other are worked apart (docs/physics.md 5): while a cell of one crosses a cell
-// of the other they do not meet, and are led apart as wholes, along the way that was shortest when they started.
+// Cloths that started through each other are worked apart (docs/physics.md 5): while a cell of one crosses a cell of
+// the other they do not meet, and are led apart as wholes, along the way that was shortest when they started.
 #ifndef DRAPE_SELF_APART_H
 #define DRAPE_SELF_APART_H
 
 #include "include/self_gap.h"
 #include "shared/self_contact_types.h"
 
-/// Two triangles and three edges by the corners of a cell, and bits of those that exist: triangles 1 and 2, edges from
-/// 4 on (self_edge).
+/// Two triangles and three edges by the corners of a cell, with a bit for each that exists: triangles in bits 0 and 1,
+/// edges from bit 2 on (self_edge).
 struct SelfCell {
     vec3 first, right, below, last;
     uint bits;
 };
 
-/// Whether the edge p-q meets the triangle a-b-c, or comes nearer to it where it meets its plane than `doubt`, m,
-/// leaves open. Of a triangle without area nothing is known.
+/// Returns whether the edge p-q meets the triangle a-b-c, or meets its plane nearer to the triangle than `doubt` (m),
+/// which rounding leaves open. The answer says nothing of a triangle without area.
 SHARED bool self_pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c, float doubt) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -26,20 +26,20 @@ SHARED bool self_pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c, float doubt) {
     float height_p = ordered_dot(normal, ap), height_q = ordered_dot(normal, aq);
     precise float whole = abs(height_p) + abs(height_q);
     precise vec3 edge = q - p;
-    // Where it meets the plane; of an edge beside the plane a point that is not on it, so farther off than is left
-    // open.
+    // The edge meets the plane there. An edge beside the plane gives a point that is not on it, so farther off than
+    // rounding leaves open.
     precise vec3 at = ap + edge * self_ratio(abs(height_p), whole);
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
     vec3 weights = nearest_in_triangle(at, nothing, ab, ac);
     precise vec3 off = (ab * weights.y + ac * weights.z) - at;
-    // How far off the place may be along an edge that is all but level; no farther, or what lies beside a triangle in
-    // its plane would count.
+    // Along an edge that is all but level the place may be farther off, up to a limit; beyond it whatever lies beside a
+    // triangle in its plane would count.
     precise float loose = doubt * self_least(1.0f + self_ratio(sqrt(ordered_dot(edge, edge)), whole), 16.0f);
     precise float within = loose * loose;
     return ordered_dot(off, off) <= within;
 }
 
-/// Whether edge k of a cell meets one of another's triangles.
+/// Returns whether edge k of a cell meets one of another's triangles.
 SHARED bool self_edge_pierces(SelfCell one, int k, SelfCell other, float doubt) {
     vec3 p = k == 2 ? one.right : one.first, q = k == 0 ? one.right : one.below;
     bool upper = (other.bits & 1u) != 0u && self_pierces(p, q, other.first, other.right, other.below, doubt);
@@ -47,7 +47,7 @@ SHARED bool self_edge_pierces(SelfCell one, int k, SelfCell other, float doubt) 
     return (one.bits & (4u << k)) != 0u && (upper || lower);
 }
 
-/// Where surfaces cross an edge of one goes through a triangle of the other.
+/// Two cells cross where an edge of one goes through a triangle of the other.
 SHARED bool self_cells_cross(SelfCell one, SelfCell other) {
     float doubt = self_doubt(self_largest(self_largest_coordinate(one.first), self_largest_coordinate(other.first)));
     precise float touching = doubt * 4.0f;
@@ -57,7 +57,8 @@ SHARED bool self_cells_cross(SelfCell one, SelfCell other) {
     return crosses;
 }
 
-/// How fast two that cross part along the way, in units, as far as that matters.
+/// Returns how fast two cells that cross part along the way, in units of self_parting_units, limited to the speed at
+/// which they should.
 SHARED int self_parting_of(vec3 way, vec3 moved_first, vec3 moved_second, vec2 parting) {
     precise vec3 relative = moved_second - moved_first;
     precise float share = ordered_dot(way, relative) / parting.x;
@@ -66,7 +67,7 @@ SHARED int self_parting_of(vec3 way, vec3 moved_first, vec3 moved_second, vec2 p
     return int(units);
 }
 
-/// m by which two cloths are to part more than they do.
+/// Returns by how much (m) two cloths are to part more than they do.
 SHARED float self_lacking(SelfCrossings found, vec2 parting) {
     precise float mean = float(found.sum) / (float(found.count) * float(self_parting_units));
     precise float lacking = parting.x - parting.x * mean;
@@ -74,14 +75,13 @@ SHARED float self_lacking(SelfCrossings found, vec2 parting) {
     return found.count > 0 ? wanted : 0.0f;
 }
 
-/// What one of them is led by, if it is either, added to what the pairs before have led it by.
+/// Returns `led`, the displacement by the pairs before, plus that of one pair of cloths if `cloth` is in it.
 SHARED vec3 self_led_apart(vec3 led, SelfCrossed pair, int cloth, float lacking) {
     float part = cloth == pair.cloths.x ? -pair.parts.x : cloth == pair.cloths.y ? pair.parts.y : 0.0f;
     precise vec3 sum = led + vec3(pair.way.x, pair.way.y, pair.way.z) * (part * lacking);
     return sum;
 }
 
-/// A displacement led on by that.
 SHARED vec3 self_led(vec3 displacement, vec3 led) {
     precise vec3 moved = displacement + led;
     return moved;

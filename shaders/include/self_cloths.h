@@ -1,15 +1,15 @@
-// Which cloth a place on the sheet is of (shared/self_contact_types.h). The includer has `push`.
+// Looks up the cloth at a place on the sheet (shared/self_contact_types.h). The includer has `push`.
 #include "include/places.h"
-layout(constant_id = 0) const int cloth_count = 1;  // of the scene: with one there is nothing to look up
+layout(constant_id = 0) const int cloth_count = 1;  // cloths of the scene; with one there is nothing to look up
 layout(set = 0, binding = 2, std430) readonly buffer Owners { int owners[]; };  // -1: no cloth
 layout(set = 0, binding = 3, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 
 int place_of(ivec2 texel) { return texel.y * push.grid.x + texel.x; }
 ivec2 texel_of(int place) { return texel_of(place, push.grid.x); }
 int owner_of(int place) { return cloth_count == 1 ? 0 : owners[place]; }
-/// Of a place where a cloth is.
+/// The place must be one where a cloth is.
 SelfCloth cloth_at(ivec2 texel) {
-    // On the default device what comes from a buffer is loaded for every invocation.
+    // On the default device a buffer's struct is loaded for every invocation, so one cloth comes from `push`.
     SelfCloth cloth = push.cloth;
     if (cloth_count > 1) cloth = cloths[max(owner_of(place_of(texel)), 0)];
     return cloth;

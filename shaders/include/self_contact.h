@@ -1,8 +1,8 @@
 // Contact of cloths with themselves and each other (docs/physics.md 5). A pair is a particle and a triangle, or two
-// edges, that share no corner: nothing else meets first when surfaces come to cross. Of every pair that a substep may
+// edges, that share no corner: when surfaces come to cross, such a pair meets first. For every pair that a substep may
 // bring together a plane between the two is known, and no corner goes more than its share of the way to that plane: so
-// nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et
-// al. 2025, "Offset Geometric Contact"). Before that pairs nearer than the thickness are pushed apart, with friction.
+// nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et al.
+// 2025, "Offset Geometric Contact"). Before that, pairs nearer than the thickness are pushed apart, with friction.
 // Motions are measured against one that all particles have in common, which changes no distance.
 #ifndef DRAPE_SELF_CONTACT_H
 #define DRAPE_SELF_CONTACT_H
@@ -11,17 +11,17 @@
 #include "include/self_gap.h"
 #include "shared/self_contact_types.h"
 
-/// Shares of a pair's distance that stay on each side of its plane, of a free particle and of a held one, which goes
+/// Shares of a pair's distance that stay on each side of its plane, for a free particle and for a held one, which goes
 /// where it is told.
-const float self_room_kept = 0.25f, self_held_kept = 0.025f;
-/// A correction is at most this share of the thickness: what the list of pairs reckons with.
+const float self_gap_kept = 0.25f, self_held_kept = 0.025f;
+/// A correction is at most the first share of the thickness; the list of pairs reckons with the second.
 const float self_correction_share = 0.24f, self_listed_share = 0.5f;
-/// More than this many nodes visited, about the loops that the default device allows, would be broken off unseen.
+/// A search of more nodes is given up: the default device would break off a loop of about so many rounds unseen.
 const int self_visit_limit = 60000;
-/// Particles along a side of the lattice whose mean motion is the common one.
+/// The common motion is the mean over a lattice of particles with this many along a side.
 const int self_samples = 6;
 
-/// Exactly a cloth's own with itself.
+/// The mean of a cloth's thickness with itself is exact.
 SHARED float self_mean_thickness(SelfCloth one, SelfCloth other) {
     precise float mean = (one.thickness + other.thickness) * 0.5f;
     return mean;
@@ -44,8 +44,8 @@ SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
 }
 
 /// The thickness that a pair keeps. Primitives of one cloth that are nearer than two thicknesses in it when it is flat
-/// keep half of that distance: pushed together in its plane the cloth is not stiffer for it. `a` to `d`: columns and
-/// rows of the particles; `one`, `other`: the cloths of the first and of the last.
+/// keep half of that distance, so that contact does not stiffen a cloth pushed together in its plane. `a` to `d`:
+/// columns and rows of the particles; `one`, `other`: the cloths of the first and of the last.
 SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
     float thickness = self_mean_thickness(one, other);
     int columns = b.x - a.x, rows = b.y - a.y;
@@ -65,8 +65,8 @@ SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ive
     return far || !self_same_cloth(one, other) ? thickness : least;
 }
 
-/// Most that a pair's corners come nearer to each other along its normal in a substep before contact corrects it, all
-/// of their motions or parts of them made.
+/// Returns by how much a pair's corners at most come nearer to each other along its normal in a substep before contact
+/// corrects it, whatever part of their motions they make.
 SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
     float a = ordered_dot(gap.normal, motions.a), b = ordered_dot(gap.normal, motions.b),
           c = ordered_dot(gap.normal, motions.c), d = ordered_dot(gap.normal, motions.d);
@@ -76,8 +76,8 @@ SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
     return approach;
 }
 
-/// Whether a pair is listed: it may come nearer than its thickness; or, with what contact may add to every corner's
-/// motion, meet. `thickness`: the mean of the two cloths'.
+/// A pair is listed if it may come nearer than its thickness, or if it may meet with what contact may add to every
+/// corner's motion. `thickness`: the mean of the two cloths'.
 SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float pair_thickness, float thickness) {
     precise float slack = thickness * self_listed_share;
     precise float listing =
@@ -85,7 +85,7 @@ SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float
     return gap.apart < listing;
 }
 
-/// Most that lies between two boxes along an axis, a lower bound of their distance.
+/// The largest gap between two boxes along an axis, a lower bound of their distance.
 SHARED float self_box_distance(SelfBox a, SelfBox b) {
     precise float x = a.lower.x - b.upper.x;
     precise float y = a.lower.y - b.upper.y;
@@ -96,7 +96,7 @@ SHARED float self_box_distance(SelfBox a, SelfBox b) {
     return self_largest(self_largest(self_largest(x, back_x), self_largest(y, back_y)), self_largest(z, back_z));
 }
 
-/// Within which what is in two boxes may be listed in this substep: the boxes hold all of its motions.
+/// Primitives nearer than this may be listed in this substep; their boxes hold all of their motions.
 SHARED float self_reach(SelfBox a, SelfContactPush push, float thickness) {
     float doubt = self_doubt(self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
                                           self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
@@ -104,15 +104,15 @@ SHARED float self_reach(SelfBox a, SelfContactPush push, float thickness) {
     return reach;
 }
 
-/// Whether what is in two boxes may be listed. `thickness`: the mean of theirs.
+/// Returns whether primitives in two boxes may be listed. `thickness`: the mean of their cloths'.
 SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness) {
     return self_box_distance(a, b) <= self_reach(a, push, thickness);
 }
 
-/// How many substeps ahead a search looks, as if every cell went on as it goes, against the mean motion.
+/// A search looks so many substeps ahead, as if every cell went on as it goes, against the mean motion.
 const float self_substeps_ahead = 4.0f;
 
-/// What a cell is looked for in, in this substep and those after it as long as it stays inside.
+/// The box with which a cell is looked for. The search holds as long as the cell stays inside, in later substeps too.
 SHARED SelfBox self_kept_box(SelfBox box, vec3 motion, vec3 mean, float margin) {
     precise vec3 on = (motion - mean) * self_substeps_ahead;
     precise float half_margin = margin * 0.5f;
@@ -130,7 +130,6 @@ SHARED vec3 self_travelled(vec3 travel, vec3 mean) {
     return sum;
 }
 
-/// Sample k of the lattice over the grid.
 SHARED ivec2 self_sample(ivec2 grid, int k) {
     int column = k % self_samples, row = k / self_samples;
     return ivec2((2 * column + 1) * (grid.x - 1) / (2 * self_samples),
@@ -142,43 +141,43 @@ SHARED vec3 self_mean(vec3 sum, int cloth_count) {
     return mean;
 }
 
-/// How much of a mean motion a particle makes along it.
+/// Returns how much of a mean motion a particle makes along it.
 SHARED float self_part_made(vec3 motion, vec3 mean) {
     precise float part = self_ratio(ordered_dot(motion, mean), ordered_dot(mean, mean));
     return part;
 }
 
-/// What particles have in common of their mean motion: as much as the one makes that makes least of it. What rests on a
-/// collider is not carried into it by what falls on it.
+/// The common motion is as much of the mean as the particle makes that makes least of it, so that cloth that rests on a
+/// collider is not carried into it by cloth that falls on it.
 SHARED vec3 self_common_motion(vec3 mean, float least_part) {
     precise vec3 made = mean * self_limited(least_part);
     return made;
 }
 
-/// Whether two cells are the same or neighbours, and so of one cloth: those are judged by how flat the cloth is about
-/// them.
+/// Returns whether two cells are the same or neighbours, and so of one cloth; such cells are judged by how flat the
+/// cloth is about them.
 SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     int columns = b.x - a.x, rows = b.y - a.y;
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
 }
 
-/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: that of the lower
-/// place xy, the other zw; neighbours first. Every such pair of a grid is one cell's.
+/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: xy is the one of the
+/// lower place, zw the other; neighbours come first. Every such pair of a grid is one cell's.
 const int self_neighbour_pairs = 5, self_close_pairs = 13;
 SHARED ivec4 self_close_pair(int k) {
-    // Two bits for each of the four, from the lowest on.
+    // Each pair takes two bits for each of the four numbers, from the lowest on.
     uint four = k < 4 ? 0x50401000u : k < 8 ? 0x42602041u : k < 12 ? 0x908082a0u : 0x81u;
     uint pair = four >> uint(8 * (k & 3));
     return ivec4(int(pair & 3u), int((pair >> 2) & 3u), int((pair >> 4) & 3u), int((pair >> 6) & 3u));
 }
 
-/// Whether two cells of a cloth are such a pair.
+/// Returns whether two cells of a cloth are at most two columns and rows apart.
 SHARED bool self_close(ivec2 a, ivec2 b) {
     int columns = b.x - a.x, rows = b.y - a.y;
     return columns >= -2 && columns <= 2 && rows >= -2 && rows <= 2;
 }
 
-/// Particles of a patch of 2 x 2 cells: its middle, those beside it, those at its corners.
+/// Particles of a patch of 2 x 2 cells.
 struct SelfPatch {
     vec3 middle, left, right, up, down, up_left, up_right, down_left, down_right;
 };
@@ -192,7 +191,6 @@ SHARED float self_within(vec3 motion, vec3 normal) {
     return within;
 }
 
-/// Largest of those of a patch.
 SHARED float self_moves_within(SelfPatch motions, vec3 normal) {
     float beside = self_largest(self_largest(self_within(motions.left, normal), self_within(motions.right, normal)),
                                 self_largest(self_within(motions.up, normal), self_within(motions.down, normal)));
@@ -202,7 +200,7 @@ SHARED float self_moves_within(SelfPatch motions, vec3 normal) {
     return self_largest(self_within(motions.middle, normal), self_largest(beside, corners));
 }
 
-/// Square of how far the particles of a patch are off a linear map.
+/// Square of the farthest distance of a patch's particles from a linear map.
 SHARED float self_off(SelfPatch x, vec3 along, vec3 across) {
     precise vec3 bent = (x.right + x.left) * 0.5f - x.middle;
     precise vec3 bent_across = (x.down + x.up) * 0.5f - x.middle;
@@ -226,10 +224,10 @@ SHARED float self_singular_value(vec3 first, vec3 second) {
     return singular;
 }
 
-/// Whether nothing of a patch comes near anything else of it with which it shares no corner, whatever part of their
-/// motions the particles make. The cloth there is a linear map but for what its particles are off it, by `off` at most,
-/// and for how they move in its plane: two points `flat` apart at rest are at least s flat - 2 off - 2 within apart,
-/// s the map's smaller singular value. What they move across that plane brings none nearer.
+/// Returns whether nothing of a patch comes near anything else of it with which it shares no corner, whatever part of
+/// their motions the particles make. The cloth there is a linear map but for the distance of its particles from it, at
+/// most `off`, and for their motion in its plane, at most `within`: two points `flat` apart at rest are at least s flat
+/// - 2 off - 2 within apart, s the map's smaller singular value. Motion across that plane brings none nearer.
 SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatch x, SelfPatch motions) {
     precise vec3 along = (x.right - x.left) * 0.5f;
     precise vec3 across = (x.down - x.up) * 0.5f;
@@ -249,11 +247,11 @@ SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatc
     float listed = self_largest(self_least(cloth.thickness, half_flat), slack);
     precise float distance = singular * cloth.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
     precise float needed = ((listed + within * 2.002f) + doubt * 4.0f) + push.least;
-    // Pairs farther apart keep more, but no more than half of their distance.
+    // Pairs farther apart in the flat cloth keep more, but no more than half of their distance.
     return singular > 0.5f && distance > needed;
 }
 
-/// Of a place on the sheet where no cloth is: near nothing.
+/// The box of a place on the sheet where no cloth is lies near nothing.
 SHARED SelfBox self_no_box() {
     return SelfBox(vec4(1.0e30f, 1.0e30f, 1.0e30f, 0.0f), vec4(-1.0e30f, -1.0e30f, -1.0e30f, 0.0f));
 }
@@ -265,15 +263,15 @@ SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
                         self_largest(a.upper.z, b.upper.z), 0.0f));
 }
 
-/// Of a particle: from where it is to where it is going, against the common motion.
+/// Box of a particle's motion against the common one.
 SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
     precise vec3 end = at + motion;
     return SelfBox(vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), 0.0f),
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
-/// How many times as fast as a thickness that is all but kept one is given back of which more is missing: a layer that
-/// carries a pile needs more than one that lies alone, and yields until it gets that.
+/// Factor on the speed at which a missing thickness is given back, 1 where little is missing. A layer that carries a
+/// pile needs more than one that lies alone, and yields until it gets that.
 SHARED float self_recovery_strength(float distance, float pair_thickness) {
     precise float lacking = pair_thickness - distance;
     float deep = self_limited(self_ratio(lacking, pair_thickness));
@@ -281,9 +279,9 @@ SHARED float self_recovery_strength(float distance, float pair_thickness) {
     return strength;
 }
 
-/// What pushes a pair's corners: corner i, of inverse mass w_i and weight g_i, moves by w_i g_i times this. Zero where
-/// they stay apart. Of a thickness that is missing already only `recovery` times that strength is given back. Friction
-/// is Coulomb's, on the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
+/// Returns the impulse on a pair's corners, zero where they stay apart: corner i, of inverse mass w_i and weight g_i,
+/// moves by w_i g_i times it. A thickness that is missing already is given back by `recovery` times its strength only.
+/// Friction is Coulomb's, on the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
 SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, float pair_thickness, float friction,
                          float recovery) {
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
@@ -304,7 +302,7 @@ SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, floa
     return gap.distance > 1.0e-12f && depth > 0.0f && mass > 0.0f ? impulse : nothing;
 }
 
-/// A component of a correction in units; what is not a number is none.
+/// Converts a component of a correction to units, within their range; a NaN gives 0.
 SHARED int self_units(float correction, float units_per_metre) {
     precise float units = correction * units_per_metre;
     bool above = units > -self_correction_units, below = units < self_correction_units;
@@ -314,13 +312,14 @@ SHARED int self_units(float correction, float units_per_metre) {
     return above ? most : least;
 }
 
-/// Sums that were added up two at a time, in integers of 64 bits: a first one below zero has taken 1 off the second.
+/// Unpacks sums added up two at a time, in integers of 64 bits: a first one below zero has taken 1 off the second.
 SHARED ivec4 self_sums(ivec4 halves) {
     return ivec4(halves.x, halves.y + (halves.x < 0 ? 1 : 0), halves.z, halves.w + (halves.z < 0 ? 1 : 0));
 }
 
-/// The corrections of all pairs that a particle is in: xyz in units, w the sum of its weights. Where it is in several
-/// they are averaged by weight, so that layers that lie on each other corner on corner get what one pair would.
+/// Returns the displacement corrected by all pairs that a particle is in. `sum`: xyz in units, w the sum of its
+/// weights, by which pairs are averaged, so that layers that lie on each other corner on corner get what one pair
+/// would.
 SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {
     precise float weight = float(sum.w) / self_weight_units;
     precise float unit = thickness / self_correction_units / self_largest(weight, 1.0f);
@@ -329,20 +328,20 @@ SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {
     return sum.w == 0 ? displacement : corrected;
 }
 
-/// A displacement as it is measured: against what all particles have in common.
+/// Returns a displacement measured against the common motion.
 SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
     precise vec3 motion = displacement - carried;
     return motion;
 }
 
-/// Most that contact, and colliders after it, may lead a particle off the motion that it had before them, or off any
-/// part of that motion: what the list of pairs reckons with.
+/// Returns by how much (m) contact, and colliders after it, may at most lead a particle off the motion that it had
+/// before them, or off any part of that motion; the list of pairs reckons with it.
 SHARED float self_limit(float thickness) {
     precise float limit = thickness * self_correction_share;
     return limit;
 }
 
-/// Where along the motion before contact, against the common one, a displacement comes nearest to.
+/// Returns the part of the motion before contact, against the common one, that a displacement comes nearest to.
 SHARED vec3 self_part_kept(vec3 displacement, vec3 before, vec3 carried) {
     vec3 wanted = self_relative_motion(before, carried), motion = self_relative_motion(displacement, carried);
     float part = self_limited(self_ratio(ordered_dot(motion, wanted), ordered_dot(wanted, wanted)));
@@ -357,8 +356,8 @@ SHARED bool self_exceeds(vec3 displacement, vec3 nearest, float thickness) {
     return length > limit;
 }
 
-/// What contact and colliders made of the displacement before them: as much of it as they left, changed by no more than
-/// the limit. Contact can stop a particle that way, however far the solver drives it, and let it slide.
+/// Returns the displacement that contact and colliders left: the part that they kept of the one before them, changed by
+/// no more than the limit. That way contact can stop a particle, however far the solver drives it, and let it slide.
 SHARED vec3 self_bounded(vec3 displacement, vec3 before, vec3 carried, float thickness) {
     vec3 kept = self_part_kept(displacement, before, carried);
     vec3 nearest = self_exceeds(displacement, before, thickness) ? kept : before;
@@ -369,14 +368,14 @@ SHARED vec3 self_bounded(vec3 displacement, vec3 before, vec3 carried, float thi
     return self_exceeds(displacement, nearest, thickness) ? bounded : displacement;
 }
 
-/// Where a pair's corners have come along its normal, m, when each makes `shares` of `along`, its motion that way.
+/// Returns the heights (m) of a pair's corners along its normal when each makes `shares` of its motion `along` it.
 SHARED vec4 self_ends(SelfGap gap, vec4 along, vec4 shares) {
     precise vec4 ends = vec4(gap.height.x + along.x * shares.x, gap.height.y + along.y * shares.y,
                              gap.height.z + along.z * shares.z, gap.height.w + along.w * shares.w);
     return ends;
 }
 
-/// The plane halfway between the two there, m along the normal.
+/// Returns where, m along the normal, the plane halfway between the two is when the corners are at `ends`.
 SHARED float self_middle(bool edges, vec4 ends) {
     float below = edges ? self_largest(ends.x, ends.y) : ends.x;
     float above = edges ? self_least(ends.z, ends.w) : self_least(ends.y, self_least(ends.z, ends.w));
@@ -384,15 +383,15 @@ SHARED float self_middle(bool edges, vec4 ends) {
     return middle;
 }
 
-/// Share of its motion that a pair lets a corner make, at least `share`, which it makes already; `end`: where that took
-/// it; `side`: 1 where it lies before the plane, -1 beyond. The pair stays apart by what the two sides keep, whatever
-/// the shares of all corners between those given and those returned: both ends of every motion are on their side of a
-/// plane that moves evenly.
+/// Share of its motion that a pair lets a corner make, at least `share`, which it makes already and which took it to
+/// `end`. `side`: 1 where it lies before the plane, -1 beyond. The pair stays apart by what the two sides keep,
+/// whatever the shares of all corners between those given and those returned: both ends of every motion are on their
+/// side of a plane that moves evenly.
 SHARED float self_share(SelfGap gap, float middle, float end, float side, float along, float share, bool held,
                         float least) {
     float doubt = self_largest(least, gap.doubt);
     precise float nearly = doubt * 0.25f;
-    precise float kept = gap.apart * (held ? self_held_kept : self_room_kept);
+    precise float kept = gap.apart * (held ? self_held_kept : self_gap_kept);
     precise float room = (middle - end) * side - kept;
     float allowed = gap.apart > doubt ? self_largest(room, 0.0f) : 0.0f;
     precise float left = 1.0f - share;
@@ -403,10 +402,9 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
     return gap.apart > nearly ? made : still;
 }
 
-/// Whether two primitives touch, so that no plane between them is known: then nothing is proved of them.
+/// Two primitives that touch have no plane between them, so that nothing is proved of them.
 SHARED bool self_touch(SelfGap gap) { return !(gap.distance > 1.0e-12f); }
 
-/// A motion made in part.
 SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {
     precise vec3 truncated = carried + motion * share;
     return truncated;
@@ -417,15 +415,15 @@ SHARED int self_weight(float weight) {
     return int(units);
 }
 
-/// Entries that are in a list.
+/// Returns how many entries a list holds.
 SHARED int self_listed(uint count, int room) { return count < uint(room) ? int(count) : room; }
 
-/// Likewise of one that another grows towards from its end; none where they have overwritten each other, in a substep
-/// that is done again or given up (self_list_use).
+/// Returns how many entries a list holds towards which another grows from its end. There are none where they have
+/// overwritten each other, in a substep that is done again or given up (self_list_use).
 SHARED int self_both_listed(uint count, uint other, int room) { return count + other <= uint(room) ? int(count) : 0; }
 
-/// The fourth axis of a pair of cells: the normal of the first of them. Layers of a stack that lies aslant are apart
-/// along it, and along no other. Zero, by which nothing is apart, where the cell is none or has no area.
+/// The fourth axis of a pair of cells is the normal of the first, since layers of a stack that lies aslant are apart
+/// along it and no other. It is zero, along which nothing is apart, where the cell does not exist or has no area.
 SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, vec3 last) {
     precise vec3 down = last - first;
     precise vec3 up = right - below;
@@ -435,7 +433,7 @@ SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, ve
     return exists && area > 1.0e-15f ? unit : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Of a particle, with that axis as the fourth, by w.
+/// Box of a particle's motion, with `axis` as the fourth, in w.
 SHARED SelfBox self_slab(vec3 at, vec3 motion, vec3 axis) {
     precise vec3 end = at + motion;
     float along = ordered_dot(axis, at), then = ordered_dot(axis, end);
@@ -452,8 +450,8 @@ SHARED SelfBox self_slabs_joined(SelfBox a, SelfBox b) {
                         self_largest(a.upper.z, b.upper.z), self_largest(a.upper.w, b.upper.w)));
 }
 
-/// Whether two primitives that are in these boxes of four axes may be listed. A pair whose boxes are farther apart than
-/// that cannot come as near as its thickness, whatever part of their motions its corners make.
+/// Returns whether two primitives in these boxes of four axes may be listed. A pair whose boxes are farther apart
+/// cannot come as near as its thickness, whatever part of their motions its corners make.
 SHARED bool self_primitives_meet(SelfBox a, SelfBox b, SelfContactPush push, float thickness) {
     precise float ahead = b.lower.w - a.upper.w;
     precise float behind = a.lower.w - b.upper.w;
@@ -461,7 +459,7 @@ SHARED bool self_primitives_meet(SelfBox a, SelfBox b, SelfContactPush push, flo
     return apart <= self_reach(a, push, thickness);
 }
 
-/// Boxes along columns and rows of a level of the tree, and all of them.
+/// Boxes along columns and rows of a level of the tree, and how many they are.
 SHARED ivec2 self_tree_size(ivec2 grid, int level) {
     return ivec2(((grid.x - 1) >> level) + 1, ((grid.y - 1) >> level) + 1);
 }

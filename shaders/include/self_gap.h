@@ -1,4 +1,4 @@
-// Distance of two primitives of a cloth, a particle and a triangle or two edges, and a plane between them.
+// Distance of two primitives of a cloth (a particle and a triangle, or two edges), and a plane between them.
 #ifndef DRAPE_SELF_GAP_H
 #define DRAPE_SELF_GAP_H
 
@@ -9,26 +9,25 @@ struct SelfCorners {
     vec3 a, b, c, d;
 };
 
-/// Where two disjoint primitives are nearest, and a plane between them.
+/// The place where two disjoint primitives are nearest, and a plane between them.
 struct SelfGap {
-    vec4 weights;    // of the corners: their weighted sum leads from the first primitive's nearest point to the other's
-    vec3 normal;     // that way, unit length; zero where the two touch
+    vec4 weights;    // corners' weighted sum leads from the first primitive's nearest point to the other's
+    vec3 normal;     // direction of that sum, unit length; zero where the two touch
     float distance;  // m
     float apart;     // m between two planes with this normal that have the two on either side; not > 0: none found
     vec4 height;     // m of the corners along the normal, from the first one on
-    float doubt;     // m: what rounding of coordinates this large leaves in doubt
+    float doubt;     // m that rounding of coordinates this large leaves in doubt
 };
 
 SHARED float self_limited(float x) { return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x; }
 
-/// a / b, 0 where b is not positive.
 SHARED float self_ratio(float a, float b) {
     precise float ratio = b > 0.0f ? a / b : 0.0f;
     return ratio;
 }
 
 /// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5). All cases
-/// are worked out and the first that holds is taken: on the default device that costs what one of them does.
+/// are worked out and the first that holds is taken: on the default device that costs as much as one of them.
 SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -64,7 +63,7 @@ SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     return d1 <= 0.0f && d2 <= 0.0f ? vec3(1.0f, 0.0f, 0.0f) : weights;
 }
 
-/// Where two edges a-b and c-d are nearest, as shares of their lengths (the same, 5.1.9).
+/// Places where two edges a-b and c-d are nearest, as shares of their lengths (Ericson, 5.1.9).
 SHARED vec2 nearest_on_edges(vec3 a, vec3 b, vec3 c, vec3 d) {
     precise vec3 first = b - a;
     precise vec3 second = d - c;
@@ -84,7 +83,7 @@ SHARED vec2 nearest_on_edges(vec3 a, vec3 b, vec3 c, vec3 d) {
 SHARED float self_least(float a, float b) { return b < a ? b : a; }
 SHARED float self_largest(float a, float b) { return b > a ? b : a; }
 
-/// Relative to the first corner, where coordinates are small.
+/// Moves the corners to where coordinates are small, relative to the first one.
 SHARED SelfCorners self_relative(SelfCorners x) {
     precise vec3 b = x.b - x.a;
     precise vec3 c = x.c - x.a;
@@ -92,7 +91,7 @@ SHARED SelfCorners self_relative(SelfCorners x) {
     return SelfCorners(vec3(0.0f, 0.0f, 0.0f), b, c, d);
 }
 
-/// `edges`: a constant where it is called.
+/// `edges` is a constant in every call.
 SHARED vec4 self_weights(bool edges, SelfCorners x) {
     vec4 weights;
     if (edges) {
@@ -114,7 +113,7 @@ SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
 
 SHARED float self_largest_coordinate(vec3 x) { return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z)); }
 
-/// A few roundings of a coordinate.
+/// Distance (m) that a few roundings of a coordinate leave in doubt.
 SHARED float self_doubt(float coordinate) {
     precise float doubt = coordinate * 1.0e-6f;
     return doubt;
@@ -142,16 +141,16 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     return self_gap_along(edges, x, normal, weights, distance, doubt);
 }
 
-/// What is left of a vector without its part along another, or all of it where that is zero.
+/// Returns a vector without its part along another, or all of it where that is zero.
 SHARED vec3 self_without(vec3 x, vec3 along) {
     float part = self_ratio(ordered_dot(x, along), ordered_dot(along, along));
     precise vec3 rest = x - along * part;
     return rest;
 }
 
-/// A pair's gap with a plane that holds what the two touch by: where they are nearest inside edges, or inside the
-/// triangle, those lie along the plane. The line between the nearest points of primitives that all but touch is mostly
-/// rounding; a plane square to it may have both on either side, and then nothing could ever move again.
+/// Returns a pair's gap with a plane along the edges, or the triangle, inside which the two are nearest. The line
+/// between the nearest points of primitives that all but touch is mostly rounding; a plane square to it may have both
+/// on either side, and then nothing could ever move again.
 SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
     SelfGap gap = self_gap(edges, corners);
     SelfCorners x = self_relative(corners);
@@ -170,7 +169,7 @@ SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
         second = has_b && has_c && has_d ? bd : nothing;
     }
     second = self_without(second, first);
-    // Twice: what rounding left the first time is small the second.
+    // It is done twice: a remainder that rounding leaves the first time is small the second.
     vec3 square = self_without(self_without(gap.normal, first), second);
     square = self_without(self_without(square, first), second);
     precise float length = sqrt(ordered_dot(square, square));
@@ -181,7 +180,6 @@ SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
     return gap;
 }
 
-/// Length, rounded up.
 SHARED float self_motion(vec3 displacement) {
     precise float motion = sqrt(ordered_dot(displacement, displacement)) * 1.000001f;
     return motion;

@@ -1,7 +1,7 @@
-// Which cells of a patch of 3 x 3 cannot meet in a substep because the cloth between them keeps them apart. Such pairs
-// are most of those whose boxes meet, wherever the cloth is bent or lies aslant to the axes. What is ruled out here
-// would not be listed (self_listed_pair): leaving it out changes no bit. Primitives of a grid that share no corner have
-// their corners on two sides of a column, a row or a diagonal.
+// Rules out the cells of a patch of 3 x 3 that cannot meet in a substep because the cloth between them keeps them
+// apart. Such pairs are most of those whose boxes meet, wherever the cloth is bent or lies aslant to the axes. A pair
+// that is ruled out here would not be listed (self_listed_pair), so leaving it out changes no bit. Primitives of a grid
+// that share no corner have their corners on two sides of a column, a row or a diagonal.
 #ifndef DRAPE_SELF_RING_H
 #define DRAPE_SELF_RING_H
 
@@ -12,12 +12,12 @@ struct SelfColumn {
     vec3 a, b, c, d;
 };
 
-/// Those of a patch, from the first column on.
+/// Particles of a patch, from the first column on.
 struct SelfColumns {
     SelfColumn a, b, c, d;
 };
 
-/// Most that the particles of a patch move in its plane and across it, and that they are apart across it, m.
+/// The most that the particles of a patch move in its plane and across it, and that they are apart across it, m.
 struct SelfPlay {
     float within, across, height;
 };
@@ -46,7 +46,6 @@ SHARED vec3 self_unit(vec3 x) {
     return unit;
 }
 
-/// By row.
 SHARED vec4 self_along(SelfColumn x, vec3 axis) {
     return vec4(ordered_dot(x.a, axis), ordered_dot(x.b, axis), ordered_dot(x.c, axis), ordered_dot(x.d, axis));
 }
@@ -60,7 +59,7 @@ SHARED vec4 self_least_by_row(vec4 a, vec4 b) {
 SHARED float self_largest_of(vec4 x) { return self_largest(self_largest(x.x, x.y), self_largest(x.z, x.w)); }
 SHARED float self_least_of(vec4 x) { return self_least(self_least(x.x, x.y), self_least(x.z, x.w)); }
 
-/// Of motions, by row: how far they go along a normal, and the squares of how far in its plane.
+/// By row, how far motions go along a normal, and the squares of how far they go in its plane.
 SHARED vec4 self_across_by_row(SelfColumn motions, vec3 normal) {
     vec4 along = self_along(motions, normal);
     return vec4(abs(along.x), abs(along.y), abs(along.z), abs(along.w));
@@ -86,9 +85,9 @@ SHARED SelfPlay self_play(SelfColumns x, SelfColumns motions, vec3 normal) {
     return SelfPlay(most_within, self_largest_of(across), height);
 }
 
-/// Whether two cells apart by so much along some direction hold no pair that is listed. The line between nearest points
-/// is at least that long; its normal leans out of the patch's plane by height / apart at most, so corners come nearer
-/// along it by no more than what they move in the plane, and that share of what they move across it:
+/// Returns whether two cells that are apart by so much along some direction hold no pair that is listed. The line
+/// between nearest points is at least that long; its normal leans out of the patch's plane by height / apart at most,
+/// so corners come nearer along it by no more than their motion in the plane and that share of their motion across it:
 ///   apart > kept + 2 (within + across min(1, height / apart)), both sides times `apart`, so that nothing is divided.
 SHARED bool self_clear(float apart, SelfPlay play, float kept) {
     precise float left = (apart * 0.999f - kept) - play.within * 2.002f;
@@ -97,13 +96,13 @@ SHARED bool self_clear(float apart, SelfPlay play, float kept) {
     return apart > 0.0f && left > 0.0f && surely > leaning;
 }
 
-/// How far two groups are apart of which one reaches as far as a or b, the other begins at c or d.
+/// Distance of two groups, the one of which reaches to a or b and the other begins at c or d.
 SHARED float self_between(float a, float b, float c, float d) {
     precise float apart = self_least(c, d) - self_largest(a, b);
     return apart;
 }
 
-/// Where a patch's particles are along a direction: by column, by row.
+/// Places of a patch's particles along a direction: by column, by row.
 struct SelfSpread {
     vec4 a, b, c, d;
 };
@@ -115,9 +114,9 @@ SHARED SelfSpread self_turned(SelfSpread x) {
                       vec4(x.a.z, x.b.z, x.c.z, x.d.z), vec4(x.a.w, x.b.w, x.c.w, x.d.w));
 }
 
-/// Which pairs a gap between columns keeps apart. Of neighbours: the first column of the cell from the rest of it and
-/// of the one to its right (1); that of the cell below from the one to the right (2). Of pairs two columns apart: in
-/// the same rows (4), the second a row further on (8) or back (16), or two (32, 64). Rows likewise.
+/// Bits of the pairs of cells that a gap between columns keeps apart. Neighbours: the first column of the cell from the
+/// rest of it and of the one to its right (1), that of the cell below from the one to the right (2). Pairs two columns
+/// apart: in the same rows (4), with the second one row on (8) or back (16), or two (32, 64). Rows work alike.
 SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
     float second = self_least(self_least(x.b.x, x.b.y), self_least(x.c.x, x.c.y));
     vec4 lower = self_largest_by_row(x.a, x.b), upper = self_least_by_row(x.c, x.d);
@@ -130,8 +129,9 @@ SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
            (self_clear(self_between(lower.z, lower.w, upper.x, upper.y), play, kept) ? 64u : 0u);
 }
 
-/// What lies before the diagonal from the second column to the second row keeps apart, of a cell itself (1), and what
-/// is on it, of the neighbours right (2), below (4) and past its last corner (8).
+/// Bits of the pairs that a gap across the diagonal from the second column to the second row keeps apart. The cell
+/// itself: its first particle from the others (1). Its neighbours right (2), below (4) and past its last corner (8):
+/// that particle and those on the diagonal from the neighbour's.
 SHARED uint self_diagonal_clear(SelfSpread x, SelfPlay play, float kept_here, float kept) {
     float reached = self_largest(x.a.x, self_largest(x.b.x, x.a.y));
     float here = self_least(self_least(x.b.x, x.a.y), x.b.y), right = self_least(self_least(x.c.x, x.b.y), x.c.y),
@@ -154,7 +154,7 @@ SHARED SelfColumn self_column_from(SelfColumn x, vec3 from) {
 /// Bits of the pairs of self_close_pair that are ruled out. A patch over an edge of the cloth repeats its last column
 /// or row.
 SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, SelfColumns at, SelfColumns motions) {
-    // Where coordinates are small.
+    // Coordinates relative to the first particle are small.
     SelfColumns x = SelfColumns(self_column_from(at.a, at.a.a), self_column_from(at.b, at.a.a),
                                 self_column_from(at.c, at.a.a), self_column_from(at.d, at.a.a));
     SelfColumn first = self_columns_sum(x.a, x.b), last = self_columns_sum(x.c, x.d);
@@ -169,12 +169,12 @@ SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, SelfColumns 
     precise float slack = cloth.thickness * self_listed_share;
     precise float doubt = self_doubt(farthest) * 4.0f + push.least;
     precise float kept = cloth.thickness + doubt;
-    // Those that only a diagonal keeps apart, but past the last corner, are so far apart in the flat cloth.
+    // Primitives that only a diagonal keeps apart, not past the last corner, are so far apart in the flat cloth.
     precise float kept_here = self_largest(self_least(cloth.thickness, half_flat), slack) + doubt;
     uint by_columns = self_columns_clear(self_spread(x, columns), play, kept),
          by_rows = self_columns_clear(self_turned(self_spread(x, rows)), play, kept),
          by_diagonal = self_diagonal_clear(self_spread(x, self_unit(across)), play, kept_here, kept);
-    // Neighbours need each that keeps some of their primitives apart, other pairs any.
+    // Neighbours need every gap that keeps some of their primitives apart, other pairs any one.
     uint bits = (by_diagonal & 1u) | (by_diagonal & 2u & (by_columns << 1)) | (by_diagonal & 4u & (by_rows << 2)) |
                 (by_diagonal & 8u) | ((by_columns & by_rows & 2u) << 3);
     return bits | ((by_columns & 0x7cu) << 3) | ((by_rows & 0x60u) << 3) | ((by_rows & 0x1cu) << 8);

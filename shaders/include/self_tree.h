@@ -1,4 +1,4 @@
-// The tree of boxes, as texels: on the default device they are loaded several times as fast as structs from a storage
+// The tree of boxes is read as texels: the default device loads them several times as fast as structs from a storage
 // buffer (docs/devices.md).
 layout(set = 0, binding = 0, rgba32f) uniform readonly imageBuffer boxes;
 

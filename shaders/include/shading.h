@@ -1,4 +1,4 @@
-// The shading formula of every surface in the picture, readable by GLSL and C++.
+// Every surface in the picture is shaded by this formula, readable by GLSL and C++.
 //
 //   radiance = albedo * O * (S (1 + n.y) / 2 + G (1 - n.y) / 2)   ambient: sky above, ground below (hemisphere light)
 //            + sum over lights, V = share of the first light that arrives (shadow map), c = n.l:
@@ -10,7 +10,7 @@
 //
 // n: unit normal of the side that faces the eye, l: unit vector to the light, v: unit vector to the eye, S, G: ambient
 // of sky and ground, O: openness, the share of the surroundings that folds leave free, L: light colour times intensity;
-// all colours linear. What the picture shows of it: tone.h.
+// all colours linear. tone.h makes the picture's colours of it.
 #ifndef DRAPE_SHADING_H
 #define DRAPE_SHADING_H
 
@@ -46,14 +46,13 @@ SHARED vec3 light_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     return surface.albedo * arriving * (facing > 0.0f ? facing : surface.transmission * -facing);
 }
 
-/// The first light's highlight.
 SHARED vec3 highlight_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     vec3 halfway = to_light + surface.to_eye;
     float squared = cosine(halfway, halfway);
     float power = squared > 0.0f && cosine(surface.normal, to_light) > 0.0f
                       ? clamped(cosine(surface.normal, halfway)) / sqrt(squared)
                       : 0.0f;
-    // To the 32nd; no loop, because the default device's compiler unrolls none.
+    // The loop of squarings that gives the 32nd power is written out: the default device's compiler unrolls none.
     power = power * power;
     power = power * power;
     power = power * power;

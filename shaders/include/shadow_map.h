@@ -1,10 +1,10 @@
-// What of the first light arrives, by the shadow map.
+// The shadow map says which share of the first light arrives.
 #ifndef DRAPE_SHADOW_MAP_H
 #define DRAPE_SHADOW_MAP_H
 
 #include "shared/raster_types.h"
 
-// By rows of four (shadow_rows.comp).
+// Each texel holds four of a row of the map (shadow_rows.comp).
 layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer shadow_rows;
 
 /// Weighted share of four texels in a row that are no nearer to the light than the surface, which `slope` tilts along
@@ -14,10 +14,10 @@ float lit_in_row(ivec2 first, float depth, float slope, vec4 weights) {
     return dot(weights, vec4(greaterThanEqual(nearest, depth + slope * vec4(0.0, 1.0, 2.0, 3.0))));
 }
 
-/// Share of the first light that arrives: 3x3 percentage-closer filter, bilinear between texels, each compared with the
-/// plane of the surface above it (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006), so that large
-/// texels, which make shadows soft, need no wide gap. `at`: texel coordinates and depth in the map; `slope`: of the
-/// surface's depth from texel to texel. Beyond the map there is light.
+/// Share of the first light that arrives: a 3x3 percentage-closer filter, bilinear between texels, each compared with
+/// the plane of the surface above it (Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006), so that
+/// large texels, which make shadows soft, need no wide gap. `at`: texel coordinates and depth in the map; `slope`:
+/// change of the surface's depth from texel to texel. Beyond the map there is light.
 float light_arriving(vec3 at, vec2 slope) {
     vec2 corner = floor(at.xy - 1.5);
     vec2 part = at.xy - 1.5 - corner;
@@ -25,7 +25,7 @@ float light_arriving(vec3 at, vec2 slope) {
     bool beyond = any(notEqual(wanted, first));
     float depth = at.z + dot(corner + 0.5 - at.xy, slope);
     vec4 columns = vec4(1.0 - part.x, 1.0, 1.0, part.x);
-    // Beyond the map, too: on the default device neither a branch nor a loop of no round leaves them out.
+    // This is summed beyond the map, too: on the default device neither a branch nor a loop of no round leaves it out.
     float lit = (1.0 - part.y) * lit_in_row(first, depth, slope.x, columns) +
                 lit_in_row(first + ivec2(0, 1), depth + slope.y, slope.x, columns) +
                 lit_in_row(first + ivec2(0, 2), depth + 2.0 * slope.y, slope.x, columns) +

@@ -1,14 +1,14 @@
-// How a pass writes the images of a cloth's state. BUFFERED: through their buffer views, storage buffers of the same
-// memory; on the default device image stores take longer (docs/devices.md). Loads go through the images
-// either way. VECTOR_KEPT: not all of its texels are written. TRIPLE_OUT, STORE_TRIPLE: updated in place where what is
-// `beside` xyz stays as it is; a buffer need not be told, and takes it in less time. Needs `push.grid`; STATE_COLUMNS:
-// the images' own, where that is not theirs.
+// Passes write the images of a cloth's state by these macros, where BUFFERED through their buffer views, storage
+// buffers of the same memory; on the default device image stores take longer (docs/devices.md). Loads go through the
+// images either way. VECTOR_KEPT declares an image whose texels are not all written; TRIPLE_OUT and STORE_TRIPLE one
+// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. The includer has
+// `push.grid`, and STATE_COLUMNS where that is not the images' own.
 #include "include/together.h"
 #ifndef STATE_COLUMNS
 #define STATE_COLUMNS push.grid.x
 #endif
 #ifdef BUFFERED
-/// Texels from one row of a buffer view to the next: rows begin at multiples of state_row_alignment bytes.
+/// Texels from one row of a buffer view to the next; rows begin at multiples of state_row_alignment bytes.
 int vector_pitch() { return (STATE_COLUMNS + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
 int scalar_pitch() { return (STATE_COLUMNS + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
 #define VECTOR_OUT(slot, block, name) \

@@ -1,8 +1,8 @@
-// Statistics of a cloth's state: what one particle and the springs that it owns give, and how two records join.
-// A strain is (length - rest length) / rest length. Every spring that exists counts once, whatever its share of
-// the stiffness: "RMS over the springs" is then what anyone computes from exported positions.
-// What is not finite is counted by its bits, before any comparison could hide it (max(NaN, 0) may be 0), and
-// gives nothing else, so that the other numbers still say something.
+// Statistics of a cloth's state, from one particle and the springs that it owns, and how two records join. A strain is
+// (length - rest length) / rest length. Every spring that exists counts once, whatever its share of the stiffness, so
+// that "RMS over the springs" is what anyone computes from exported positions. A value that is not finite is counted by
+// its bits, before any comparison could hide it (max(NaN, 0) may be 0), and adds nothing else, so that the other
+// numbers still say something.
 #ifndef DRAPE_STATISTICS_H
 #define DRAPE_STATISTICS_H
 
@@ -16,7 +16,7 @@ SHARED bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x
 
 SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-/// What a sum or a maximum over nothing is: -0 + x is x for every x.
+/// Sums and maxima over nothing: -0 + x is x for every x.
 SHARED StatisticsRecord empty_statistics() {
     return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
                             vec4(lowest_float, lowest_float, lowest_float, lowest_float), vec4(0.0f, 0.0f, 0.0f, 0.0f),
@@ -33,7 +33,7 @@ SHARED vec4 larger(vec4 a, vec4 b) {
     return vec4(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z, a.w > b.w ? a.w : b.w);
 }
 
-/// Where the larger of two values is, of equal ones the lower index: whatever the order of joining.
+/// Place of the larger of two values; of equal ones it is the lower index, whatever the order of joining.
 SHARED uint place_of_larger(float a, float b, uint place_a, uint place_b) {
     return a > b ? place_a : b > a ? place_b : place_a < place_b ? place_a : place_b;
 }
@@ -61,8 +61,8 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
     return share;
 }
 
-/// A particle without its springs. It counts as not finite when its position or its velocity is; `velocity`: h times
-/// that of the frame's end, m.
+/// Statistics of a particle without its springs. It counts as not finite when its position or its velocity is.
+/// `velocity`: h times that of the frame's end, m.
 SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float share, vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
     bool finite = is_finite(position) && is_finite(velocity);
@@ -79,12 +79,12 @@ SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float 
     return record;
 }
 
-/// A particle's `record` plus the spring from it to another; `first` is finite. `rest_length`, m, and the spring's
-/// `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m, of which springs pushed together have
-/// `compression`. Shear belongs to the diagonals. `tension`: applied to the spring, as an extension of its whole
-/// stiffness (m); what would balance the spring beyond that, over its rest length, is the stretch error, which a
-/// perfect solver makes zero. Of shear springs it is not asked. Nothing branches: on the default device all numbers of
-/// the record would be blended at the end of every branch, which takes longer than what it leaves out.
+/// Returns a particle's `record` plus the spring from it to another; `first` is finite. `rest_length`, m, and the
+/// spring's `share` of the stiffness: 0 = no such spring. `half_stiffness`: k/2, N/m, of which a spring pushed together
+/// keeps `compression`. `shear`: the spring is a diagonal. `tension`: applied to the spring, as an extension of its
+/// whole stiffness (m). The stretch error is the tension that would balance the spring beyond it, over the rest length;
+/// a perfect solver makes it zero, and shear springs have none. Nothing branches: on the default device all numbers of
+/// the record would be blended at the end of every branch, which takes longer than it saves.
 SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, vec3 second, float rest_length,
                                           float half_stiffness, float share, float compression, float tension,
                                           bool shear) {
@@ -103,7 +103,7 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
                                                   : vec4(longer, lowest_float, shorter, lowest_float));
     record.counts.z += counts && !shear ? 1u : 0u;
     record.counts.w += counts && shear ? 1u : 0u;
-    if (shear) return record;  // the caller's constant
+    if (shear) return record;  // a constant in every call
     precise float error = (balancing_tension(extension, compression) - tension) / rest_length;
     precise float squared_error = error * error;
     record.errors = ordered_sum(record.errors, vec4(counts ? squared_error : -0.0f, -0.0f, -0.0f, -0.0f));

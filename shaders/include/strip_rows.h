@@ -1,7 +1,7 @@
-// What sweeps down the rows of a strip of columns share (sweep.comp, twist_sweep.comp): a subgroup has a strip, an
-// invocation `columns` of them, an even number, and a ghost beside those, the first one of the invocation on the right.
-// Neighbouring strips overlap by `strip_halo` columns at either end, which are other strips' to store. Needs the images
-// `position` and `displacement_in`, `displacement_out` and `push.grid`.
+// Streams that go down the rows of a strip of columns share this (spring_stream.comp, twist_stream.comp). A subgroup has a
+// strip, an invocation `columns` of them, an even number, and beside those a ghost, the first column of the invocation
+// on the right. Neighbouring strips overlap by `strip_halo` columns at either end, which other strips store. The
+// includer has the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
 #include "include/row_bands.h"
 const int ghost = columns;
 
@@ -9,20 +9,20 @@ struct Particle {
     vec3 position;
     float weight;
     vec3 displacement;
-    float mark;  // beside the displacement (verlet.h)
+    float mark;  // mark beside the displacement (verlet.h)
 };
 
 int first_column() {
     return int(gl_WorkGroupID.x) * (strip_width - 2 * strip_halo) + int(gl_SubgroupInvocationID) * columns;
 }
 
-/// What the invocation on the right holds; of a strip's last one, what is of no use.
+/// Returns the value of the invocation on the right; a strip's last one gets its own, which is of no use.
 vec3 from_right(vec3 value) {
     int lane = int(gl_SubgroupInvocationID);
     return subgroupShuffle(value, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
 }
 
-/// What lies outside the grid is a copy of its border.
+/// Outside the grid it loads a copy of its border.
 Particle load(int x, int y) {
     ivec2 texel = ivec2(x < push.grid.x ? x : push.grid.x - 1, y < push.grid.y ? y : push.grid.y - 1);
     vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
@@ -38,7 +38,7 @@ void load_row(int y, out Particle row[columns + 1]) {
     row[ghost].mark = 0.0f;
 }
 
-/// Whether column c of this invocation's is the strip's to store: the halo is other strips'.
+/// Returns whether this strip stores column c of the invocation; other strips store its halo.
 bool is_own(int c) {
     int within = int(gl_SubgroupInvocationID) * columns + c;
     int first = gl_WorkGroupID.x == 0 ? 0 : strip_halo;
@@ -56,7 +56,6 @@ void store_row(RowBand band, int y, Particle row[columns + 1]) {
 
 void fetch_ghost(inout Particle row[columns + 1]) { row[ghost].displacement = from_right(row[0].displacement); }
 
-/// The strip's first column has no invocation on the left.
 void return_ghost(inout Particle row[columns + 1]) {
     int lane = int(gl_SubgroupInvocationID);
     vec3 moved = subgroupShuffle(row[ghost].displacement, uint(lane > 0 ? lane - 1 : 0));

@@ -1,11 +1,11 @@
-// A loop over a part of a grid's particles, counted row by row: `statement`, a call for particle `texel`, once for each
-// of the `strip_length` particles that an invocation takes in turn. On the default device a workgroup costs as much to
-// begin as a dozen particles or more (docs/devices.md). The invocations of one of its subgroups take particles beside
-// each other, so that memory is read in its order; on any other, where `strip_length` is 1, all do. The loop ends at
-// its bottom (include/every.h).
+// Loops over a part of a grid's particles, counted row by row. `statement`, a call for particle `texel`, runs once for
+// each of the `strip_length` particles that an invocation takes in turn: on the default device a workgroup costs as
+// much to begin as a dozen particles or more (docs/devices.md). The invocations of one of its subgroups take particles
+// beside each other, so that memory is read in its order; on any other device, where `strip_length` is 1, all do. The
+// loop ends at its bottom (include/every.h).
 #include "include/places.h"
 layout(constant_id = 20) const int strip_length = 1;
-const int strip_lanes = 8;  // of a subgroup of the default device
+const int strip_lanes = 8;  // invocations of a subgroup of the default device
 int strip_first() {
     int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x), lane = int(gl_LocalInvocationIndex);
     return (group * workgroup_width + lane / strip_lanes * strip_lanes) * strip_length + lane % strip_lanes;
@@ -22,7 +22,7 @@ int strip_first() {
             if (place >= end) break;                              \
         }                                                         \
     }
-// Likewise for those of the particles for which `test`, a call, says that there is something to do (include/every.h,
+// Loops over those of the particles for which the call `test` says that there is something to do (include/every.h,
 // FOR_FOUND); at most 32 an invocation.
 #define FOR_STRIP_FOUND(texel, size, test, statement)                                       \
     {                                                                                       \

@@ -1,7 +1,6 @@
-// What the passes share that carry a cloth's state from substep to substep: its images, and the compensated sums that
-// move position and displacement on. WIND: the wind's force is one of the images. IN_PLACE: what
-// is written are the images that are read, but for the displacement of some predictions. Needs `verlet.h` and
-// `push.grid`.
+// The passes that carry a cloth's state from substep to substep share its images and the compensated sums that move
+// position and displacement on. WIND: the wind's force is one of the images. IN_PLACE: a pass writes the images that it
+// reads, but for the displacement of some predictions. The includer has verlet.h and `push.grid`.
 #include "include/state_store.h"
 #ifdef IN_PLACE
 #define STATE_OUT TRIPLE_OUT
@@ -24,14 +23,14 @@ STATE_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
 #endif
 
-/// X += d.
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, LOAD(position_remainder_in, texel).xyz);
     STORE_STATE(position_out, texel, advanced.value, position.w);
     STORE_STATE(position_remainder_out, texel, advanced.remainder, 0.0f);
 }
 
-/// d += increment, less what the wind's drag takes away: the share `loss`. `displacement`: with what is beside it.
+/// Adds `increment` to a displacement, less the share `loss` that the wind's drag takes away. `displacement.w` is its
+/// mark (verlet.h).
 void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float loss) {
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
     CompensatedSum stepped = compensated_add(displacement.xyz, counted, LOAD(displacement_remainder_in, texel).xyz);
@@ -39,7 +38,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
     STORE_STATE(displacement_remainder_out, texel, stepped.remainder, 0.0f);
 }
 
-/// On the particle of a texel: N; w: its drag, N/m.
+/// Force on the particle of a texel, N; w: its drag, N/m.
 vec4 force_on(ivec2 texel) {
 #ifdef WIND
     return LOAD(wind_force, texel);

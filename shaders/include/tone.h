@@ -1,7 +1,7 @@
-// From radiance to what the picture holds, readable by GLSL and C++: a soft shoulder above a knee, then the sRGB
-// transfer function (IEC 61966-2-1). Below the knee colours stay as the scene says them. The shoulder is Reinhard's
-// operator with a white point ("Photographic Tone Reproduction for Digital Images", 2002, equation 4) on what is above
-// the knee, in units of what is left to white: it leaves the knee at slope 1 and reaches 1 at `tone_white`.
+// Maps radiance to the picture's values, for GLSL and C++: a soft shoulder above a knee, then the sRGB transfer
+// function (IEC 61966-2-1). Below the knee colours stay as the scene gives them. The shoulder is Reinhard's operator
+// with a white point ("Photographic Tone Reproduction for Digital Images", 2002, equation 4) on the radiance above the
+// knee, in units of the rest to white: it leaves the knee at slope 1 and reaches 1 at `tone_white`.
 #ifndef DRAPE_TONE_H
 #define DRAPE_TONE_H
 
@@ -21,7 +21,7 @@ SHARED float toned(float radiance) {
     return above > 0.0f ? tone_knee + (1.0f - tone_knee) * shoulder : radiance;
 }
 
-/// The radiance that is shown as `shown` (0..1): the curve's inverse, so that a colour comes out as it was said.
+/// Returns the radiance that is shown as `shown` (0..1), so that a colour looks as the scene gives it.
 SHARED float untoned(float shown) {
     float white = (tone_white - tone_knee) / (1.0f - tone_knee);
     float above = (shown - tone_knee) / (1.0f - tone_knee), left = 1.0f - above;

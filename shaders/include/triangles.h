@@ -5,8 +5,8 @@
 
 const int triangles_around_particle = 6;
 
-/// Triangle k (0..5) around a particle, in the order that every sum over them takes: xy = its cell relative to
-/// the particle, z = 1 for the upper and 2 for the lower triangle (its bit in the cell image).
+/// Triangle k (0..5) around a particle, in the order that every sum over them takes. xy: its cell relative to the
+/// particle; z: 1 for the upper and 2 for the lower triangle (its bit in the cell image).
 SHARED ivec4 triangle_around(int k) {
     if (k == 0) return ivec4(-1, -1, 2, 0);
     if (k == 1) return ivec4(0, -1, 1, 0);
@@ -22,7 +22,7 @@ SHARED ivec2 triangle_corner(int which, int corner) {
     return ivec2(corner == 2 ? 0 : 1, corner == 0 ? 0 : 1);
 }
 
-/// Which corner a particle is that lies at `offset` from the triangle's cell.
+/// Index of the corner that lies at `offset` from the triangle's cell.
 SHARED int corner_of_triangle(int which, ivec2 offset) {
     for (int corner = 0; corner < 2; ++corner) {
         ivec2 at = triangle_corner(which, corner);

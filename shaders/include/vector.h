@@ -1,4 +1,4 @@
-// Products in a fixed order: dot(), cross() and length() leave the order to the driver.
+// Products in a fixed order, which dot(), cross() and length() leave to the driver.
 #ifndef DRAPE_VECTOR_H
 #define DRAPE_VECTOR_H
 
@@ -7,7 +7,7 @@ SHARED float ordered_dot(vec3 a, vec3 b) {
     return sum;
 }
 
-/// What would be divided by the same number more than once is multiplied by this.
+/// Code that would divide by the same number more than once multiplies by this.
 SHARED float reciprocal(float x) {
     precise float inverse = 1.0f / x;
     return inverse;

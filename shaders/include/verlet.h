@@ -1,6 +1,6 @@
-// Verlet in displacement form with compensated sums (docs/physics.md 3).
-// State: X = position at the start of the substep, d = displacement of the substep, and what rounding lost
-// of each (`*_remainder`), so that 1e5 substeps do not drift.
+// Verlet in displacement form with compensated sums (docs/physics.md 3). The state is X, the position at the start of
+// the substep, d, its displacement, and the part that rounding lost of each (`*_remainder`), so that 1e5 substeps do
+// not drift.
 #ifndef DRAPE_VERLET_H
 #define DRAPE_VERLET_H
 
@@ -9,7 +9,7 @@ struct CompensatedSum {
     vec3 remainder;  // exact sum - value
 };
 
-/// a + b + remainder with the rounding error kept: Knuth's TwoSum, exact for any magnitudes.
+/// Returns a + b + remainder with the rounding error kept: Knuth's TwoSum, exact for any magnitudes.
 SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 remainder) {
     precise vec3 addend = b + remainder;
     precise vec3 sum = a + addend;
@@ -18,8 +18,8 @@ SHARED CompensatedSum compensated_add(vec3 a, vec3 b, vec3 remainder) {
     return CompensatedSum(sum, lost);
 }
 
-/// Displacement of the next substep before constraints: d' = e^(-c h) d + phi h^2 (g + w F / m), written as
-/// an increment to d. `damping_loss` = 1 - e^(-c h); `gravity_step` = phi h^2 g; `force_step` = phi h^2 / m.
+/// Displacement of the next substep before constraints: d' = e^(-c h) d + phi h^2 (g + w F / m), as an increment to d.
+/// `damping_loss` = 1 - e^(-c h); `gravity_step` = phi h^2 g; `force_step` = phi h^2 / m.
 SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, float inverse_mass, float force_step,
                              float damping_loss) {
     precise vec3 forced = gravity_step + force * (inverse_mass * force_step);
@@ -27,8 +27,8 @@ SHARED vec3 verlet_increment(vec3 displacement, vec3 gravity_step, vec3 force, f
     return increment;
 }
 
-/// An increment of a particle with `mark` beside its displacement: below 0 right after its release, minus the
-/// share that counts (pin.h).
+/// Returns the part that counts of a particle's increment. Right after its release the `mark` beside its displacement
+/// is minus that share (pin.h), else it is not below 0.
 SHARED vec3 released_increment(vec3 increment, float mark) {
     if (!(mark < 0.0f)) return increment;
     precise vec3 counted = increment * -mark;
@@ -48,8 +48,8 @@ SHARED vec3 dragged_increment(vec3 increment, float loss) {
     return dragged;
 }
 
-/// Inverse mass that springs and bending feel within such a step: drag resists what they do as it resists the
-/// prediction, so the cloth that they hold at rest in the wind feels all of its force.
+/// Inverse mass that springs and bending feel in a step with drag, which resists them as it resists the prediction, so
+/// the cloth that they hold at rest in the wind feels all of its force.
 SHARED float dragged_weight(float inverse_mass, float loss) {
     precise float weight = inverse_mass - inverse_mass * loss;
     return weight;

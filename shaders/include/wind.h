@@ -1,23 +1,23 @@
-// Wind on a triangle and the normal of a cell (docs/physics.md 6).
+// This header has the wind's force on a triangle and the normal of a cell (docs/physics.md 6).
 #ifndef DRAPE_WIND_H
 #define DRAPE_WIND_H
 
 #include "include/vector.h"
 
-/// What the wind does to a triangle, or to a particle: all that its triangles give it.
+/// Force of the wind on a triangle, or on a particle from all of its triangles.
 struct WindForce {
     vec3 force;  // N
-    float drag;  // of a triangle kg/s; of a particle N per metre that the substep's displacement changes
+    float drag;  // per triangle, kg/s; per particle, N per metre that the substep's displacement changes
 };
 
-/// Force (N) on a triangle of corners p0 p1 p2 (m) moving with mean velocity `velocity` (m/s) in wind `wind`:
-/// F = rho A / 2 [(Cd - Cl)(v.n) v + Cl |v|^2 n], v = wind - velocity, n the unit normal turned so that
-/// n.v > 0. A degenerate triangle (no area, no normal) feels nothing. Coefficients: rho (Cd - Cl)/2, rho Cl/2.
-/// Drag c = rho A/2 (|Cd - Cl| f + Cl |v| min(|v|/f, 2)), f = v.n: where the wind blows straight on the triangle it is
-/// half of -dF/dv, which makes a step of v' = v + h F/(m + h c) exact there for every h; elsewhere it is more than half
-/// of every eigenvalue of -dF/dv (for Cd <= 3 Cl) and than |F|/|v|. The factor of 2 is for grazing wind, whose lift
-/// turns over with the triangle: with 1 light cloth of Cl > Cd gathers speed without end. A counts to `area_limit`:
-/// cloth too soft for its wind would else offer it ever more area and stretch without end.
+/// Force (N) on a triangle of corners p0 p1 p2 (m) moving with mean velocity `velocity` (m/s) in wind `wind`: F = rho A
+/// / 2 [(Cd - Cl)(v.n) v + Cl |v|^2 n], v = wind - velocity, n the unit normal turned so that n.v > 0. A degenerate
+/// triangle (no area, no normal) feels nothing. Coefficients: rho (Cd - Cl)/2, rho Cl/2. Drag c = rho A/2 (|Cd - Cl| f
+/// + Cl |v| min(|v|/f, 2)), f = v.n: where the wind blows straight on the triangle it is half of -dF/dv, which makes a
+/// step of v' = v + h F/(m + h c) exact there for every h; elsewhere it is more than half of every eigenvalue of -dF/dv
+/// (for Cd <= 3 Cl) and than |F|/|v|. The factor of 2 is for grazing wind, whose lift turns over with the triangle:
+/// with 1, light cloth of Cl > Cd gathers speed without end. A counts up to `area_limit`: cloth too soft for its wind
+/// would else offer it ever more area and stretch without end.
 SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 wind, float drag_coefficient,
                                      float lift_coefficient, float area_limit) {
     precise vec3 doubled = ordered_cross(p1 - p0, p2 - p0);
@@ -35,12 +35,12 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
     precise float speed = sqrt(squared);
     precise float resisting = 2.0f * facing <= speed ? 2.0f * speed : squared / facing;
     precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * area;
-    // Chosen, not branched on (include/line.h).
+    // The values are chosen, not branched on (include/line.h).
     bool is_one = doubled_squared > 0.0f;
     return WindForce(is_one ? force : vec3(0.0f, 0.0f, 0.0f), is_one ? drag : 0.0f);
 }
 
-/// What a sum over triangles starts from: -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
+/// Sums over triangles start from -0, since -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
 /// addition of a zero.
 SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 
@@ -69,7 +69,7 @@ SHARED vec3 add_area_vector(vec3 sum, vec3 p0, vec3 p1, vec3 p2) {
     return total;
 }
 
-/// Unit vector, or zero when there is no direction.
+/// Returns the unit vector, or zero when there is no direction.
 SHARED vec3 unit_or_zero(vec3 v) {
     precise float squared = ordered_dot(v, v);
     precise float size = sqrt(squared);

@@ -1,9 +1,9 @@
-// The tree over a workgroup's records, in a fixed order: lane l joins lane l + 32, then l + 16, ... l + 1. The includer
-// defines RECORD, the type, for which there is a function `joined`.
+// A tree joins a workgroup's records in a fixed order: lane l joins lane l + 32, then l + 16, ... l + 1. The includer
+// defines RECORD, a type for which there is a function `joined`.
 shared RECORD lane_records[workgroup_width];
 
-/// Rows that an invocation joins, of `most` from a particle of its column on: it meets a barrier afterwards, so even
-/// one past the last column takes a turn. On the default device a loop over all `most` would cost those it has not,
+/// Rows that an invocation joins, at most `most` from a particle of its column on. It meets a barrier afterwards, so
+/// even one past the last column takes a turn. On the default device a loop over all `most` would cost the missing ones
 /// too.
 int rows_of(ivec2 first, int most, ivec2 grid) { return first.x < grid.x ? min(most, grid.y - first.y) : 0; }
 

@@ -11,12 +11,12 @@ namespace drape::glsl {
 /// Rows of particles that one invocation of the comparison joins before its workgroup does.
 const int difference_rows = 8;
 
-/// From the state of one cloth's substeps to that of an attempt's: weights of changed_step (include/end_velocity.h).
+/// Weights of changed_step (include/end_velocity.h) from a cloth's substeps to those of an attempt.
 struct StepChange {
-    float ratio;          // of the lengths, new over old
-    float motion;         // on the excess in the displacement; the ratio's square without damping
-    float excess;         // on the excess in itself; likewise
-    float excess_before;  // on the excess in that of the substep before; likewise
+    float ratio;          // new length over old
+    float motion;         // on the excess in the displacement; without damping the ratio's square
+    float excess;         // on the excess in the new excess; without damping the ratio's square
+    float excess_before;  // on the excess in that of the substep before; without damping the ratio's square
 };
 
 struct ChangeStepPush {
@@ -24,7 +24,7 @@ struct ChangeStepPush {
     int cloth;
 };
 
-/// Two runs to the same frame: sums over the particles that are not held.
+/// Difference of two runs of the same frame, summed over the particles that are not held.
 struct DifferenceRecord {
     float moved;  // mass share x squared distance, m^2
     float mass;   // mass shares (1 = an inner particle's)

@@ -1,4 +1,4 @@
-// The collider kinds, and a collider of any kind as contact and pictures see it. std430.
+// Collider kinds, and a collider of any kind as contact and pictures see it, in std430.
 #ifndef DRAPE_COLLIDER_TYPES_H
 #define DRAPE_COLLIDER_TYPES_H
 
@@ -8,7 +8,7 @@
 namespace drape::glsl {
 #endif
 
-/// In the order in which contacts are resolved; lists of colliders are sorted by it.
+/// Contacts are resolved in the order of the kinds; lists of colliders are sorted by it.
 const int kind_plane = 0;
 const int kind_sphere = 1;
 const int kind_box = 2;
@@ -24,11 +24,10 @@ struct ColliderRecord {
     vec4 change_x, change_y, change_z;
     vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii; capsule, along its y:
                  // half length, radius at the lower end, at the upper. w: sqrt(friction)
-    vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in; 0:
-                   // by the nearest one
+    vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in;
+                   // zero: by the nearest one
 };
 
-/// A collider as drawn.
 struct ColliderInstance {
     vec4 pose_x, pose_y, pose_z;  // rows of world from local; w: centre
     vec4 shape;                   // xyz as in the record; plane: half side of the quad drawn, distance of the grid's
@@ -36,7 +35,7 @@ struct ColliderInstance {
     vec4 color;
 };
 
-/// Most segments around a round mesh; from pole to pole it has half as many as around.
+/// Most segments around a round mesh; from pole to pole it has half as many.
 const int most_round_columns = 96;
 
 /// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad.

@@ -1,4 +1,4 @@
-// Structs of the cut pass and of the drawing of cut edges, shared by GLSL and C++. std430.
+// Structs of the cut pass and of the drawing of cut edges, shared by GLSL and C++, in std430.
 #ifndef DRAPE_CUT_TYPES_H
 #define DRAPE_CUT_TYPES_H
 
@@ -13,7 +13,7 @@ struct CutterTriangle {
     vec4 a, b, c;  // xyz: corners, metres; a.w: 1 when it cuts in this frame; the first with 0 ends the list
 };
 
-/// A cutter at rest is its triangle; a moving one is the surface of the prism it sweeps: both caps and two
+/// A cutter at rest is its triangle; a moving one is the surface of the prism that it sweeps: both caps and two
 /// triangles per side.
 const int cutter_triangle_count = 8;
 
@@ -23,13 +23,13 @@ struct CutPush {
     int unused;
 };
 
-/// A vertex on a cut spring (or inside a shattered triangle), drawn with the side it belongs to: position of
-/// `anchor` + alpha (first - anchor) + beta (second - anchor) + offset, which is affine in particles of its own
-/// side alone and exact where the cloth is flat.
+/// A vertex on a cut spring (or inside a shattered triangle), drawn with the side it belongs to. Its position is
+/// `anchor` + alpha (first - anchor) + beta (second - anchor) + offset, which is affine in particles of its own side
+/// alone and exact where the cloth is flat.
 struct CutVertex {
     uvec4 particles;  // anchor, first, second particle; w unused
     vec4 weights;     // alpha, beta; z, w unused
-    vec4 offset;      // m, in the world frame of the rest pose: what no pair of own particles spans
+    vec4 offset;      // m, in the world frame of the rest pose: the part that no pair of own particles spans
     vec4 material;    // m along columns, rows of the undeformed cloth; z, w unused
 };
 

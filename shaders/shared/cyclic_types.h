@@ -1,4 +1,4 @@
-// Lines solved by cyclic reduction: constants that shaders and C++ share.
+// Shaders and C++ share these constants of cyclic reduction.
 #ifndef DRAPE_CYCLIC_TYPES_H
 #define DRAPE_CYCLIC_TYPES_H
 
@@ -8,11 +8,11 @@
 namespace drape::glsl {
 #endif
 
-/// Particles of the longest line that a workgroup solves: an invocation each, 24 bytes of shared memory each.
+/// Most particles of a line that a workgroup solves: an invocation and 24 bytes of shared memory each.
 const int cyclic_most_particles = 1024;
-/// Invocations that a workgroup has at least: short lines share one.
+/// Least invocations of a workgroup; short lines share one.
 const int cyclic_least_invocations = 128;
-/// Invocations along a line at least.
+/// Least invocations along a line.
 const int cyclic_least_width = 32;
 
 #ifdef __cplusplus

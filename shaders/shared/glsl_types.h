@@ -1,8 +1,8 @@
 // The few GLSL types and functions that headers shared by shaders and C++ use. In GLSL this file is empty.
 //
-// Shared headers are written in the common subset of both languages: float literals with an f, no swizzles,
-// no inout, only + - * / and sqrt where bits matter. Two words bridge the rest: `precise` (GLSL: never
-// contract or reorder; C++: the whole project is compiled with -ffp-contract=off) and SHARED (C++: inline).
+// Shared headers are written in the common subset of both languages: float literals have an f, there are no swizzles
+// and no inout, and only + - * / and sqrt where bits matter. Two words bridge the rest: `precise` (GLSL: never contract
+// or reorder; C++: the whole project is compiled with -ffp-contract=off) and SHARED (C++: inline).
 #ifndef DRAPE_GLSL_TYPES_H
 #define DRAPE_GLSL_TYPES_H
 

@@ -1,4 +1,4 @@
-// Structs and constants of the line solver that shaders and C++ share.
+// Shaders and C++ share these structs and constants of the line solver.
 #ifndef DRAPE_LINE_TYPES_H
 #define DRAPE_LINE_TYPES_H
 
@@ -8,36 +8,34 @@
 namespace drape::glsl {
 #endif
 
-/// Lines are few and long: one subgroup of the default device per workgroup spreads them over the cores.
+/// Lines are few and long: workgroups of one subgroup of the default device spread them over the cores.
 const int line_group_width = 8;
-/// Texels in a row of the lines' scratch image, which is addressed as if it had only one. So wide that
-/// images of 16384 a side hold that of 4096 x 4096 particles, and no wider, since small cloths have at least one row.
+/// Texels in a row of the lines' scratch image, which is addressed as if it had only one row. An image of 16384 a side
+/// holds that of 4096 x 4096 particles; wider rows would cost small cloths, which have at least one.
 const int line_scratch_width = 2048;
 
-/// All lines of one spring direction (include/line.h).
 struct LinePush {
     ivec2 grid;  // columns, rows
     ivec2 step;  // from a particle of a line to the next; columns wrap around
     int line_count;
-    int particle_count;     // of each line, >= 2
+    int particle_count;     // in each line, >= 2
     int seam;               // column whose particles own no spring of this direction, -1 = none
-    int channel;            // of the spring shares
+    int channel;            // index into the spring shares
     float rest_length;      // m
     float compliance;       // m_inner / (k h^2), dimensionless, > 0
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (k h^2)
-    float followed;         // compliance asked for over the one above, 1 = nothing softened
+    float followed;         // compliance asked for over `compliance`, 1 = nothing softened
     float followed_bdf2;
-    float bend;         // b h^2 / m_inner: of an element that has its whole share; 0 on diagonals
+    float bend;         // b h^2 / m_inner, for an element that has its whole share; 0 on diagonals
     float bend_bdf2;    // b h^2 / m_inner over (9/4) (1 + (2/3) c h)
     float compression;  // share of a spring's stiffness where it is pushed together
 };
 
-/// Choice of a substep's order (next_control in include/bdf2.h).
 struct LineControlPush {
     uint most_wrong;  // lines that may meet a spring wrong by more than line_violation_limit
 };
 
-/// Prediction of the line solver in second order (include/bdf2.h).
+/// Push constants of the line solver's prediction in second order (include/bdf2.h).
 struct PredictPush {
     ivec2 grid;
     vec2 loss;               // x: 1 - exp(-c h), y: (2/3) (1 - f), f = 1/(1 + (2/3) c h) (about: bdf2.h)
@@ -49,14 +47,14 @@ struct PredictPush {
 
 /// Texels of the line solver's control image (LineControl in include/bdf2.h).
 const int control_order = 0, control_wrong_lines = 1, control_hold = 2, control_texel_count = 3;
-/// A spring that a substep meets wrong by more than its own length, after the carried tension has had its say, tells
-/// that BDF2 extrapolates nonsense there; where that is so in many lines the next substeps are backward Euler.
+/// A spring that a substep meets wrong by more than its own length, beyond what the carried tension explains, shows
+/// that BDF2 extrapolates nonsense there. Where many lines have one the next substeps are backward Euler.
 const float line_violation_limit = 1.0f;
 const uint line_hold_count = 8u;
-/// A history is BDF2's from its second difference on: of two substeps at the start, whose first one is made up for free
-/// flight; of three after a pin has let go, this one and two more.
+/// Substeps until BDF2 has a history, which takes two differences of its own. At the start that is two substeps, the
+/// first of which is made up for free flight; after a pin has let go it is three, this one and two more.
 const uint line_hold_start = 2u, line_hold_release = 4u;
-/// A contact asks after the control has been counted down for this substep, so for one more.
+/// Contact raises `hold` after it has been counted down for this substep, so to one more.
 const uint line_hold_contact = line_hold_count + 1u;
 
 #ifdef __cplusplus

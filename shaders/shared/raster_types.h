@@ -1,5 +1,5 @@
-// Structs that the raster shaders and the C++ side share. std430; every member's offset is compared
-// with the SPIR-V when a pass is recorded. Colours are linear, lengths in metres.
+// Structs that the raster shaders and the C++ side share, in std430; every member's offset is compared with the SPIR-V
+// when a pass is recorded. Colours are linear, lengths in metres.
 #ifndef DRAPE_RASTER_TYPES_H
 #define DRAPE_RASTER_TYPES_H
 
@@ -14,26 +14,26 @@ const int light_limit = 4;
 /// Texels of the square shadow map's side.
 const int shadow_map_size = 512;
 
-/// Its depth runs from 0 to 1 over eight radii of what it holds, a texel is two radii over the number of texels.
+/// The shadow map's depth, 0 to 1, spans eight radii of the scene; a texel is two radii over the number of texels.
 const float shadow_texels_per_depth = 4.0f * float(shadow_map_size);
 
-/// The floor (include/floor.h) in its own coordinates, in which y is its normal: a place on it is (x, 0, z).
+/// The floor (include/floor.h) in its own coordinates, in which y is its normal and a place on it is (x, 0, z).
 struct FloorConstants {
     vec4 ray[3];     // xyz: direction of sight at a pixel's place (x, y): [0] + x [1] + y [2], of any length
     vec4 eye;        // xyz: camera position; w: distance of the grid's lines, m
     vec4 shadow[3];  // xyz: texel x, y and depth in the shadow map, as dot(xyz, (x, z, 1))
     vec4 fade;       // xyz: centre of its fade into the backdrop; w: radius, m
-    vec4 steady;     // xyz: radiance but for the first light's; w: depth in the map from texel to texel along x
+    vec4 steady;     // xyz: radiance without the first light's; w: depth in the map from texel to texel along x
     vec4 first;      // xyz: radiance by the first light, where it arrives; w: depth from texel to texel along y
 };
 
-/// What all draws of a frame share.
+/// Constants that all draws of a frame share.
 struct FrameConstants {
     vec4 clip_from_world[4];    // rows
     vec4 shadow_from_world[3];  // rows: x, y in texels, z 0 (near the light) .. 1
     vec4 eye;                   // xyz: camera position; w: 0
     vec4 ambient;               // xyz: of the sky, linear; w: size of a shadow texel, m
-    vec4 ground;                // xyz: ambient from below, linear; w: 0
+    vec4 ground;                // xyz: ambient of the sky, linear; w: size of a shadow texel, m
     vec4 background;            // xyz: radiance; w: height of the picture, pixels
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
     vec4 to_light[4];           // xyz: unit, towards the light
@@ -42,7 +42,7 @@ struct FrameConstants {
     FloorConstants floor;
 };
 
-// What `ClothPush::grid.z` says.
+// Values of `ClothPush::grid.z`.
 const int pattern_plain = 0;
 const int pattern_checker = 1;
 const int pattern_stripes = 2;
@@ -55,18 +55,18 @@ struct ClothPush {
     vec4 second;  // the pattern's other colour, on both sides
 };
 
-/// Colours of a heat map, at even places from its low end to its high end.
+/// Number of colours of a heat map, at even places from its low end to its high end.
 const int heat_color_count = 256;
 
-// Which springs a heat map looks at.
+// Springs that a heat map looks at.
 const int strain_of_both = 0;  // the most stretched
-const int strain_of_warp = 1;  // along columns, whichever way it is strained most
+const int strain_of_warp = 1;  // along columns; strain of either sign counts
 const int strain_of_weft = 2;  // along rows
 
 struct StrainPush {
     uvec4 grid;    // columns, rows; z, w unused
     vec4 springs;  // x, y: rest lengths along columns, rows, m, 0: no such springs; z unused; w: thickness, m
-    vec4 place;    // on the heat map: x strain + y; z, w unused
+    vec4 place;    // x strain + y: place on the heat map; z, w unused
 };
 
 #ifdef __cplusplus

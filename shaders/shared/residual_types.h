@@ -1,4 +1,4 @@
-// Structs of the passes that decide whether a substep needs another iteration, shared by GLSL and C++. std430.
+// Structs of the passes that decide whether a substep needs another iteration, shared by GLSL and C++, in std430.
 #ifndef DRAPE_RESIDUAL_TYPES_H
 #define DRAPE_RESIDUAL_TYPES_H
 
@@ -11,8 +11,8 @@ namespace drape::glsl {
 /// Rows of particles that one invocation joins before its workgroup does.
 const int residual_rows = 8;
 
-/// Different sizes that the dispatches of one cloth's iterations may have. The iteration state is an array of uvec4:
-/// so many VkDispatchIndirectCommands (w unused), then x: the iterations that the frame has run.
+/// Different sizes that the dispatches of one cloth's iterations may have. The iteration state is an array of uvec4: so
+/// many VkDispatchIndirectCommands (w unused), then x: the iterations that the frame has run.
 const int iteration_size_count = 16;
 
 struct ResidualPush {
@@ -23,8 +23,8 @@ struct ResidualPush {
 
 struct IterationPush {
     int partial_count;
-    float squared_tolerance;  // of the RMS stretch error
-    int first_check;          // 1: the frame's first
+    float squared_tolerance;  // square of the tolerance of the RMS stretch error
+    int first_check;          // 1: the frame's first check
     int substep_count;
 };
 

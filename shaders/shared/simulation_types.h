@@ -1,4 +1,4 @@
-// Structs that the simulation's shaders and the C++ side share. std430; every member's offset is compared with the
+// Structs that the simulation's shaders and the C++ side share, in std430; every member's offset is compared with the
 // SPIR-V when a pass is recorded (struct_layout.h).
 #ifndef DRAPE_SIMULATION_TYPES_H
 #define DRAPE_SIMULATION_TYPES_H
@@ -11,10 +11,10 @@ namespace drape::glsl {
 
 /// Workgroups are rows along x: 64x1 is among the best shapes on the default device and coalesces on GPUs.
 const int workgroup_width = 64;
-/// Bytes: rows of a state image's buffer view begin at multiples of it (include/state_store.h).
+/// Rows of a state image's buffer view begin at multiples of so many bytes (include/state_store.h).
 const int state_row_alignment = 64;
 
-/// One parity pass of one spring direction (engine/cloth/directions.h).
+/// Push constants of one parity pass of one spring direction (engine/cloth/directions.h).
 struct SpringPush {
     ivec2 grid;           // columns, rows
     ivec2 pair_count;     // springs of this pass along columns, rows
@@ -23,19 +23,19 @@ struct SpringPush {
     int parity;           // 0 even, 1 odd
     float rest_length;    // m
     float compliance;     // m_inner / (k h^2), dimensionless; 0 = rigid
-    int channel;          // of the spring shares: row, column, shear down-right, shear down-left
+    int channel;          // index into the spring shares: row, column, shear down-right, shear down-left
     int first_iteration;  // 1: the tension starts at zero (it is written, not read)
     float compression;    // share of a spring's stiffness where it is pushed together
     int unused;
 };
 
-/// All passes of an iteration at once (sweep.comp). Vectors over the spring directions.
-struct SweepPush {
+/// Push constants of all passes of an iteration at once (spring_stream.comp). Vectors are over the spring directions.
+struct AllSpringsPush {
     ivec2 grid;
-    float compression;  // as SpringPush
+    float compression;  // as in SpringPush
     float unused;
     vec4 rest_length;  // m
-    vec4 compliance;   // as SpringPush
+    vec4 compliance;   // as in SpringPush
 };
 
 struct ForcePush {
@@ -45,7 +45,7 @@ struct ForcePush {
     vec4 gravity_step;   // xyz: phi h^2 g, metres; w unused
 };
 
-/// Vectors over the spring directions: row, column, shear down-right, shear down-left.
+/// Vectors are over the spring directions: row, column, shear down-right, shear down-left.
 struct ExplicitPush {
     ivec2 grid;
     float damping_loss;       // q = 1 - exp(-c h)
@@ -59,29 +59,29 @@ struct ExplicitPush {
     vec4 compression;         // x: share of a spring's stiffness where it is pushed together; yzw unused
 };
 
-/// One colour of the bending elements of one axis (engine/cloth/directions.h).
+/// Push constants of one colour of the bending elements of one axis (engine/cloth/directions.h).
 struct BendPush {
     ivec2 grid;
     ivec2 element_count;  // elements of this pass along columns, rows
     ivec2 axis;           // (1, 0): three particles of a row, (0, 1): of a column
     int colour;           // 0, 1, 2
-    int channel;          // of the spring shares: 0 row, 1 column
+    int channel;          // index into the spring shares: 0 row, 1 column
     float compliance;     // m_inner / (b h^2), dimensionless, > 0
 };
 
-/// The twist of one colour of the cells (engine/cloth/directions.h).
+/// Push constants of the twist of one colour of the cells (engine/cloth/directions.h).
 struct TwistPush {
     ivec2 grid;             // columns, rows
     ivec2 element_count;    // cells of this pass along columns, rows
-    ivec2 first;            // its first cell
+    ivec2 first;            // first cell of the colour
     float compliance;       // m_inner / (t h^2), dimensionless, > 0
     float compliance_bdf2;  // (9/4) (1 + (2/3) c h) m_inner / (t h^2)
 };
 
-/// All colours at once (twist_sweep.comp).
-struct TwistSweepPush {
+/// Push constants of the twist of all colours at once (twist_stream.comp).
+struct AllTwistPush {
     ivec2 grid;
-    float compliance;  // as TwistPush
+    float compliance;  // as in TwistPush
     float compliance_bdf2;
 };
 
@@ -91,14 +91,14 @@ struct WindPush {
     float inverse_step;      // 1 / h
     float drag_coefficient;  // air_density (Cd - Cl) / 2
     float lift_coefficient;  // air_density Cl / 2
-    float area_limit;        // m^2: what a triangle offers the wind at most, twice its area at rest
+    float area_limit;        // m^2, largest area of a triangle that the wind feels, twice its area at rest
     float unused;
 };
 
 struct CollisionPush {
-    vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction
-                   // coefficient; z: depth, m, under which a contact asks for no further round; w: of an
-                   // overlap that was there before, m that a substep resolves
+    vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction coefficient; z:
+                   // depth, m, under which a contact asks for no further round; w: m that a substep resolves of an
+                   // overlap that was there before
     ivec2 grid;    // columns, rows
     int first;     // first collider of this substep
     int unused;
@@ -110,18 +110,18 @@ struct PinPush {
 };
 
 struct ReleasePush {
-    vec4 relative_stiffness;  // k h^2/m_inner by direction, of springs whose tension is stored
+    vec4 relative_stiffness;  // k h^2/m_inner by direction, for springs whose tension is stored
     ivec2 grid;
     int particle_count;
     int motion_first;  // first motion of this substep
     float reach;       // the cloth's diagonal, m
 };
 
-/// Of the stretch springs: along a row (x), along a column (y).
+/// Vectors are over the stretch springs: along a row (x), along a column (y).
 struct TensionPush {
     ivec2 grid;
     vec2 rest_length;      // m; 0: no springs
-    vec2 used_share;       // of the stiffness asked for that the micro-step uses
+    vec2 used_share;       // share that the micro-step uses of the stiffness asked for
     float strain_damping;  // kappa
     float compression;     // share of a spring's stiffness where it is pushed together
 };
@@ -136,8 +136,8 @@ struct PinnedParticle {
     ivec4 index;  // column, row, motion, 0
 };
 
-/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). From its release on h times its velocity
-/// then, m.
+/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). From the pin's release on x is h times the
+/// velocity that it then had, m.
 struct PinMotion {
     vec4 row_x, row_y, row_z;
     vec4 held;  // x: 1 while held at the start of this substep, 0 from its release on; y: how many substeps ago that

@@ -1,4 +1,4 @@
-// Structs of the statistics passes, shared by GLSL and C++. std430.
+// Structs of the statistics passes, shared by GLSL and C++, in std430.
 #ifndef DRAPE_STATISTICS_TYPES_H
 #define DRAPE_STATISTICS_TYPES_H
 
@@ -8,13 +8,13 @@
 namespace drape::glsl {
 #endif
 
-/// Rows of particles that one invocation of the statistics joins; such records that a workgroup then joins, by a tree
-/// over its lanes at the end. That tree costs the default device what a few hundred particles do, so that a workgroup
-/// each for the first ones took as long for it as for the particles.
+/// Rows of particles that one invocation of the statistics joins, and such records that a workgroup then joins, by a
+/// tree over its lanes at the end. The tree costs the default device as much as a few hundred particles, so that with a
+/// workgroup for each of the first ones it took as long as the particles.
 const int statistics_rows = 32, statistics_chunk = 4096;
 
-/// What the statistics of a cloth are computed with. Vectors over the spring directions: row, column, shear
-/// down-right, shear down-left.
+/// Push constants of a cloth's statistics. Vectors are over the spring directions: row, column, shear down-right, shear
+/// down-left.
 struct StatisticsPush {
     vec4 rest_length;     // m; 0: the cloth has no springs of this direction
     vec4 half_stiffness;  // N/m, k/2; 0: rigid, stores no energy
@@ -27,7 +27,7 @@ struct StatisticsSumPush {
     int partial_count;
 };
 
-/// Statistics of a particle and its springs, of a part of a column, of a cloth: joined by include/statistics.h.
+/// Statistics of a particle and its springs, of a part of a column, or of a cloth; include/statistics.h joins them.
 struct StatisticsRecord {
     vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |h v|^2, m^2
     vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)

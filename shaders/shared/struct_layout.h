@@ -1,6 +1,6 @@
-// C++ only. The layout of a struct that GLSL and C++ share (this folder), derived from the C++ type, so that nobody
-// retypes its members: how many initializers the aggregate takes says how many members it has, a structured binding
-// where they are.
+// The layout of a struct that GLSL and C++ share (this folder), for C++ only. It is derived from the C++ type, so that
+// nobody retypes its members: the number of initializers that the aggregate takes gives the number of members, a
+// structured binding gives their places.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ namespace drape::glsl {
 struct StructLayout {
     std::string_view name;               ///< without its namespaces
     std::uint32_t size;                  ///< sizeof
-    std::vector<std::uint32_t> offsets;  ///< of the members, in order; a scalar or vector has none
+    std::vector<std::uint32_t> offsets;  ///< one per member, in order; none for a scalar or vector
 };
 
 namespace detail {
 
-/// Converts to whatever a member is.
+/// Converts to the type of any member.
 template <std::size_t>
 struct Anything {
     template <class T>
@@ -44,7 +44,7 @@ constexpr bool takes(std::index_sequence<Before...>, std::index_sequence<After..
     return requires { T{Anything<Before>{}..., {Anything<0>{}}, Anything<After>{}...}; };
 }
 
-/// Initializers that the member beginning with initializer `First` of `All` stands for: an array's elements, else 1.
+/// Initializers for the member that begins with initializer `First` of `All`: an array's elements, else 1.
 template <class T, std::size_t First, std::size_t All, std::size_t Length = 1>
 constexpr std::size_t member_length() {
     if constexpr (takes<T>(std::make_index_sequence<First>{}, std::make_index_sequence<All - First - Length>{}))
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> member_offsets() {
 template <class T, class... Others>
 constexpr bool is_one_of = (std::is_same_v<T, Others> || ...);
 
-/// "Collider" of drape::glsl::Collider.
+/// Returns "Collider" for drape::glsl::Collider.
 template <class T>
 constexpr std::string_view type_name() {
     std::string_view name = __PRETTY_FUNCTION__;  // "... [with T = drape::glsl::Collider; ...]"

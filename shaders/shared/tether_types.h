@@ -1,4 +1,4 @@
-// Tethers of the particles, shared by shaders and C++. std430.
+// Tethers of the particles, shared by shaders and C++, in std430.
 #ifndef DRAPE_TETHER_TYPES_H
 #define DRAPE_TETHER_TYPES_H
 
@@ -8,8 +8,8 @@
 namespace drape::glsl {
 #endif
 
-/// Of one particle: the two held particles (row * columns + column, -1 = none) that it cannot leave farther than the
-/// lengths (m) behind.
+/// Two held particles (row * columns + column, -1 = none), and the lengths (m) that one particle cannot be farther from
+/// them.
 struct ParticleTethers {
     int anchor_a, anchor_b;
     float length_a, length_b;

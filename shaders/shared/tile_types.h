@@ -1,4 +1,4 @@
-// Shapes of the tiles of explicit micro-steps (explicit_tile.comp) and of relaxation (sweep_tile.comp).
+// Shapes of the tiles of explicit micro-steps (explicit_tile.comp) and of relaxation (spring_tile.comp).
 #ifndef DRAPE_TILE_TYPES_H
 #define DRAPE_TILE_TYPES_H
 
@@ -7,10 +7,10 @@ namespace drape::glsl {
 #endif
 
 const int tile_width = 32;  // particles a side, an invocation each
-// Of them at every side of no use; none where a tile holds the whole cloth: one per micro-step; in relaxation one per
-// pass that leads along the side's normal.
-const int tile_halo = 4, sweep_tile_halo = 6;
-const int tile_most_steps = 64;  // of a cloth that one tile holds
+// Particles at every side of a tile that are of no use, none where a tile holds the whole cloth: one per micro-step, in
+// relaxation one per pass that leads along the side's normal.
+const int tile_halo = 4, spring_tile_halo = 6;
+const int tile_most_steps = 64;  // most micro-steps of a cloth that one tile holds
 
 #ifdef __cplusplus
 }  // namespace drape::glsl

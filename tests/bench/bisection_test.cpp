@@ -6,7 +6,7 @@
 namespace drape::bench {
 namespace {
 
-/// Counts measured beyond the sweep's until nothing is left to measure, where `fewest` and more keep the limit.
+/// Returns the counts measured beyond the sweep's until nothing is left, where `fewest` and more keep the limit.
 std::vector<std::uint32_t> measured(std::vector<std::uint32_t> sweep, std::uint32_t fewest) {
     std::vector<SweepPoint> points;
     for (const std::uint32_t count : sweep) points.push_back({count, count >= fewest});

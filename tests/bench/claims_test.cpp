@@ -1,4 +1,4 @@
-// Who is soonest at equal error, and which limits hold.
+// The claims name the soonest method at equal error, and tell which limits hold.
 #include "bench/claims.h"
 
 #include <gtest/gtest.h>

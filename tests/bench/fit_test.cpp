@@ -1,4 +1,4 @@
-// Orders of convergence by least squares.
+// Orders of convergence are fitted by least squares.
 #include "bench/fit.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "bench/measure.h"
 #include "bench/problem.h"
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "output/temporary_folder.h"
 #include "reference/closed_forms.h"
 
@@ -57,7 +57,7 @@ struct Evaluated {
     Metrics exact, wrong;
 };
 
-/// Of a run whose samples are the reference's own states, and of one whose particles are all `offset` m off.
+/// Evaluates a run whose samples are the reference's own states, `offset` m off.
 Evaluated evaluated(const std::string& name, std::uint32_t size, double offset) {
     const TemporaryFolder folder;
     References references(folder.path(), [](const std::string&) {}, {});

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The number of elements; throws unless tags nest, attributes are quoted and text is escaped.
+/// Returns the number of elements; throws unless tags nest, attributes are quoted and text is escaped.
 std::size_t element_count(const std::string& xml) {
     static const std::regex token("<(/?)([A-Za-z]+)((?: [A-Za-z0-9-]+=\"[^\"<&]*\")*)(/?)>|([^<]+)");
     static const std::regex text("([^<>&]|&(amp|lt|gt|quot);)*");

@@ -1,11 +1,11 @@
-// Results as a run would make them, for tests of what is done with them.
+// Makes results as a run would, for tests of what is done with them.
 #pragma once
 
 #include "bench/bench_case.h"
 
 namespace drape::bench::test {
 
-/// swing/64/METHOD/SUBSTEPS with these errors; as many passes as substeps.
+/// A result of swing/64/METHOD/SUBSTEPS with these errors and as many passes as substeps.
 inline CaseResult swing_result(SolverMethod method, std::uint32_t substeps, double milliseconds, double position,
                                double stretch, std::uint32_t iterations = 1) {
     CaseResult result;

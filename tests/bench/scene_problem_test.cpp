@@ -1,4 +1,4 @@
-// A user's scene against its own refined runs: the reference is right within what it says, and disagreement is seen.
+// A user's scene is judged by its own refined runs: the reference errs by its estimate, and disagreement is seen.
 #include "bench/scene_problem.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 namespace drape::bench {
 namespace {
 
-/// A sheet that swings from its upper edge, 0.2 s.
+/// A sheet swings from its upper edge for 0.2 s.
 SceneDescription swinging_sheet() {
     SceneDescription scene = model_scenes::sheet(9, 7, 1, 0.8, 1);
     Cloth& cloth = scene.cloths[0];
@@ -39,7 +39,7 @@ RefinementOptions options(std::uint32_t most_substeps) {
 
 TEST(SceneReferenceTest, IsAsFarFromTheExactMotionAsItSays) {
     const SceneDescription scene = swinging_sheet();
-    const Device device("cpu", Validation::count);
+    const Device device("", Validation::count);
     const ReferenceRun run = refined_scene(device, scene, options(128));
     ASSERT_EQ(run.times.size(), 12u);
     EXPECT_DOUBLE_EQ(run.times.back(), 0.2);
@@ -76,7 +76,7 @@ UserScene two_cloths() {
 }
 
 TEST(SceneProblemTest, SweepsEveryMethodAndAutoWithNamesOfTheirOwn) {
-    const Problem problem = user_problem(two_cloths(), Device("cpu"), options(64), std::array{1e-3}, false);
+    const Problem problem = user_problem(two_cloths(), Device(), options(64), std::array{1e-3}, false);
     std::set<std::string> names;
     std::set<SolverMethod> seen;
     for (const Sweep& sweep : problem.sweeps)
@@ -92,8 +92,8 @@ TEST(SceneProblemTest, ErrorsAreOverTheParticlesOfAllCloths) {
     const UserScene user = two_cloths();
     const TemporaryFolder folder;
     References references(folder.path(), [](const std::string&) {}, {});
-    const Problem problem = user_problem(user, Device("cpu", Validation::count), options(64), {}, true);
-    const ReferenceRun reference = refined_scene(Device("cpu"), user.scene, options(64));
+    const Problem problem = user_problem(user, Device("", Validation::count), options(64), {}, true);
+    const ReferenceRun reference = refined_scene(Device(), user.scene, options(64));
     ASSERT_EQ(reference.states[0].position.size(), 9u * 7 + 4 * 3);
     Recording run{user.scene, {{0, {}, {}}}};
     for (std::uint32_t k = 0; k < reference.times.size(); ++k)

@@ -1,4 +1,4 @@
-// Cases, tables, fits and plots of `drape bench speed`, on made-up times.
+// Cases, tables, fits and plots of `drape bench speed` are checked on made-up times.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(SpeedResults, RatiosAreOfMediansAndNoneWithoutBoth) {
 
 TEST(SpeedResults, ScalingIsFittedToMillisecondsPerSubstepFrom64On) {
     std::vector<SpeedResult> results{sheet_result(32, 100, 100)};
-    // Twice as many substeps a frame below 1024: what counts is the substep.
+    // Frames below 1024 have twice as many substeps, since the fit is to the time per substep.
     for (const std::uint32_t size : {64u, 256u, 1024u}) {
         const double particles = double(size) * size, substeps = size < 1024 ? 8 : 2;
         results.push_back(sheet_result(size, substeps * 1e-4 * particles, substeps * 1e-6 * std::pow(particles, 1.2)));
@@ -101,22 +101,22 @@ TEST(SpeedReport, SkipsSayWhatTheySave) {
     EXPECT_THAT(speed_json(report), HasSubstr("\"skipped\": \"a.json: pictures\""));
 }
 
-TEST(SpeedReport, SchedulesSayWhichIsTakenAndWhichIsTheFastest) {
-    SpeedCase about{.name = "schedule/line/64", .kind = SpeedKind::schedule};
+TEST(SpeedReport, KernelsSayWhichAreTakenAndWhichAreTheFastest) {
+    SpeedCase about{.name = "kernels/line/64", .kind = SpeedKind::kernels};
     const SpeedReport report =
-        report_of({{about, "images", {time_of("frame", 8), time_of("images", 8), time_of("buffers", 4)}}});
+        report_of({{about, "plain", {time_of("frame", 8), time_of("plain", 8), time_of("buffer_store", 4)}}});
     EXPECT_THAT(speed_text(report),
-                testing::ContainsRegex("schedule/line/64 +1.0000 +0.5000 +- +- +- +images +buffers +2.00"));
-    EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"images\""));
+                testing::ContainsRegex("kernels/line/64 +1.0000 +0.5000 +- +- +- +buffer_store +2.00 +plain"));
+    EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"plain\""));
 }
 
-TEST(SpeedCases, OfSchedulesAreThoseOfSheetsAndCloths) {
+TEST(SpeedCases, OfKernelsAreThoseOfSheetsAndCloths) {
     std::set<std::string> names;
-    for (const SpeedCase& each : schedule_cases(true)) {
-        EXPECT_EQ(each.kind, SpeedKind::schedule);
+    for (const SpeedCase& each : kernel_cases(true)) {
+        EXPECT_EQ(each.kind, SpeedKind::kernels);
         EXPECT_TRUE(names.insert(each.name).second) << each.name;
     }
-    for (const char* name : {"schedule/explicit/32", "schedule/relax/256", "schedule/line/32/64 cloths"})
+    for (const char* name : {"kernels/explicit/32", "kernels/relax/256", "kernels/line/32/64 cloths"})
         EXPECT_TRUE(names.contains(name)) << name;
 }
 
@@ -142,7 +142,7 @@ TEST(SpeedReport, PlotsHaveUnitsAndASeriesPerSide) {
 TEST(Budget, LetsBeginWhatWillEndInTime) {
     Budget free(std::nullopt, 1);
     EXPECT_TRUE(free.allows(1e9));
-    Budget budget(1, 0.1);  // a minute; a tenth of a second per unit at first
+    Budget budget(1, 0.1);  // a minute in all, and a tenth of a second per unit at first
     EXPECT_TRUE(budget.allows(500));
     EXPECT_FALSE(budget.allows(700));
     budget.done(100, 100);

@@ -1,4 +1,4 @@
-// The stability benchmark: its cases, and a judge that sees what is wrong.
+// The stability benchmark has the right cases, and its judge sees what is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +53,6 @@ TEST(StabilityCases, MixesAndRandomScenesAreThoseOfTheSeed) {
     EXPECT_EQ(drawn, 53u);
 }
 
-/// A frame of the base scene as it starts.
 struct Seen {
     explicit Seen(std::vector<std::string> overrides = {})
         : model(read_scene_text(base_scene(), "base", overrides).scene.value()), judge(model) {
@@ -99,12 +98,12 @@ TEST(StabilityJudgeTest, SeesEachThingThatIsWrong) {
     EXPECT_THAT(found([](Seen& seen) { seen.statistics.largest_distance = 30; }), HasSubstr("distance"));
     EXPECT_THAT(found([](Seen& seen) { seen.statistics.largest_distance = NAN; }), HasSubstr("distance"));
     EXPECT_THAT(found([](Seen& seen) {
-                    seen.positions[4] = std::nextafter(seen.positions[4], 9.0f);  // of a pinned particle, by a bit
+                    seen.positions[4] = std::nextafter(seen.positions[4], 9.0f);  // a pinned particle, moved by a bit
                 }),
                 HasSubstr("pins"));
     EXPECT_THAT(found([](Seen& seen) { seen.statistics.stretch_error_max = 0.3; }), HasSubstr("stretch"));
     EXPECT_THAT(found([](Seen& seen) {
-                    seen.statistics.stretch_error_max = 0.3;  // an impact: over soon
+                    seen.statistics.stretch_error_max = 0.3;  // an impact that is over soon
                     seen.after(2);
                     seen.statistics.stretch_error_max = 0;
                 }),
@@ -112,7 +111,7 @@ TEST(StabilityJudgeTest, SeesEachThingThatIsWrong) {
 }
 
 TEST(StabilityJudgeTest, WhatIsThrownMayFlyAsFastAsThatExplains) {
-    // The distance of the last of 60 frames over what is allowed, after so much stretch in the one before.
+    // Returns the distance of the last of 60 frames over the allowed one, after so much stretch in the frame before.
     const auto found = [](std::vector<std::string> overrides, double distance, double stretch, double error = 0) {
         overrides.push_back(R"(/cloths/0/pins=[{"edge":"top","release":0.3}])");
         Seen seen(overrides);
@@ -127,14 +126,14 @@ TEST(StabilityJudgeTest, WhatIsThrownMayFlyAsFastAsThatExplains) {
     const std::vector<std::string> windy{"/wind/velocity=[300,0,0]"};
     EXPECT_LT(found(windy, 500, 0), 1);  // 300 m/s against the wind, turned by lift: at most 600 m/s
     EXPECT_GT(found(windy, 620, 0), 1);
-    // 12 m in 0.15 s, at most 150 m/s; let go, 71 m/s (sqrt(1000/0.2)) per strain of 1.
+    // The ball moves 12 m in 0.15 s, at most at 150 m/s; cloth let go makes 71 m/s (sqrt(1000/0.2)) per strain of 1.
     const std::vector<std::string> pushed{
         R"(/colliders/spheres=[{"center":[0,0.8,-6],"radius":0.1,"path":[{"t":0.2},{"t":0.35,"translate":[0,0,12]}]}])"};
     EXPECT_LT(found(pushed, 120, 0), 1);
     EXPECT_GT(found(pushed, 300, 0), 1);
     EXPECT_LT(found(pushed, 300, 5), 1);
     EXPECT_GT(found(pushed, 300, 5, 5), 1);  // stretch that is the solver's error explains nothing
-    EXPECT_GT(found({}, 300, 5), 1);         // nor does any where nothing moves
+    EXPECT_GT(found({}, 300, 5), 1);         // nor does any stretch where nothing moves
 }
 
 TEST(StabilityJudgeTest, EnergyMassAndPenetrationAreBreaches) {

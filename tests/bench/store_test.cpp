@@ -1,4 +1,4 @@
-// Finished cases on disk: what comes back, and what a broken file costs.
+// Finished cases come back from disk with every digit, and lines that are no results are left out.
 #include "bench/store.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a trial of `auto` keeps and concludes.
+// Results of trials of `auto` come back whole, and their judgement and text are right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(TrialTest, TheTextSaysWhatHappened) {
     results[2].name = "b/1/2";
     results[2].numbers["missed_frames"] = 5;
     results[2].numbers["worst_stretch_error"] = 0.2;
-    results[3].numbers["reference_error"] = 0.009;  // the true error is hardly told
+    results[3].numbers["reference_error"] = 0.009;  // too small to tell the true error well
     results[4].outcome = TrialOutcome::impossible;
     const std::string text = trial_text(results);
     EXPECT_THAT(text, HasSubstr("b/1/1 tolerance missed: the ladder ends\n"));

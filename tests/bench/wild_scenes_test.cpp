@@ -1,4 +1,4 @@
-// The scenes that `auto` is judged by: the same every time, all that a scene may hold, and nothing that cannot be.
+// The scenes that `auto` is judged by are the same every time, hold all that a scene may hold, and nothing impossible.
 #include "bench/wild_scenes.h"
 
 #include <gmock/gmock.h>
@@ -68,7 +68,7 @@ TEST(WildScenesTest, HoldAllThatASceneMayHold) {
     EXPECT_GT(heaviest, 0.8);
 }
 
-/// How far pins end apart, over how far they start: 1 but for pulled cloth.
+/// Returns the pins' distance at the end over that at the start, which is 1 but for pulled cloth.
 double pulled_to(const Cloth& cloth) {
     if (cloth.pins.size() != 2 || cloth.pins[0].path.moves() || !cloth.pins[1].path.moves()) return 1;
     const bool sideways = cloth.pins[1].particles.first[0] > 0 && cloth.pins[1].particles.first[1] == 0;
@@ -95,7 +95,7 @@ TEST(WildScenesTest, HoldNothingThatCannotBe) {
     EXPECT_GT(pulled_count, scene_count / 20);
 }
 
-/// Particles that start within a collider, of any cloth.
+/// Counts the particles, of any cloth, that start within a collider.
 std::size_t buried_count(const SceneDescription& scene) {
     std::size_t count = 0;
     const SimulationModel model(scene);

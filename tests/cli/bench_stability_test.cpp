@@ -1,4 +1,4 @@
-// `drape bench stability` as a user runs it.
+// `drape bench stability` runs as a user runs it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(BenchStability, JudgesExtremesAndGoesOnWhereItEnded) {
         "--svg", folder / "maps"};
     const Outcome first = drape(arguments);
     EXPECT_EQ(first.code, 0) << first.err;
-    // Also what starts on a point finds its way out, by every method.
+    // Cloth that starts on a point finds its way out, too, by every method.
     EXPECT_THAT(first.out, AllOf(HasSubstr("base                    A     holds       holds       holds       holds"),
                                  HasSubstr("start point             B     holds       holds       holds       holds"),
                                  HasSubstr("mass 0                  C     refuses     refuses     refuses     refuses"),

@@ -1,4 +1,4 @@
-// `drape bench accuracy` as a user runs it: files, exit codes, what a second run does not do again.
+// `drape bench accuracy` runs as a user runs it: files, exit codes, and cases that a second run does not do again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
     EXPECT_THAT(read_text(folder / "a.csv"), HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
     EXPECT_EQ(names_in(folder / "plots"), std::set<std::string>{"free_fall_substeps.svg"});
 
-    // Without the last line, which a kill may have cut short, one case is missing.
+    // The last line, which a kill may have cut short, is taken away, so that one case is missing.
     std::string kept = read_text(folder / "b/results.jsonl");
     write_text(folder / "b/results.jsonl", kept.substr(0, kept.size() - 20));
     const Outcome second = drape(arguments);

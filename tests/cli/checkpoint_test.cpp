@@ -1,5 +1,5 @@
-// Killed runs go on from their checkpoints to the bytes of a run that was never disturbed; what is no such checkpoint
-// is refused, and nothing is changed.
+// Killed runs go on from their checkpoints to the bytes of a run that was never disturbed; a file that is no such
+// checkpoint is refused, and nothing is changed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// Method auto, a ball that flies through, a pin that lets go, a blade, two cloths. What flaps after the pin let go
-/// would take 2048 substeps at the default tolerance of motion; so it takes 12 to 96, and frames are redone all the
-/// same.
+/// Method auto, a ball that flies through, a pin that lets go, a blade, two cloths. The cloth that flaps after the pin
+/// let go would take 2048 substeps at the default tolerance of motion; so substeps are 12 to 96, and frames are redone
+/// all the same.
 std::string eventful_scene(int frame_count) {
     return fmt::format(R"({{
   "time": {{"fps": 60, "frames": {}}},
@@ -46,7 +46,7 @@ std::string eventful_scene(int frame_count) {
                        frame_count);
 }
 
-/// The frames that checkpoints in the folder go on from, ascending.
+/// Returns the frames from which checkpoints in the folder go on, ascending.
 std::vector<int> checkpoints_in(const fs::path& folder) {
     std::vector<int> frames;
     if (!fs::exists(folder)) return frames;
@@ -58,7 +58,7 @@ std::vector<int> checkpoints_in(const fs::path& folder) {
 
 std::string checkpoint_name(int frame) { return fmt::format("checkpoint_{:010}.drape", frame); }
 
-/// Starts it and kills it once a checkpoint of frame `least` or later is there; that of the newest one.
+/// Kills the program once a checkpoint of frame `least` or later is there; returns the newest one's frame.
 int kill_after(int least, const SceneFolder& folder, std::vector<std::string> arguments, int signal = SIGKILL) {
     arguments.insert(arguments.end(), {"-q", "--checkpoint", "0"});
     Running program(DRAPE_PROGRAM, arguments);
@@ -71,7 +71,7 @@ int kill_after(int least, const SceneFolder& folder, std::vector<std::string> ar
     EXPECT_EQ(program.wait().code, 128 + signal);
     const auto frames = checkpoints_in(folder.out());
     EXPECT_FALSE(frames.empty());
-    EXPECT_LE(frames.size(), 3u);  // two, and one that was about to go
+    EXPECT_LE(frames.size(), 3u);  // two, and one that was about to be removed
     return frames.empty() ? 0 : frames.back();
 }
 
@@ -137,7 +137,7 @@ TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
     EXPECT_FALSE(fs::exists(folder / "out/journal.drape"));
 }
 
-/// What grows with the frames (arrays, journal) and what does not (pictures, meshes) meet the limit at different times.
+/// Files that grow with the frames (arrays, journal) and others (pictures, meshes) meet the limit at different times.
 TEST(Checkpoint, AFileSizeLimitEndsTheRunWithNothingTornAndItGoesOn) {
     const SceneFolder folder(eventful_scene(30));
     const std::vector<std::string> arguments{"render", folder.scene(), "--export", "npy,npz,obj", "-q"};
@@ -206,7 +206,7 @@ class DamagedCheckpoint : public testing::Test {
         EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot resume"), HasSubstr(why)));
         EXPECT_TRUE(lasting_files() == before) << why;
     }
-    /// All but what the killed run had not finished, which the next one clears away.
+    /// Returns all files but those that the killed run had not finished, which the next one clears away.
     std::map<std::string, std::string> lasting_files() const {
         auto files = everything_below(folder_.out());
         std::erase_if(files, [](const auto& file) { return file.first.find(".tmp-") != std::string::npos; });
@@ -277,7 +277,7 @@ TEST_F(DamagedCheckpoint, SoIsOneWhoseJournalIs) {
     EXPECT_THAT(outcome.err, Not(HasSubstr("checkpoint")));
 }
 
-/// The journal's records as `how` leaves them, with sums that fit.
+/// Returns the journal with its records changed by `how`, and with sums that fit.
 std::string changed_journal(const std::string& text, const std::function<void(JournalRecord&)>& how) {
     ByteReader reader(std::as_bytes(std::span(text)));
     std::uint64_t magic = 0, size = 0, sum = 0;
@@ -316,7 +316,7 @@ TEST_F(DamagedCheckpoint, AJournalOfOtherClothsIsRefusedThoughItsSumsFit) {
     };
     with([](JournalRecord& record) { record.cloth = 2; });
     with([](JournalRecord& record) {
-        if (!record.faces.empty()) record.faces.back() = 90;  // of 10 x 9 particles the last is 89
+        if (!record.faces.empty()) record.faces.back() = 90;  // the last of 10 x 9 particles is 89
     });
     with([](JournalRecord& record) {
         if (record.positions.empty()) return;
@@ -342,7 +342,7 @@ TEST_F(DamagedCheckpoint, NumbersThatNoRunComesToAreRefusedThoughTheSumFits) {
     with(in_loop(4, 0), "the saved state is not of this scene");
     with(in_loop(0, 0xffffffffu), "the saved state is not of this scene");
     with(in_loop(0, 2'000'000), "the saved state is not of this scene");
-    // Together with a record of so many bytes.
+    // The checkpoint and a record of the journal agree on more bytes than there can be.
     change("journal.drape", [](std::string& bytes) {
         std::uint64_t key_length = 0;
         std::memcpy(&key_length, bytes.data() + 12, sizeof key_length);

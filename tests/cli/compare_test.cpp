@@ -1,4 +1,4 @@
-// drape compare: arrays, pictures and folders by their numbers. (Profiles: profile_test.cpp.)
+// drape compare compares arrays, pictures and folders by their numbers. (Profiles: profile_test.cpp.)
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST_F(Compare, PicturesByTheirSignalToNoiseRatio) {
     spot[4 * 4 + 1] = 51;  // green of column 1, row 1
     write_picture(*this / "a.png", 3, black);
     write_picture(*this / "b.png", 3, spot);
-    // Mean square 51^2 / 18: 20 lg(255 / 51) + 10 lg 18 = 26.53 dB.
+    // The mean square is 51^2 / 18: 20 lg(255 / 51) + 10 lg 18 = 26.53 dB.
     const Outcome outcome = run("a.png", "b.png");
     EXPECT_EQ(outcome.code, 7);
     EXPECT_THAT(outcome.out,

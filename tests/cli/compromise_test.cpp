@@ -1,4 +1,4 @@
-// What a method follows only in part is said wherever a user may look, once, with what would be enough.
+// Where a method follows a scene in part only, the run says so wherever a user may look, once, with what is enough.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A sheet whose lower edge is carried through its upper half.
+/// A sheet's lower edge is carried through its upper half.
 const std::string held_across_itself = R"({"name": "across", "gravity": [0, 0, 0], "time": {"frames": 31},
 "cloths": [{"name": "sheet", "grid": [13, 13], "self_collision": {"thickness": 0.03}, "pins": [
   {"edge": "top"}, {"box": [[0, 6], [12, 6]]},

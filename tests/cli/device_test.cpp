@@ -1,8 +1,9 @@
-// Devices, drivers and the validation layer: found, missing, unknown.
+// Devices, drivers and the validation layer are found, missing or unknown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "program.h"
@@ -26,7 +27,7 @@ Json::Value devices() {
     return list;
 }
 
-// Newer loaders read the second name.
+// Older loaders read the first name, newer ones the second.
 const std::vector<std::string> no_driver = {"VK_ICD_FILENAMES=/nowhere/driver.json",
                                             "VK_DRIVER_FILES=/nowhere/driver.json"};
 
@@ -38,16 +39,41 @@ TEST(Devices, AreListedAsTextAndJson) {
     EXPECT_THAT(text.out, AllOf(HasSubstr("0: " + list[0]["name"].asString()), HasSubstr(list[0]["uuid"].asString())));
 }
 
-TEST(Devices, AreChosenByIndexNameAndUuid) {
+TEST(Devices, AreChosenByIndexUuidAndTheEnvironment) {
     const SceneFolder folder(small_scene(1));
+    const auto uuid = [&](const std::vector<std::string>& options, const std::vector<std::string>& environment = {}) {
+        std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "--overwrite"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = drape(arguments, {.environment = environment});
+        EXPECT_EQ(outcome.code, 0) << testing::PrintToString(options) << ": " << outcome.err;
+        return lasting_manifest(folder.out())["device"]["uuid"].asString();
+    };
+    const std::string chosen = uuid({});  // by this program's environment
     const Json::Value list = devices();
-    const std::string uuid = list[0]["uuid"].asString();
-    for (const std::string& selector : {std::string("0"), uuid}) {
-        const Outcome outcome =
-            drape({"simulate", folder.scene(), "-o", folder.out(), "--overwrite", "--device", selector});
-        EXPECT_EQ(outcome.code, 0) << selector << ": " << outcome.err;
-        EXPECT_EQ(lasting_manifest(folder.out())["device"]["uuid"].asString(), uuid);
+    const auto same =
+        std::find_if(list.begin(), list.end(), [&](const Json::Value& one) { return one["uuid"] == chosen; });
+    ASSERT_NE(same, list.end());
+    const std::string index = (*same)["index"].asString();
+    EXPECT_EQ(uuid({"--device", index}), chosen);
+    EXPECT_EQ(uuid({"--device", chosen}), chosen);
+    EXPECT_EQ(uuid({}, {"DRAPE_DEVICE=" + index}), chosen);
+    EXPECT_EQ(uuid({"--device", index}, {"DRAPE_DEVICE=no such device"}), chosen);
+}
+
+TEST(Devices, AnUnknownOneInTheEnvironmentIsRefusedByWhateverNeedsADevice) {
+    const SceneFolder folder(small_scene(2));
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", folder.scene(), "-o", folder.out()},
+          {"simulate", folder.scene(), "-o", folder.out()},
+          {"graph", folder.scene()},
+          {"profile", folder.scene()},
+          {"verify", folder.scene()},
+          {"bench", "accuracy", folder.scene()}}) {
+        const Outcome outcome = drape(arguments, {.environment = {"DRAPE_DEVICE=no such device"}});
+        EXPECT_EQ(outcome.code, 4) << arguments[0];
+        EXPECT_THAT(outcome.err, HasSubstr("DRAPE_DEVICE: no device matches \"no such device\"")) << arguments[0];
     }
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
 }
 
 TEST(Devices, AnUnknownOneListsThoseThereAre) {
@@ -72,7 +98,7 @@ TEST(Devices, WithoutADriverTheErrorSaysWhereOneIs) {
         EXPECT_THAT(outcome.out, IsEmpty());
     }
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("scene.json"));
-    // What needs no device works without one.
+    // Commands that need no device work without one.
     EXPECT_EQ(drape({"check", folder.scene()}, {.environment = no_driver}).code, 0);
     EXPECT_EQ(drape({"schema"}, {.environment = no_driver}).code, 0);
 }

@@ -1,4 +1,4 @@
-// A simulation that is no longer finite: exit code 5, with what came before.
+// A simulation that is no longer finite ends with exit code 5 and keeps the frames before.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Flies 3e38 m in the first second, and out of single precision in the next one.
+// The cloth flies 3e38 m in the first second, and out of single precision in the next one.
 const std::vector<std::string> overflowing = {"--set", "/cloths/0/velocity=[0,-3e38,0]",
                                               "--set", "/time/fps=1",
                                               "--set", "/solver/substeps=1",
@@ -70,7 +70,7 @@ TEST(Divergence, WithNoFrameBeforeLeavesTheReason) {
     EXPECT_EQ(manifest["failed"]["value"], 48);
 }
 
-/// Gravity that one relaxed substep of these springs cannot carry.
+/// One relaxed substep of these springs cannot carry this gravity.
 const std::vector<std::string> absurd = {"--set", "/gravity=[0,-5000,0]", "--set", "/solver/substeps=1"};
 
 std::vector<std::string> simulate_absurd(const SceneFolder& folder) {

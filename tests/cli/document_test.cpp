@@ -1,4 +1,4 @@
-// What the documents promise a reader who follows them.
+// The documents keep their promises to a reader who follows them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 const std::filesystem::path repository = DRAPE_SOURCE_DIR;
 
-/// The fenced blocks of a document in one language.
+/// Returns the fenced blocks of a document in one language.
 std::vector<std::string> blocks(const std::string& document, const std::string& language) {
     std::vector<std::string> found;
     const std::string open = "\n```" + language + "\n", close = "\n```\n";
@@ -29,10 +29,13 @@ std::vector<std::string> blocks(const std::string& document, const std::string& 
     return found;
 }
 
-TEST(FirstScene, EveryStepsSceneIsGoodAndRendersToItsEnd) {
+TEST(FirstScene, EveryDocumentsSceneIsGoodAndRendersToItsEnd) {
     const TemporaryFolder folder;
-    const std::vector<std::string> scenes = blocks(read_text(repository / "engine/docs/first_scene.md"), "json");
-    ASSERT_EQ(scenes.size(), 3u);
+    std::vector<std::string> scenes = blocks(read_text(repository / "README.md"), "json");
+    ASSERT_EQ(scenes.size(), 1u);
+    for (const std::string& scene : blocks(read_text(repository / "engine/docs/first_scene.md"), "json"))
+        scenes.push_back(scene);
+    ASSERT_EQ(scenes.size(), 4u);
     for (const std::string& scene : scenes) {
         SCOPED_TRACE(scene);
         write_text(folder / "my.json", scene);
@@ -46,7 +49,7 @@ TEST(FirstScene, EveryStepsSceneIsGoodAndRendersToItsEnd) {
     }
 }
 
-/// The names of all members, without the cloth that a statistic is of.
+/// Collects the names of all members, without the cloth that a statistic belongs to.
 void collect_names(const Json::Value& value, std::set<std::string>& names) {
     if (value.isObject()) {
         for (const std::string& name : value.getMemberNames()) {

@@ -1,4 +1,4 @@
-// --export: every format beside the others and beside pictures.
+// --export writes every format beside the others and beside pictures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What a newcomer meets: templates, help on commands, "did you mean", completions, the manual page.
+// A newcomer meets templates, help on commands, "did you mean", completions and the manual page.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A program of this machine, found in PATH.
+/// Runs a program of this machine, found in PATH.
 Outcome shell(const std::string& command, const StartOptions& options = {}) {
     return Running("/bin/sh", {"-c", command}, options).wait();
 }
@@ -89,7 +89,7 @@ TEST(Help, OfACommandByItsName) {
     EXPECT_EQ(drape({"-V"}).out, drape({"--version"}).out);
 }
 
-/// What bash offers after these words.
+/// Returns what bash offers after these words.
 std::string bash_offers(const std::string& words) {
     const std::string script = "source <('" DRAPE_PROGRAM "' completions bash); COMP_WORDS=(" + words +
                                "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _drape; printf '%s ' \"${COMPREPLY[@]}\"";

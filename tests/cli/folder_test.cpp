@@ -1,4 +1,4 @@
-// The output folder: what is refused, what is replaced, what is left alone.
+// A folder that is not empty or cannot be made is refused; --overwrite replaces a run and keeps foreign files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(OutputFolderOption, ANonEmptyFolderIsRefused) {
     EXPECT_EQ(everything_below(folder.path()), before);
 }
 
-// Tests may run as root, whom permissions do not stop: /proc takes no folders from anyone.
+// Tests may run as root, whom permissions do not stop; /proc takes no folders from anyone.
 TEST(OutputFolderOption, AFolderThatCannotBeMadeIsRefused) {
     const SceneFolder folder(small_scene(2));
     const auto before = everything_below(folder.path());

@@ -1,4 +1,4 @@
-// `drape profile` and `drape compare` as a user runs them.
+// `drape profile` and `drape compare` run as a user runs them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Profile, ComparesOnlyProfiles) {
     EXPECT_THAT(outcome.err, HasSubstr("scene.json: no profile"));
     EXPECT_EQ(drape({"compare", folder.out("none.json"), folder.scene()}).code, 1);
     EXPECT_EQ(drape({"profile", folder.scene(), "-n", "0"}).code, 2);
-    EXPECT_EQ(drape({"profile", folder.scene(), "--schedule", "fast"}).code, 2);
+    EXPECT_EQ(drape({"profile", folder.scene(), "--kernels", "fast"}).code, 2);
 }
 
 }  // namespace

@@ -21,10 +21,10 @@ std::string content(std::FILE* file) {
     return text;
 }
 
-/// In the child: only calls that are safe after fork.
+/// Runs in the child, with only calls that are safe after fork.
 [[noreturn]] void become(const std::string& program, char* const* arguments, const StartOptions& options, int out,
                          int err) {
-    // What a test ignores must not be ignored in the program.
+    // The program must not ignore the signals that a test ignores.
     for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGXFSZ}) std::signal(signal, SIG_DFL);
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
     for (const std::string& variable : options.environment) putenv(const_cast<char*>(variable.c_str()));

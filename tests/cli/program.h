@@ -1,4 +1,4 @@
-// Starts the real program and captures what it says.
+// Starts the real program and captures its output.
 #pragma once
 
 #include <sys/types.h>
@@ -28,7 +28,7 @@ struct StartOptions {
     std::uint64_t file_size_limit = 0;  ///< bytes; 0: none
 };
 
-/// A running program; killed at the end of the test if it still runs.
+/// A running program is killed at the end of the test if it still runs.
 class Running {
   public:
     Running(const std::string& program, std::vector<std::string> arguments, const StartOptions& options = {});
@@ -51,7 +51,7 @@ class Running {
     bool reap(int flags);
 };
 
-/// `drape` with these arguments, to its end.
+/// Runs `drape` with these arguments to its end.
 Outcome drape(std::vector<std::string> arguments, const StartOptions& options = {});
 
 }  // namespace drape

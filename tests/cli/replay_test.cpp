@@ -1,4 +1,4 @@
-// What failed runs leave goes to the same failure again: frame, words, numbers, exit code.
+// A replay of what a failed run leaves comes to the same failure again: frame, words, numbers, exit code.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// Falls and hangs for a second, then its pins fly off with it.
+/// The cloth falls and hangs for a second, then its pins fly off with it.
 std::string torn_scene(const std::string& solver) {
     return fmt::format(
         R"({{"time": {{"fps": 60, "frames": 120}}, "cloths": [{{"name": "sheet", "grid": [10, 9], "size": [0.5, 0.4],
@@ -22,7 +22,7 @@ std::string torn_scene(const std::string& solver) {
         solver);
 }
 
-/// The failure as the run tells it, up to what became of the files.
+/// Returns the failure as the run tells it, without the words on its files.
 std::string failure_in(const std::string& text) {
     const std::size_t begin = text.rfind("drape: ");
     return begin == std::string::npos ? text : text.substr(begin, text.find_first_of(";\n", begin) - begin);
@@ -48,7 +48,7 @@ TEST_P(Replays, ReachTheSameFailure) {
     EXPECT_EQ(manifest["capsule"], "failure.capsule");
     EXPECT_GT(manifest["failed"]["frame"].asInt(), 5) << "nothing was before it";
     EXPECT_LT(fs::file_size(folder / "out/failure.capsule"), std::uintmax_t{1} << 20);
-    fs::remove(folder.scene());  // the capsule has it
+    fs::remove(folder.scene());  // the capsule holds the scene
     const Outcome replayed = drape({"replay", folder.out() + "/failure.capsule"});
     EXPECT_EQ(replayed.code, GetParam().code) << replayed.err;
     EXPECT_THAT(replayed.err, HasSubstr("the same failure, to the bit:"));

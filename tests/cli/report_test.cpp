@@ -1,4 +1,4 @@
-// The report's page: whole in itself, well-formed, and saying what the manifest says.
+// The report's page needs no other file, is well-formed, and says what the manifest says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What a run leaves: the same bytes every time, the frames that were asked for, arrays that NumPy reads.
+// A run leaves the same bytes every time, the frames that were asked for, and arrays that NumPy reads.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -115,7 +115,7 @@ TEST(Results, AnOverrideChangesTheResultAndIsRecorded) {
     EXPECT_NE(scene["hash"], lasting_manifest(folder / "a")["scene"]["hash"]);
 }
 
-// A scene from a pipe can be read once only; what is run is what is hashed.
+// A scene from a pipe can be read once only, so the text that is run is the one that is hashed.
 TEST(Results, ASceneMayComeFromAPipe) {
     const SceneFolder folder(small_scene(2));
     run({"simulate", folder.scene(), "-o", folder.out("file")});

@@ -1,5 +1,4 @@
-// --resume: an unfinished run becomes, byte for byte, the run that was never disturbed; or nothing is
-// changed.
+// --resume makes an unfinished run, byte for byte, the run that was never disturbed, or changes nothing.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A file that was written anew has another number.
+/// A file that was written anew has another inode number.
 ino_t file_number(const fs::path& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) throw std::runtime_error("no file " + path.string());
@@ -35,7 +34,7 @@ TEST_P(Resume, GivesTheBytesOfAnUndisturbedRun) {
         program.send(GetParam());
         ASSERT_EQ(program.wait().code, 128 + GetParam());
     }
-    // A gap, whatever the moment of the signal.
+    // This makes a gap, whatever the moment of the signal.
     fs::remove(folder / "out/frame_0003.png");
     std::map<int, ino_t> kept;
     for (const int frame : frame_numbers(folder.out())) kept[frame] = file_number(folder / "out" / frame_name(frame));

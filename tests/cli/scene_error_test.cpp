@@ -1,4 +1,4 @@
-// Bad scenes: every error with its place on stderr, the documented exit code, no file touched, no memory
+// Bad scenes end with every error and its place on stderr and the documented exit code; no file is touched, no memory
 // taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,6 @@ TEST_P(BadScenes, AreRefusedAndNothingIsTouched) {
     }
 }
 
-/// A row of pins that are wrong in the same way.
 std::string many_bad_pins(int count) {
     std::string pins;
     for (int k = 0; k < count; ++k) pins += std::string(k > 0 ? "," : "") + "{\"edge\": \"up\"}";
@@ -133,7 +132,7 @@ TEST(Check, ReportsEveryFile) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_EQ(outcome.out, "scene.json: ok\n");
     EXPECT_THAT(outcome.err, HasSubstr("bad.json:1:12: /cloths: expected an array"));
-    // A file that is not there weighs more than one that is wrong.
+    // A missing file weighs more than a wrong one.
     EXPECT_EQ(drape({"check", "absent.json", "bad.json"}, {.folder = folder.path()}).code, 1);
     const Outcome quiet = drape({"check", "-q", "scene.json"}, {.folder = folder.path()});
     EXPECT_EQ(quiet.code, 0);

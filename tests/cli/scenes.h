@@ -1,4 +1,4 @@
-// Small scenes, and what a run left in its folder.
+// Small scenes, and readers of what a run left in its folder.
 #pragma once
 
 #include <json/value.h>
@@ -12,10 +12,9 @@
 
 namespace drape {
 
-/// One cloth of 8 x 6 particles hung by two corners, 4 substeps, 64 x 48 pixels.
+/// A scene of one cloth of 8 x 6 particles hung by two corners, 4 substeps, 64 x 48 pixels.
 std::string small_scene(int frame_count);
 
-/// A folder that holds scene.json.
 class SceneFolder : public TemporaryFolder {
   public:
     explicit SceneFolder(const std::string& scene_text);
@@ -23,17 +22,17 @@ class SceneFolder : public TemporaryFolder {
     std::string out(const std::string& name = "out") const { return (*this / name).string(); }
 };
 
-/// Everything below a folder: relative name -> content; folders end with '/'.
+/// Returns everything below a folder: relative name -> content; folders end with '/'.
 std::map<std::string, std::string> everything_below(const std::filesystem::path& folder);
 
-/// The numbers of the frame_NNNN.png files.
+/// Returns the numbers of the frame_NNNN.png files.
 std::set<int> frame_numbers(const std::filesystem::path& folder);
 std::string frame_name(int frame);
 
-/// manifest.json without what may differ between two runs.
+/// Returns manifest.json without the entries that may differ between two runs.
 Json::Value lasting_manifest(const std::filesystem::path& folder);
 
-/// A whole PNG file (every checksum fits), of this size.
+/// Returns whether a file is a whole PNG of this size, in which every checksum fits.
 bool is_whole_picture(const std::filesystem::path& file, unsigned width, unsigned height);
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM: what is in flight is finished, pictures are whole, and the folder does not look done.
+// SIGINT and SIGTERM let frames in flight finish: pictures are whole, and the folder does not look done.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ TEST_P(Signals, EndARenderWithWholePicturesAndNoManifest) {
     EXPECT_THAT(outcome.err, HasSubstr(std::string("drape: stopped by ") + GetParam().name));
     EXPECT_THAT(outcome.err, HasSubstr("no manifest was written"));
     const std::set<int> frames = frame_numbers(folder.out());
-    // No manifest, no unfinished file, but what it takes to go on.
+    // There is no manifest and no unfinished file, only the two files that the run goes on from.
     EXPECT_EQ(names_in(folder.out()).size(), frames.size() + 2);
     EXPECT_TRUE(names_in(folder.out()).contains("journal.drape"));
     EXPECT_LT(frames.size(), static_cast<std::size_t>(endless));
     int next = 0;
     for (const int frame : frames) {
-        EXPECT_EQ(frame, next++);  // what was in flight was finished: no gaps
+        EXPECT_EQ(frame, next++);  // frames in flight were finished, so there are no gaps
         EXPECT_TRUE(is_whole_picture(folder / "out" / frame_name(frame), 64, 48)) << frame;
     }
 }

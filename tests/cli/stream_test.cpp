@@ -1,4 +1,4 @@
-// Data on stdout, messages on stderr, and what happens when one of them cannot be written.
+// Data go to stdout and messages to stderr, and the run ends properly when one of them cannot be written.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ TEST(Streams, ARunSaysNothingOnStdoutAndQuietSaysNothing) {
     EXPECT_EQ(normal.code, 0);
     EXPECT_THAT(normal.out, IsEmpty());
     EXPECT_THAT(normal.err, AllOf(HasSubstr("frame 1 (2/2, 100 %)"), HasSubstr("2 frames in " + folder.out("a"))));
-    EXPECT_THAT(normal.err, Not(HasSubstr("\x1b")));  // no terminal, no escape sequences
+    EXPECT_THAT(normal.err, Not(HasSubstr("\x1b")));  // without a terminal there are no escape sequences
     const Outcome quiet = drape({"render", folder.scene(), "-o", folder.out("b"), "-q"});
     EXPECT_EQ(quiet.code, 0);
     EXPECT_EQ(quiet.out + quiet.err, "");
@@ -85,8 +85,7 @@ TEST(Streams, AReaderThatLeftEndsItWithoutAWord) {
     EXPECT_THAT(outcome.err, IsEmpty());
 }
 
-// Else the first files that are opened get the numbers of stdout and stderr, and the messages written into
-// them.
+// A file opened while stdout or stderr is closed would get its number, and the messages written to it.
 TEST(Streams, ClosedOnesAreNotGivenToFiles) {
     const SceneFolder folder(small_scene(9000));
     Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out(), "-v"},

@@ -1,4 +1,4 @@
-// Sweeps: one run alone gives the bytes of the whole sweep; failures are counted; the data set opens in Python.
+// One run of a sweep alone gives the bytes of the whole sweep; failures are counted; the data set opens in Python.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Six runs of the small scene; the third has no mass.
+/// Six runs of the small scene, the third of which has no mass.
 constexpr const char* six_runs = R"({
   "scene": "scene.json", "seed": 5, "set": {"/time/frames": 5},
   "vary": {"/cloths/0/areal_density": {"grid": [0.1, 0.2, -1]}, "/cloths/0/damping": {"grid": [0, 1]},
@@ -35,7 +35,7 @@ class Sweep : public testing::Test {
         return drape(arguments, {.folder = folder.path()});
     }
     std::string file(const std::string& name) const { return read_text(folder / name); }
-    /// Lines of the table, in order, without the times at their ends.
+    /// Returns the lines of the table, in order, without the times at their ends.
     std::vector<std::string> results(const std::string& output = "out") const {
         std::istringstream text(file(output + "/results.csv"));
         std::vector<std::string> lines;
@@ -101,7 +101,7 @@ TEST_F(Sweep, GoesOnWhereItWasAndSaysWhatIsMissing) {
     EXPECT_THAT(other.err, HasSubstr("is another sweep's"));
 }
 
-/// As a full disk does: nothing that says something of the run.
+/// The file size limit acts as a full disk does: it says nothing of the run.
 TEST_F(Sweep, AFileThatCannotBeWrittenEndsItAndItGoesOnWhenItCan) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/cloths/0/damping": {"grid": [0, 1]}}})");
     const Outcome stopped = drape({"sweep", "spec.json", "-o", "out", "--jobs", "1", "-q"},

@@ -1,4 +1,4 @@
-// A scene that misses its own tolerance: exit code 8, with what came before.
+// A scene that misses its own tolerance ends with exit code 8 and keeps the frames before.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The command line: help, and what is refused as wrong usage (exit code 2).
+// The command line gives help, and refuses wrong usage with exit code 2.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,9 +22,11 @@ TEST(Help, IsDataAndNamesDefaultsUnitsExamplesAndExitCodes) {
     const Outcome general = drape({"--help"});
     EXPECT_EQ(general.code, 0);
     EXPECT_THAT(general.err, IsEmpty());
+    const std::string document = read_text(DRAPE_SOURCE_DIR "/engine/docs/command_line.md");
     for (const char* command : {"new", "render", "simulate", "graph", "check", "schema", "devices", "bench", "verify",
                                 "report", "sweep", "help", "completions", "man"}) {
         EXPECT_THAT(general.out, HasSubstr(std::string("\n  ") + command + " "));
+        EXPECT_THAT(document, HasSubstr(std::string("`drape ") + command));
         const Outcome help = drape({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_THAT(help.err, IsEmpty()) << command;
@@ -44,10 +46,10 @@ TEST(Help, ExplainsEveryExitCode) {
         EXPECT_THAT(general, HasSubstr(row.meaning));
         EXPECT_THAT(of_a_command, HasSubstr(fmt::format("{} {}", static_cast<int>(row.code), row.name)));
     }
-    EXPECT_THAT(read_text(DRAPE_SOURCE_DIR "/README.md"), HasSubstr(exit_code_list(1000)));
+    EXPECT_THAT(read_text(DRAPE_SOURCE_DIR "/engine/docs/command_line.md"), HasSubstr(exit_code_table()));
 }
 
-/// Those of the list that a help text gives.
+/// Returns the subcommands that a help text lists.
 std::vector<std::string> subcommands(const std::string& help) {
     std::vector<std::string> names;
     const std::size_t begin = help.find("\nSubcommands:\n");
@@ -75,11 +77,20 @@ TEST(Help, FitsATerminalOf80Columns) {
     EXPECT_GE(commands.size(), 22u);
 }
 
+/// A text with its words parted by one space each, wherever its lines end.
+std::string in_one_line(const std::string& text) {
+    std::istringstream words(text);
+    std::string line;
+    for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
 TEST(Help, FormatsAreThoseOfTheTable) {
-    const std::string render = drape({"render", "--help"}).out, readme = read_text(DRAPE_SOURCE_DIR "/README.md");
+    const std::string render = drape({"render", "--help"}).out;
+    const std::string document = in_one_line(read_text(DRAPE_SOURCE_DIR "/engine/docs/export_formats.md"));
     for (const OutputFormat* format : output_formats()) {
-        EXPECT_THAT(readme, HasSubstr(fmt::format("\n| `{}` | `{}` | {} | {} |\n", format->name, format->files,
-                                                  format->holds, format->load)));
+        EXPECT_THAT(document,
+                    HasSubstr(fmt::format(" - **`{}`**, `{}`: {}", format->name, format->files, format->holds)));
         if (!exported(*format, true)) continue;
         EXPECT_THAT(render, HasSubstr(fmt::format("{:6}", format->name)));
     }

@@ -1,4 +1,4 @@
-// drape verify: scenes judged by what their files promise.
+// drape verify judges scenes by what their files promise.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A sheet whose upper edge is carried and turned, and a scrap that falls; a second of both.
+/// A sheet's upper edge is carried and turned, and a scrap falls, for a second.
 std::string scene_with(const std::string& oracles) {
     return R"({
   "time": {"fps": 60, "frames": 31}, "solver": {"method": "line", "substeps": 10},

@@ -1,4 +1,4 @@
-// `drape render --view`: what the run's folder says about it.
+// The manifest holds the view of `drape render --view`, which is part of the run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/value.h>

@@ -1,4 +1,4 @@
-// What a cloth's model holds, and what it leaves out.
+// A cloth's model holds what its scene needs and leaves out the rest.
 #include "cloth/cloth_model.h"
 
 #include <gmock/gmock.h>
@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
+#include "cloth/frame_steps.h"
+#include "cloth/kernel_steps.h"
 #include "cloth/method_line.h"
-#include "cloth/nested_sweeps.h"
-#include "cloth/schedule.h"
-#include "cloth/streams.h"
+#include "cloth/nested_boxes.h"
 #include "support/method_steps.h"
 #include "support/sheets.h"
 
@@ -83,7 +83,7 @@ TEST(ClothModelTest, ALaterPinOverridesAnEarlierOne) {
     EXPECT_FALSE(model.has_motion);
 }
 
-TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
+TEST(FrameStepsTest, ExplicitFramesAreMicroSteps) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.solver.method = SolverMethod::explicit_steps;
     scene.wind.velocity = {1, 0, 0};
@@ -101,21 +101,22 @@ TEST(ScheduleTest, ExplicitFramesAreMicroSteps) {
     EXPECT_EQ(SimulationModel(scene).method().name, "relax");
 }
 
-/// First substeps and counts of a scene's explicit steps with four in flight.
+/// Returns first substeps and counts of a scene's explicit steps with four in flight.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> in_flight(const SceneDescription& scene, std::size_t cloth = 0) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-    for (const Step& step : steps_in_flight(frame_steps(SimulationModel(scene)), [](std::size_t) {
+    for (const Step& step :
+         explicit_steps_together(frame_steps(SimulationModel(scene)), Kernel::explicit_stream, [](std::size_t) {
              return FlightSize{4, 4};
          }))
         if (step.kind == StepKind::explicit_step && step.cloth == cloth) found.emplace_back(step.substep, step.count);
     return found;
 }
 
-TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
+TEST(FrameStepsTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 11, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
-    // Were the last step not kept apart, 5 to 8 would be one.
+    // If the last step were not kept apart, 5 to 8 would be one.
     SceneDescription nine = scene;
     nine.solver.substeps = 9;
     EXPECT_THAT(in_flight(nine), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1), Pair(6, 1), Pair(7, 1), Pair(8, 1)));
@@ -125,7 +126,7 @@ TEST(ScheduleTest, MicroStepsAreInFlightTogetherButAFramesFirstAndLast) {
         EXPECT_THAT(in_flight(scene, cloth), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 4), Pair(9, 1), Pair(10, 1)));
 }
 
-TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
+TEST(FrameStepsTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 6, 1);
     scene.solver.method = SolverMethod::explicit_steps;
     EXPECT_THAT(in_flight(scene), ElementsAre(Pair(0, 1), Pair(1, 4), Pair(5, 1)));
@@ -139,17 +140,18 @@ TEST(ScheduleTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     EXPECT_THAT(in_flight(bending), alone);
 }
 
-/// Of a scene's sweeps: the iteration of each, and of its predictions: whether they turn.
+/// Returns the iteration of each of a scene's sweeps, and for each of its predictions whether it turns.
 std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDescription& scene) {
     std::pair<std::vector<std::uint32_t>, std::vector<bool>> found;
-    for (const Step& step : steps_in_sweeps(SimulationModel(scene), frame_steps(SimulationModel(scene)))) {
-        if (step.kind == StepKind::sweep) found.first.push_back(step.iteration);
+    for (const Step& step :
+         springs_together(SimulationModel(scene), Kernel::spring_stream, frame_steps(SimulationModel(scene)))) {
+        if (step.kind == StepKind::all_springs) found.first.push_back(step.iteration);
         if (step.kind == StepKind::force) found.second.push_back(step.turns);
     }
     return found;
 }
 
-TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
+TEST(FrameStepsTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
     scene.cloths[0].stiffness = {false, 50, 5, 0};
     EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)));
@@ -165,38 +167,38 @@ TEST(ScheduleTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true))) << "the device decides on others";
 }
 
-TEST(ScheduleTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
+TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
     scene.cloths[0].stiffness = {false, 50, 5, 1e-4};
     for (const auto& [method, turns] : {std::pair{SolverMethod::line, true}, std::pair{SolverMethod::relax, false}}) {
         scene.solver.method = method;
         const SimulationModel model(scene);
         ASSERT_EQ(count(frame_steps(model), StepKind::twist), 2 * 4);
-        const std::vector<Step> steps = streamed_steps(model);
+        const std::vector<Step> steps = kernel_steps(model, stream_kernels);
         EXPECT_EQ(count(steps, StepKind::twist), 0);
-        EXPECT_EQ(count(steps, StepKind::twist_sweep), 2);
+        EXPECT_EQ(count(steps, StepKind::all_twist), 2);
         const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].plan)[0];
         for (const Step& step : steps) {
             const bool predicts = step.kind == StepKind::force || step.kind == StepKind::predict;
             EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second sweep";
-            if (step.kind != StepKind::twist_sweep) continue;
-            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance, plain.compliance);
-            EXPECT_EQ(step.push<glsl::TwistSweepPush>().compliance_bdf2, plain.compliance_bdf2);
+            if (step.kind != StepKind::all_twist) continue;
+            EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance, plain.compliance);
+            EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance_bdf2, plain.compliance_bdf2);
         }
     }
 }
 
-TEST(ScheduleTest, ASweepKnowsTheDirectionsThatThereAre) {
+TEST(FrameStepsTest, ASweepKnowsTheDirectionsThatThereAre) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 1, 1);
     scene.cloths[0].stiffness = {false, 50, 0, 0};
-    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
-    ASSERT_EQ(count(steps, StepKind::sweep), 1);
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), stream_kernels);
+    ASSERT_EQ(count(steps, StepKind::all_springs), 1);
     EXPECT_EQ(count(steps, StepKind::spring), 0);
-    const auto sweep = std::ranges::find(steps, StepKind::sweep, &Step::kind);
-    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::SweepPush>(), d), d < 2) << d;
+    const auto sweep = std::ranges::find(steps, StepKind::all_springs, &Step::kind);
+    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::AllSpringsPush>(), d), d < 2) << d;
 }
 
-TEST(ScheduleTest, LineFramesPredictInSecondOrderWithCollidersToo) {
+TEST(FrameStepsTest, LineFramesPredictInSecondOrderWithCollidersToo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 2);
     scene.solver.method = SolverMethod::line;
     const auto kinds = [&] {
@@ -230,13 +232,13 @@ TEST(ClothModelTest, LinesSayWhatTheySoften) {
         const ClothModel model(scene, 0);
         ASSERT_EQ(model.plan.compromises.size(), 1u);
         EXPECT_EQ(model.plan.compromises[0].what, "sheet/stiffness");
-        // Of the least compliance in units of (4/9) h^2/m, or of h^2/m.
+        // The least compliance is in units of (4/9) h^2/m, or of h^2/m.
         const double factor = collides ? 1 : 2.25,
                      used = factor / least_line_compliance * model.inner_mass * 1200 * 1200;
         EXPECT_NEAR(model.plan.used_stiffness[0], used, 1e-6 * used);
         const glsl::LinePush push = test::pushes<glsl::LinePush>(model.plan)[2];
         EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, float(least_line_compliance));
-        // So many substeps soften nothing, and one less does.
+        // With so many substeps nothing is softened, with one less something is.
         scene.solver.substeps = model.plan.compromises[0].enough_substeps;
         EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
         --scene.solver.substeps;
@@ -265,15 +267,15 @@ TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
     EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, false, false}));
 }
 
-TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
+TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
     SceneDescription scene = test::sheet(65, 65, 1, 1, 4);
     scene.solver.method = SolverMethod::line;
     Cloth& cloth = scene.cloths[0];
     const auto nested = [&] { return test::pushes<glsl::NestedPush>(ClothModel(scene, 0).plan); };
     cloth.pins = {test::pin_top(cloth)};
     EXPECT_TRUE(nested().empty());
-    EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested sweeps"));
-    // Two corners whose boxes share no particle; between them one that shares some with the first, so it waits.
+    EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested boxes"));
+    // Two corners have boxes that share no particle; a pin between them whose box shares some with the first waits.
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(64, 0, 64, 0), test::pin_box(30, 0, 30, 0)};
     ASSERT_EQ(nested().size(), 2u);
     const std::vector<glsl::ivec4> table = ClothModel(scene, 0).plan.nested_table;
@@ -281,22 +283,22 @@ TEST(ClothModelTest, NestedSweepsGoRoundEachParticleHeldAlone) {
     EXPECT_EQ(table[first].z, 2);
     EXPECT_EQ(table[first + 1].x, 64);
     EXPECT_EQ(table[static_cast<std::size_t>(nested()[1].first_pin)].x, 30);
-    // A strip around a pin's column goes from end to end; so two in a column take turns.
+    // A strip around a pin's column goes from end to end, so two in a column take turns.
     EXPECT_TRUE(std::ranges::any_of(table, [](const glsl::ivec4& block) { return block.x == 7 && block.y >= 64; }));
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(0, 64, 0, 64)};
     EXPECT_EQ(nested().size(), 2u);
-    // A pair holds each other.
+    // Two pins beside each other hold each other, and are not lone.
     cloth.pins = {test::pin_box(0, 0, 1, 0)};
     EXPECT_TRUE(nested().empty());
-    // A hundred of them.
+    // A hundred lone pins are too many.
     cloth.pins.clear();
     for (std::uint32_t k = 0; k < 100; ++k)
         cloth.pins.push_back(test::pin_box(6 * (k % 10), 6 * (k / 10), 6 * (k % 10), 6 * (k / 10)));
     EXPECT_TRUE(nested().empty());
 }
 
-TEST(ClothModelTest, NestedSweepsEndBeforeTheDeviceBreaksOff) {
-    // So large that no block around the pin in its middle is cut short by an edge.
+TEST(ClothModelTest, NestedBoxesEndBeforeTheDeviceBreaksOff) {
+    // The sheet is so large that no block around the pin in its middle is cut short by an edge.
     SceneDescription scene = test::sheet(270, 4200, 1, 1, 1);
     scene.solver.method = SolverMethod::line;
     scene.cloths[0].pins = {test::pin_box(135, 2100, 135, 2100)};
@@ -306,7 +308,7 @@ TEST(ClothModelTest, NestedSweepsEndBeforeTheDeviceBreaksOff) {
     EXPECT_LT(nested_rounds(model.plan, nested[0], {135, 2100}, glsl::nested_group_width), most_loop_rounds);
 }
 
-TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
+TEST(FrameStepsTest, OrdersAFrameAsTheSlidesDo) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3, 2);
     scene.wind.velocity = {1, 0, 0};
     scene.colliders.push_back({Sphere{}});
@@ -326,7 +328,7 @@ TEST(ScheduleTest, OrdersAFrameAsTheSlidesDo) {
     EXPECT_EQ(count(frame_steps(once), StepKind::collide), 3);
 }
 
-TEST(ScheduleTest, AllClothsTakeASubstepBeforeTheNextBegins) {
+TEST(FrameStepsTest, AllClothsTakeASubstepBeforeTheNextBegins) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 3);
     scene.cloths.push_back(scene.cloths[0]);
     scene.cloths[1].name = "other";

@@ -1,4 +1,4 @@
-// The table of a cloth's fields: what every loop over it relies on.
+// The table of a cloth's fields has the order, names, formats and sizes that every loop over it relies on.
 #include "cloth/cloth_state.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(ClothState, AFieldIsThereOnlyWhereItIsNeeded) {
     std::vector<Field> needed;
     for (const FieldRow& row : cloth_fields())
         if (row.needed({model, model.cloths[0], topology})) needed.push_back(row.field);
-    // The spare is needed by one schedule only; by others the graph leaves it out.
+    // Only some kinds of steps use the spare; without them the graph leaves it out.
     EXPECT_EQ(needed, (std::vector{Field::position, Field::displacement, Field::position_remainder,
                                    Field::displacement_remainder, Field::displacement_spare}));
 }

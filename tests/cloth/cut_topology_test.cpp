@@ -1,4 +1,4 @@
-// Topology after cuts: both sides consistent, area and mass kept, whatever the cut.
+// After a cut both sides are consistent, and area and mass are kept, whatever the cut.
 #include "cloth/cut_topology.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "reference/cut_twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
@@ -45,7 +45,7 @@ struct Cloth9 {
 TEST(CutTopologyTest, AStraightCutLeavesTwoSidesThatNothingJoins) {
     Cloth9 sheet;
     const double area = sheet.topology.rest_area();
-    // A vertical blade through x = 0.33, all the way.
+    // A vertical blade goes through x = 0.33, all the way.
     const CutCounts counts = sheet.cut(blade({0.33, 5, -5}, {0.33, -10, -5}, {0.33, -2, 10}));
     EXPECT_EQ(counts.springs, 9u + 2u * 8u) << "one row spring per row, both diagonals per cell";
     EXPECT_EQ(counts.triangles, 16u);
@@ -56,7 +56,7 @@ TEST(CutTopologyTest, AStraightCutLeavesTwoSidesThatNothingJoins) {
 
 TEST(CutTopologyTest, TheEndOfASlitStaysWhole) {
     Cloth9 sheet;
-    // From the top edge down to y = -0.37, inside a cell.
+    // The blade goes from the top edge down to y = -0.37, inside a cell.
     const CutCounts counts = sheet.cut(blade({0.33, 1, -1}, {0.33, 1, 1}, {0.33, -0.37, 0}));
     EXPECT_GT(counts.springs, 0u);
     EXPECT_EQ(test::piece_count(sheet.topology), 1u);
@@ -95,13 +95,13 @@ TEST(CutTopologyTest, ASingleParticleCanBeCutFree) {
     test::expect_consistent(sheet.topology);
 }
 
-/// The particle that a drawn index hangs on.
+/// Returns the particle that a drawn index hangs on.
 std::uint32_t anchor(const CutTopology& topology, std::uint32_t index) {
     const std::size_t count = topology.cloth().grid.particle_count();
     return index < count ? index : topology.vertices()[index - count].particles.x;
 }
 
-/// Area at rest, m^2, of what is drawn of each piece, by the piece's number.
+/// Returns the area at rest, m^2, of the drawn part of each piece, by the piece's number.
 std::map<std::size_t, double> drawn_areas(const CutTopology& topology) {
     const auto at = [&](std::uint32_t index) {
         const std::size_t count = topology.cloth().grid.particle_count();
@@ -158,7 +158,7 @@ TEST(CutTopologyTest, TheLargestPieceIsNoCrumb) {
     test::expect_consistent(topology);
     EXPECT_EQ(topology.crumb_count(), 1u) << "four triangles in all, so both are small";
     EXPECT_NEAR(topology.rest_area(), 0.02, 1e-9);
-    // Drawn: the lower piece, its two whole triangles and three parts.
+    // The lower piece is drawn, its two whole triangles and three parts.
     EXPECT_EQ(topology.whole_triangles().size(), 2u * 3u);
     EXPECT_EQ(topology.indices().size(), (4u + 3u) * 3u);
 }
@@ -182,7 +182,7 @@ TEST(CutTopologyTest, RandomCutsKeepAreaMassAndConsistency) {
 }
 
 TEST(CutTopologyTest, CutVerticesLieWhereTheCutWas) {
-    // At rest both edges are the cut line, upright and slanted: x = 0.33 and x = 0.13 - slope * y.
+    // At rest both edges lie on the cut line, upright and slanted: x = 0.33 and x = 0.13 - slope * y.
     for (const double slope : {0.0, 0.3, 0.77, 1.4}) {
         Cloth9 sheet;
         const double foot = slope == 0 ? 0.33 : 0.13;
@@ -209,7 +209,7 @@ TEST(CutterSweepTest, AMovingBladeSweepsThePrismsSurface) {
     for (const glsl::CutterTriangle& t : triangles) EXPECT_EQ(t.a.w, 1.0f);
     const auto idle = cutter_triangles({cutter}, 0.0, 0.1);
     for (const glsl::CutterTriangle& t : idle) EXPECT_EQ(t.a.w, 0.0f);
-    // A thin sheet that the blade jumps over between two frames is hit by the sides.
+    // The blade jumps over a thin sheet between two frames, and its prism's sides hit it.
     SceneDescription scene = test::sheet(3, 3, 0.2, 0.2, 4);
     scene.cloths[0].placement = {{0.1, 0.1, 0.4}, {1, 0, 0}, {0, 0.8, 0.6}};
     const ClothModel model(scene, 0);

@@ -1,4 +1,4 @@
-// The direction table proved: every spring exactly once, no particle twice in a pass.
+// The direction table gives every spring exactly once, and no particle twice in a pass.
 #include "cloth/directions.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Spring spring_between(glsl::ivec2 a, glsl::ivec2 b) {
     return {a.x, a.y, b.x, b.y};
 }
 
-/// All springs of a grid, written down without the table: neighbours right, below, and both diagonals of a cell.
+/// All springs of a grid, written down without the table: neighbours right and below, and both diagonals of a cell.
 std::set<Spring> expected_springs(glsl::ivec2 grid) {
     std::set<Spring> springs;
     for (int y = 0; y < grid.y; ++y)

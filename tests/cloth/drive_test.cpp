@@ -1,4 +1,4 @@
-// What the scene tells ahead of what drives its cloths.
+// The scene tells ahead how its cloths are driven.
 #include "cloth/drive.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 
 constexpr double gravity = 9.81;
 
-/// A sheet on one pinned edge that is moved by `way` between 1 and 1.1 s.
+/// A sheet hangs on one pinned edge that is moved by `way` between 1 and 1.1 s.
 SceneDescription jerked(const Vec3& way) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 1);
     scene.solver = {};
@@ -31,7 +31,7 @@ SceneDescription jerked(const Vec3& way) {
 
 TEST(Drive, OfAPinIsItsAcceleration) {
     const SimulationModel model(jerked({0.3, 0, 0}));
-    // A leg from rest to rest in T is accelerated by 6 |way|/T^2 (1 - 2 t/T); first looked at 1/480 s after its start.
+    // A leg from rest to rest in T is accelerated by 6 |way|/T^2 (1 - 2 t/T), first looked at 1/480 s after its start.
     EXPECT_THAT(drive_of(model, 60), ElementsAre(DoubleNear(gravity, 1e-9)));
     EXPECT_THAT(drive_of(model, 61), ElementsAre(DoubleNear(gravity + 172.5, 1e-3)));
     EXPECT_THAT(drive_of(model, 66), ElementsAre(DoubleNear(gravity + 172.5, 1e-3)));
@@ -79,7 +79,7 @@ TEST(Drive, IsEventfulWhereItIsFarAboveTheLastProbe) {
     EXPECT_TRUE(drive.eventful(61));
     drive.probed(61, 6);
     EXPECT_FALSE(drive.eventful(66));
-    // A little more is none.
+    // A little more drive is no event.
     const SimulationModel slow(jerked({0.001, 0, 0}));
     Drive calm(slow);
     calm.probed(1, 6);

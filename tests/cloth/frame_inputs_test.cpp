@@ -1,4 +1,4 @@
-// What the host hands to the device for each substep of a frame.
+// The host hands the device its inputs for each substep of a frame.
 #include "cloth/frame_inputs.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Masses, stiffness shares and triangles of whole grids and of grids with holes.
+// Whole grids and grids with holes have the right masses, stiffness shares and triangles.
 #include "cloth/grid.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(GridTest, SpringsAlongABorderHaveHalfTheStiffnessAndDiagonalsNever) {
         for (std::uint32_t column = 0; column < 5; ++column) {
             const glsl::vec4 share = grid.spring_shares(column, row);
             const glsl::ivec2 at{static_cast<int>(column), static_cast<int>(row)};
-            // The mask of a whole grid says the same as the shader's rule without a mask.
+            // The mask of a whole grid agrees with the shader's rule without a mask.
             if (column < 4) {
                 EXPECT_EQ(share.x, glsl::border_share(at, {1, 0}, {5, 4}));
             }

@@ -1,4 +1,4 @@
-// What no substep can follow: held inside a collider, or rigid cloth pulled apart.
+// No substep can follow pins held inside a collider, or rigid cloth pulled apart.
 #include "cloth/impossible_pins.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A metre of cloth held by its two upper corners; the right one is pulled `outwards` over a second.
+/// A metre of cloth is held by its two upper corners, of which the right one is pulled `outwards` over a second.
 SceneDescription pulled_sheet(double outwards) {
     SceneDescription scene = model_scenes::sheet(5, 5, 1, 1, 4);
     scene.time = {60, 61};
@@ -35,7 +35,7 @@ TEST(ImpossiblePins, OnlyRigidClothCannotBePulledLonger) {
     EXPECT_THAT(impossible(scene, 60), IsEmpty());
 }
 
-/// A shape of each kind about the held corner's place, 0.4 m and more across.
+/// Returns a shape of each kind about the held corner's place, 0.4 m and more across.
 std::vector<ColliderShape> shapes_about(const Vec3& at) {
     return {Plane{{0, 1, 0}, at[1] + 0.1}, Sphere{at, 0.2}, Box{at, {0.2, 0.2, 0.2}}, Ellipsoid{at, {0.2, 0.3, 0.2}},
             Capsule{{at[0] - 0.2, at[1], at[2]}, {at[0] + 0.2, at[1], at[2]}, {0.2, 0.1}}};
@@ -47,7 +47,7 @@ TEST(ImpossiblePins, NothingIsHeldInsideACollider) {
         SceneDescription scene = free;
         scene.colliders.emplace_back().shape = shape;
         EXPECT_THAT(impossible(scene, 0), HasSubstr("inside collider 0")) << shape.index();
-        // Away it goes, the cloth's corner with it no longer inside.
+        // The collider leaves, so that the cloth's corner is no longer inside.
         scene.colliders[0].path.keys = {{0, {}, {}}, {1, {0, -3, 0}, {}}};
         EXPECT_THAT(impossible(scene, 0), HasSubstr("inside collider 0")) << shape.index();
         EXPECT_THAT(impossible(scene, 60), IsEmpty()) << shape.index();

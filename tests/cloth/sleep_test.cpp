@@ -1,4 +1,4 @@
-// What wakes cloth, and what never falls asleep.
+// Some events wake cloth, and some cloth never falls asleep.
 #include "cloth/sleep.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ ClothStatistics moving_at(double speed) {
     return statistics;
 }
 
-/// Whether a scene sleeps in the frame after a second and more of these speeds, by frame.
+/// Returns whether a scene falls asleep in or after `frames` frames of these speeds, by frame.
 template <class Speed>
 bool sleeps(const SceneDescription& scene, const Speed& speed, std::uint32_t frames = 70) {
     const SimulationModel model(scene);

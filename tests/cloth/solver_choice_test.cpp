@@ -1,11 +1,11 @@
-// What `auto` chooses, and that it says why.
+// `auto` chooses a method and says why.
 #include "cloth/solver_choice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "cloth/substep_control.h"
 #include "support/sheets.h"
 
@@ -39,7 +39,7 @@ TEST(SolverChoiceTest, TheModelRunsWhatWasChosenAndKnowsWhatWasAsked) {
     EXPECT_EQ(model.asked_tolerance, 0);
     EXPECT_EQ(model.scene.solver.tolerance, default_tolerance);
     EXPECT_EQ(model.scene.solver.method, model.choice.candidates.front().method);
-    // The loop begins with the first of its rungs that has as many.
+    // The loop begins with the first of the method's rungs that has as many substeps.
     const SolverCandidate& best = model.choice.candidates.front();
     EXPECT_EQ(model.scene.solver.substeps,
               *std::ranges::find_if(substep_rungs(row_of(best.method)),
@@ -54,7 +54,7 @@ TEST(SolverChoiceTest, TheCheapestThatReachesComesFirst) {
     for (std::size_t k = 1; k < 3; ++k)
         EXPECT_TRUE(!choice.candidates[k].reaches ||
                     choice.candidates[k - 1].predicted_ms <= choice.candidates[k].predicted_ms);
-    EXPECT_NE(choice.candidates.front().method, SolverMethod::relax);  // it damps what it does not resolve
+    EXPECT_NE(choice.candidates.front().method, SolverMethod::relax);  // damps motion that it does not resolve
 }
 
 TEST(SolverChoiceTest, WindAndContactCostASubstepTheSameByEveryMethod) {
@@ -82,15 +82,15 @@ TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
     const auto substeps = [](std::uint32_t links, double tolerance, SolverMethod method) {
         return double(of(choose_solver(automatic(links, tolerance), DeviceKind::cpu), method).substeps);
     };
-    // All three: in proportion to the links; relaxation and explicit steps by the root of the tolerance.
+    // All three need substeps in proportion to the links; relaxation and explicit steps by the root of the tolerance.
     for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
         const double tolerance = method == SolverMethod::line ? 1e-5 : 1e-4;  // more substeps than the motion needs
         EXPECT_NEAR(substeps(256, tolerance, method) / substeps(64, tolerance, method), 4, 0.2);
     }
     for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
         EXPECT_NEAR(substeps(128, 1e-5, method) / substeps(128, 1e-3, method), 10, 0.3);
-    // Measured on the hanging and swinging sheet (README): 1 % from about 20 relaxed substeps on at 64 links; lines
-    // from a held edge need what the swing needs.
+    // Measured on the hanging and swinging sheet (docs/accuracy.md), 1 % takes about 20 relaxed substeps at 64 links; lines from
+    // a held edge need as many as the swing.
     EXPECT_NEAR(substeps(64, 0.01, SolverMethod::relax), 25, 6);
     for (const std::uint32_t links : {64u, 256u, 512u})
         EXPECT_EQ(substeps(links, 0.01, SolverMethod::line), links == 512 ? 9 : 6);

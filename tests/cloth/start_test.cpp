@@ -1,4 +1,4 @@
-// Where cloth starts: at its place, stretched, scattered, or gathered on a line or a point and parted.
+// Cloth starts at its place, stretched, scattered, or gathered on a line or a point and parted.
 #include "scene/start.h"
 
 #include <gmock/gmock.h>
@@ -94,7 +94,7 @@ TEST(StartTest, TheWatchKnowsWhatTheStartStrains) {
     const SimulationModel stretched(scene_with({3, 1})), plain(scene_with({1, 1}));
     ClothStatistics statistics;
     statistics.mass = 1;
-    statistics.stretch_error_rms = 1.8;  // what a scale of 3 leaves is 2
+    statistics.stretch_error_rms = 1.8;  // a scale of 3 leaves 2
     statistics.potential_energy = -100;
     EXPECT_FALSE(Watch(stretched).implausible(1, {statistics}));
     const auto criterion = [&](const SimulationModel& model, std::uint32_t frame) {

@@ -1,4 +1,4 @@
-// Spring constants by docs/physics.md 1, and the softening that keeps explicit steps stable.
+// Spring constants follow docs/physics.md 1, and softening keeps explicit steps stable.
 #include "cloth/stiffness_constants.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(ExplicitStiffnessTest, LargeStepsAreSoftenedToTheStatedLimit) {
         EXPECT_NEAR(used.spring[0], 0.45 / (1.1 * (1 + 2 * kappa)), 1e-12);
         EXPECT_NEAR(used.spring[1], used.spring[0], 1e-12);
         EXPECT_NEAR(used.spring[2], 0.1 * used.spring[0], 1e-12);
-        // The steps that it asks for soften nothing.
+        // Steps as short as it asks for soften nothing.
         const double enough = h / used.full_substeps_factor * (1 - 1e-9);
         EXPECT_FALSE(relative_stiffness(stiffness_constants({false, 1000, 100, 0}, square), square, mass, enough, kappa)
                          .softened());
@@ -72,7 +72,7 @@ TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
         const std::vector<Compromise> all = ClothModel(described, 0).plan.compromises;
         return all.empty() ? std::string("none") : all[0].reason;
     };
-    // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4): 20 sqrt(118.8) = 218.01 substeps.
+    // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4) asks for 20 sqrt(118.8) = 218.01 substeps.
     EXPECT_EQ(note(scene),
               "explicit steps follow 8.42 N/m along columns, 8.42 along rows, 0.842 on diagonals and 0 N m of "
               "bending at 20 substeps; "

@@ -1,4 +1,4 @@
-// What the control of a closed loop makes of judgements: pure decisions.
+// The control of a closed loop makes pure decisions from judgements.
 #include "cloth/substep_control.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using Verdict = SubstepControl::Verdict;
 
 SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 1, 6}; }
 
-/// Frames of a cloth whose errors fall with the square of the substeps: 1 at `stretch` and `motion` substeps.
+/// Frames of a cloth whose errors fall with the square of the substeps and are 1 at `stretch` and `motion` substeps.
 struct ConvergingCloth {
     double stretch, motion;
     Judgement judge(const Segment& segment) const {
@@ -99,7 +99,7 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     while (loop.segment().substeps < 32) EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.9}), Verdict::again);
     EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 4.8}), Verdict::unpredictable);
     EXPECT_LE(loop.begin(6, false).substeps, 8u);
-    // Its stretch is still a promise.
+    // Its stretch error is still a promise.
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
 }
 
@@ -132,7 +132,7 @@ TEST(SubstepControl, AnAttemptThatFailedByItsStretchTellsNothingOfTheMotion) {
     EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.5}), Verdict::keep);
 }
 
-/// Attempts until the verdict, of a cloth whose motion's error is `motion` of the substeps, begun near the top.
+/// Returns the verdict that ends the attempts, begun near the top, on a cloth with this error of motion by substeps.
 Verdict verdict_near_the_top(SubstepControl& loop, double (*motion)(double)) {
     loop.begin(6, false);
     for (int attempts = 0; attempts < 20; ++attempts) {
@@ -169,7 +169,7 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_LE(last, 100u);
     EXPECT_GE(last, 16u);
     EXPECT_EQ(loop.begin(6, false).substeps, last);
-    // What was never plausible is not turned back to.
+    // The loop does not turn back to an attempt that was never plausible.
     SubstepControl hopeless = control(256);
     hopeless.begin(6, false);
     for (verdict = Verdict::again; verdict == Verdict::again;)

@@ -1,4 +1,4 @@
-// Which held particles a free one is tethered to, and at which distance.
+// A free particle is tethered to the right held particles, at the right distances.
 #include "cloth/tethers.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(TethersTest, PathsGoAroundAHoleAndAreNeverTooShort) {
     const auto tethers = find_tethers(grid, square, {test::pin_box(0, 0, 0, 0)}, 0);
     const glsl::ParticleTethers& beyond = tethers[grid.particle(10, 0)];
     EXPECT_EQ(beyond.anchor_a, 0);
-    // Round the hole's lower corners: never less than the taut string, at most 8.3 % more.
+    // The way goes round the hole's lower corners: it is never shorter than the taut string, and at most 8.3 % longer.
     const double taut = 0.1 * (2 * std::hypot(3, 8) + 4);
     EXPECT_GE(beyond.length_a, static_cast<float>(taut) - 1e-6f);
     EXPECT_LE(beyond.length_a, static_cast<float>(1.083 * taut));

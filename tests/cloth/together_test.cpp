@@ -1,10 +1,10 @@
-// Which cloths are simulated together, and how their steps become one.
+// Cloths that are alike are simulated together, and their steps become one.
 #include "cloth/together.h"
 
 #include <gtest/gtest.h>
 
-#include "cloth/schedule.h"
-#include "cloth/streams.h"
+#include "cloth/frame_steps.h"
+#include "cloth/kernel_steps.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -52,7 +52,7 @@ TEST(TogetherTest, CutsOwnIterationsSelfContactAndSizeKeepThemApart) {
     }));
 }
 
-/// Steps of one cloth within a list, by itself or together.
+/// Returns the steps of one cloth within a list, by itself or together.
 std::vector<StepKind> kinds_of(std::size_t cloth, const std::vector<Step>& steps, const Lists& lists) {
     std::vector<StepKind> kinds;
     for (const Step& step : steps) {
@@ -83,7 +83,7 @@ TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
     const std::vector<Step> steps = frame_steps(model), merged = steps_together(steps, lists);
     for (std::size_t cloth = 0; cloth < 4; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
-    // Control, predict, pins, four directions and collision of each of three substeps.
+    // Each of three substeps has control, predict, pins, four directions and collision.
     EXPECT_EQ(count_of(merged, true), 3u * 8);
     EXPECT_EQ(count_of(merged, false), 3u * 8 + 1);
 }
@@ -113,9 +113,10 @@ TEST(TogetherTest, ExplicitStepsInFlightOfSomeLeaveTheOthersAlone) {
     scene.cloths[1].pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
     const Lists lists = cloths_alike(scene);
     ASSERT_EQ(lists.size(), 1u);
-    const std::vector<Step> steps = steps_in_flight(frame_steps(SimulationModel(scene)), [](std::size_t) {
-        return FlightSize{4, 4};
-    });
+    const std::vector<Step> steps =
+        explicit_steps_together(frame_steps(SimulationModel(scene)), Kernel::explicit_stream, [](std::size_t) {
+            return FlightSize{4, 4};
+        });
     const std::vector<Step> merged = steps_together(steps, lists);
     const auto substeps_of = [](std::size_t cloth, const std::vector<Step>& all) {
         std::vector<std::uint32_t> substeps;

@@ -1,4 +1,4 @@
-// What a scene can do to its cloth, and that nothing beyond passes for a result.
+// The watch knows what a scene can do to its cloth, and lets nothing beyond pass for a result.
 #include "cloth/watch.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A sheet of 1 m and 1 kg that hangs by its top from the origin, in 60 frames a second.
+/// A sheet of 1 m and 1 kg hangs by its top from the origin, in 60 frames a second.
 SceneDescription hanging() {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 4);
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
@@ -24,7 +24,7 @@ SceneDescription hanging() {
     return scene;
 }
 
-/// At rest where it started: the centre of mass 0.5 m below the origin.
+/// Statistics at rest where the cloth started: the centre of mass is 0.5 m below the origin.
 ClothStatistics resting() {
     ClothStatistics statistics;
     statistics.mass = 1;
@@ -74,7 +74,7 @@ TEST(WatchTest, ContactMovesWeightlessClothFromWhatItStartsTooNearTo) {
     alone.gravity = {0, 0, 0};
     ClothStatistics lifted = resting();
     lifted.potential_energy = 0;
-    lifted.largest_speed = 0.2;  // what is led out at 0.1 m/s takes its neighbours along
+    lifted.largest_speed = 0.2;  // cloth led out at 0.1 m/s takes its neighbours along
     EXPECT_THAT(said(alone, 1, lifted), HasSubstr("moves at 0.2 m/s, where at most 0.1 m/s are explained"));
     lifted.kinetic_energy = 0.5 * 0.1 * 0.1;
     SceneDescription on_ball = alone, on_itself = alone;
@@ -148,7 +148,7 @@ TEST(WatchTest, WhatRestsIsExplainedByForces) {
     EXPECT_THAT(said(asked, 60, locked), IsEmpty());
 }
 
-/// What the frames up to one are said of, which have this stretch error of a spring.
+/// Returns what is said of `frame`, the last with these stretch errors, or "before" if it is of an earlier one.
 std::string said_in_the_end(const SceneDescription& scene, std::uint32_t frame, const std::vector<double>& errors) {
     const SimulationModel model(scene);
     Watch watch(model);
@@ -164,7 +164,7 @@ std::string said_in_the_end(const SceneDescription& scene, std::uint32_t frame, 
 }
 
 TEST(WatchTest, StretchThatLastsIsNoResult) {
-    SceneDescription scene = hanging();  // of 4 edges, so Lambda = 1.1e-4 at 40 substeps
+    SceneDescription scene = hanging();  // 4 edges, so Lambda = 1.1e-4 at 40 substeps
     scene.solver.substeps = 40;
     const std::vector<double> lasting(6, 0.07), longer(7, 0.07), snap{0.01, 0.9, 0.9, 0.9, 0.9, 0.9, 0.01};
     EXPECT_THAT(said_in_the_end(scene, 60, lasting),

@@ -1,5 +1,5 @@
-// What runs say of themselves, "no crossing in any substep", against the exact checker, on the device. The number of
-// random frames: DRAPE_CONTACT_FRAMES=2000 in the environment for those of the claim.
+// The exact checker judges runs on the device that say of themselves "no crossing in any substep". With
+// DRAPE_CONTACT_FRAMES=2000 in the environment it judges as many random frames as the claim is about.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST_F(ContactCertificateTest, IsNeverGivenWhereTrianglesCross) {
         "was lost in %zu, cloths started crossed in %zu and came apart in %zu, %zu were not plausible, %zu ended "
         "early\n",
         frames, index, proved, crossed, met, lost, started_crossed, came_apart, wild, ended);
-    // Else it would say nothing.
+    // Without scenes that meet, and proofs and crossings, the comparison would say nothing.
     EXPECT_GT(met, index / 2);
     EXPECT_GT(proved, frames / 2);
     EXPECT_GT(crossed, 0u);

@@ -12,7 +12,7 @@ namespace drape::test {
 
 namespace {
 
-/// Of cloth that is easily folded.
+/// Cloth that is easily folded.
 constexpr std::string_view limp = R"("stiffness": {"stretch": 200, "shear": 40, "bend": 1e-4}, "friction": 0.4)";
 
 std::string scene(std::string_view name, std::uint32_t frames, std::uint32_t substeps, std::string_view parts) {
@@ -22,7 +22,7 @@ std::string scene(std::string_view name, std::uint32_t frames, std::uint32_t sub
         name, frames, substeps, parts);
 }
 
-/// Pins of the first and the last column whose keys turn against each other; `keys(side)`.
+/// Pins the first and the last column with keys, `keys(side)`, that turn against each other.
 template <class Keys>
 std::string bars(std::uint32_t columns, std::uint32_t rows, const Keys& keys) {
     return fmt::format(

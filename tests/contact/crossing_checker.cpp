@@ -8,7 +8,7 @@ namespace drape::test {
 
 namespace {
 
-/// A sum of doubles that is never rounded: parts that do not overlap, the smallest first (Shewchuk 1997, "Adaptive
+/// A sum of doubles that is never rounded: its parts do not overlap, the smallest comes first (Shewchuk 1997, "Adaptive
 /// Precision Floating-Point Arithmetic", grow-expansion).
 class ExactSum {
   public:
@@ -20,7 +20,7 @@ class ExactSum {
         }
         parts_[count_++] = value;
     }
-    /// a b c of single-precision numbers: a b is exact, and its product with c in two parts.
+    /// Adds a b c of single-precision numbers: a b is exact, and its product with c comes in two parts.
     void add_product(float a, float b, double c) {
         const double ab = double{a} * double{b}, high = ab * c;
         add(std::fma(ab, c, -high));
@@ -71,7 +71,7 @@ struct Box {
     }
 };
 
-/// A triangle with what pairs of it need.
+/// A triangle with the data that its pairs need.
 struct Face {
     std::uint32_t mesh, number;
     std::array<std::uint32_t, 3> corners;
@@ -81,11 +81,11 @@ struct Face {
 
 enum class Meeting { apart, touch, cross };
 
-/// Of an edge with a triangle.
+/// Returns how an edge meets a triangle.
 Meeting pierces(const FloatPoint& p, const FloatPoint& q, const Face& wall) {
     const auto& [a, b, c] = wall.at;
     const int above = side_of(a, b, c, p), below = side_of(a, b, c, q);
-    if (above == below) return Meeting::apart;  // on one side; or in its plane, which other edges tell
+    if (above == below) return Meeting::apart;  // both ends are on one side, or in the plane, which other edges tell
     const int ab = side_of(p, q, a, b), bc = side_of(p, q, b, c), ca = side_of(p, q, c, a);
     if (std::max({ab, bc, ca}) > 0 && std::min({ab, bc, ca}) < 0) return Meeting::apart;
     const bool inside = ab != 0 && bc != 0 && ca != 0;
@@ -112,7 +112,7 @@ Meeting meeting(const Face& one, const Face& other) {
     return std::max(edges_with(one, other, one_mesh), edges_with(other, one, one_mesh));
 }
 
-/// A tree over the faces; pairs are found by descending it against itself.
+/// Pairs of faces are found by descending this tree against itself.
 class FaceTree {
   public:
     explicit FaceTree(std::vector<Face> faces) : faces_(std::move(faces)) {

@@ -1,4 +1,4 @@
-// The checker that judges runs, on what is known, and against the one that the program's own oracle uses.
+// The checker that judges runs is tried on known cases, and against the checker of the program's own oracle.
 #include "crossing_checker.h"
 
 #include <gtest/gtest.h>
@@ -24,11 +24,11 @@ using Found = std::pair<std::size_t, std::size_t>;
 TEST(CrossingCheckerTest, KnowsCrossingFromTouchingAndApart) {
     EXPECT_EQ(found(wall, triangle({0.25F, 0.25F, -1}, {0.25F, 0.5F, 1}, {5, 5, 1})), (Found{1, 0}));
     EXPECT_EQ(found(wall, triangle({0.25F, 0.25F, 0.01F}, {0.25F, 0.5F, 1}, {5, 5, 1})), (Found{0, 0}));
-    // A corner on the face; one that a rounding lifts off it, and one that goes as far through.
+    // A corner lies on the face; another one is lifted off it by a rounding, and one goes as far through.
     EXPECT_EQ(found(wall, triangle({0.25F, 0.25F, 0}, {0.25F, 0.5F, 1}, {5, 5, 1})), (Found{0, 1}));
     EXPECT_EQ(found(wall, triangle({0.25F, 0.25F, 1e-38F}, {0.25F, 0.5F, 1}, {5, 5, 1})), (Found{0, 0}));
     EXPECT_EQ(found(wall, triangle({0.25F, 0.25F, -1e-38F}, {0.25F, 0.5F, 1}, {5, 5, 1})), (Found{1, 0}));
-    // An edge through an edge.
+    // An edge goes through an edge.
     EXPECT_EQ(found(wall, triangle({0.5F, 0, -1}, {0.5F, 0, 1}, {0.5F, -5, 0})), (Found{0, 1}));
 }
 
@@ -38,13 +38,13 @@ TEST(CrossingCheckerTest, WhatSharesACornerCrossesByTheEdgeAcross) {
     };
     EXPECT_EQ(with({0.2F, 0.2F, -1}, {0.3F, 0.2F, 1}), 1u);
     EXPECT_EQ(with({-0.2F, -0.2F, -1}, {-0.3F, -0.2F, 1}), 0u);
-    // Two that share an edge: none, folded as they may be.
+    // Two triangles that share an edge do not cross, however they are folded.
     EXPECT_EQ(
         find_crossings({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3F, 0.3F, 1e-6F}}, {{0, 1, 2}, {0, 1, 3}}}}).pairs.size(),
         0u);
 }
 
-/// Whole numbers, whose volumes are exact: many are 0.
+/// Whole numbers have exact volumes, many of which are 0.
 TEST(CrossingCheckerTest, SidesAreExact) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int64_t> small(-3, 3);
@@ -54,7 +54,7 @@ TEST(CrossingCheckerTest, SidesAreExact) {
         std::array<FloatPoint, 4> at{};
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t k = 0; k < 3; ++k) {
-                // A third of them far apart in size, where plain doubles round the difference.
+                // A third of them are far apart in size, where plain doubles round the difference.
                 whole[i][k] = small(random) * (trial % 3 == 0 && k == 0 ? 1000003 : 1);
                 at[i][k] = std::ldexp(static_cast<float>(whole[i][k]), trial % 3 == 0 && k == 1 ? -60 : 0);
             }
@@ -70,8 +70,8 @@ TEST(CrossingCheckerTest, SidesAreExact) {
     EXPECT_GT(flat, 500);
 }
 
-/// Far from the origin, where the volume of small tetrahedra is less than what doubles round: it is u . (e x f), u the
-/// way from d to a, e and f those from a to b and c.
+/// Far from the origin the volume of small tetrahedra is less than what doubles round. It is u . (e x f), u the way
+/// from d to a, e and f those from a to b and c.
 TEST(CrossingCheckerTest, SidesOfWhatIsFarAndSmallAreExact) {
     std::mt19937 random(5);
     std::uniform_int_distribution<std::int64_t> small(-4, 4);
@@ -97,7 +97,7 @@ TEST(CrossingCheckerTest, SidesOfWhatIsFarAndSmallAreExact) {
     EXPECT_GT(thin, 500);
 }
 
-/// Sheets of random folds, some through each other: as many as the oracle counts, in no rarer case.
+/// The checker counts as many crossings as the oracle in sheets of random folds, some of which go through each other.
 TEST(CrossingCheckerTest, CountsWhatTheOracleCounts) {
     std::mt19937 random(4);
     std::uniform_real_distribution<float> anywhere(-1, 1);

@@ -1,6 +1,6 @@
-// Which triangles cross in the frames of runs: `crossings RUN...`, folders that `drape simulate` or `drape render`
-// wrote NPZ files into, which hold the triangles too, judged from these alone. A row per run; exit code 1 where
-// something crosses that the manifest says is proved not to.
+// `crossings RUN...` finds which triangles cross in the frames of runs. It judges the folders into which `drape
+// simulate` or `drape render` wrote NPZ files, which hold the triangles too, from these alone. It prints a row per run;
+// exit code 1 where something crosses that the manifest says is proved not to.
 #include <fmt/format.h>
 #include <json/json.h>
 
@@ -21,11 +21,10 @@ namespace {
 using compare::Array;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// A cloth's frames and meshes.
 struct RunCloth {
     std::string name;
     Array positions;
-    std::map<std::uint64_t, Triangles> faces;  ///< by the frame from which on they are
+    std::map<std::uint64_t, Triangles> faces;  ///< by the frame from which on they hold
 };
 
 template <class T>
@@ -41,7 +40,7 @@ Triangles in_threes(const std::vector<std::int32_t>& corners) {
     return triangles;
 }
 
-/// The cloth that a file holds; nothing: it is another file. One cloth alone is not named.
+/// Returns the cloth that a file holds, or nothing for another file. One cloth alone is not named.
 std::optional<RunCloth> cloth_of(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     if (!stem.starts_with("positions") || file.extension() != ".npz") return {};
@@ -75,7 +74,7 @@ FloatMesh mesh_at(const RunCloth& cloth, std::uint64_t frame) {
     return mesh;
 }
 
-/// What a manifest says about its run.
+/// The manifest's words on its run.
 struct Told {
     bool meets = false, proved = false;
     std::int64_t first_unproved = -1, apart_since = -1;
@@ -96,7 +95,7 @@ struct Told {
         for (const Json::Value& pair : contact["crossed_at_start"])
             excepted.insert({pair[0].asString(), pair[1].asString()});
     }
-    /// Whether a frame's crossing of these two contradicts it.
+    /// Returns whether a frame's crossing of these two contradicts the manifest.
     bool denies(std::int64_t frame, const std::string& one, const std::string& other, bool alone) const {
         if (!meets || (first_unproved >= 0 && frame >= first_unproved)) return false;
         if (one == other) return alone || meet_themselves.contains(one);

@@ -12,7 +12,7 @@ namespace {
 
 struct SeenFrame {
     std::uint32_t frame;
-    std::set<std::array<std::uint32_t, 2>> crossed;  ///< cloths of which triangles cross, the first one first
+    std::set<std::array<std::uint32_t, 2>> crossed;  ///< pairs of cloths whose triangles cross, the lower index first
 };
 
 bool is_finite(const FinishedFrame& frame) {
@@ -38,7 +38,7 @@ SeenFrame see(const Simulation& simulation) {
     return seen;
 }
 
-/// Whether two cloths meet where cloths do; those that started through each other once they are told to be apart.
+/// Two cloths meet where contact is on; those that started through each other once they are told to be apart.
 bool meet(const SceneDescription& scene, const SelfContactReport& told, std::array<std::uint32_t, 2> pair,
           std::uint32_t frame) {
     if (pair[0] == pair[1]) return scene.cloths[pair[0]].self_collision.has_value();
@@ -53,7 +53,7 @@ bool meet(const SceneDescription& scene, const SelfContactReport& told, std::arr
 JudgedRun judged_run(const SceneDescription& scene, const Device& device) {
     SimulationOptions options;
     options.timings = Timings::none;
-    options.keep_promises = false;  // what is stretched beyond reason must not cross itself either
+    options.keep_promises = false;  // a cloth stretched beyond reason must not cross itself either
     Simulation simulation(scene, options, device);
     std::vector<SeenFrame> seen;
     JudgedRun judged;

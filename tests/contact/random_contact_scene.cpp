@@ -68,7 +68,7 @@ class SceneDraw {
                            rotate);
     }
 
-    /// How a sheet lies: its middle, and its directions.
+    /// A sheet's middle and its directions.
     struct Pose {
         Triple middle, u, v, normal;
     };
@@ -79,7 +79,7 @@ class SceneDraw {
         return {vector(chance(0.3) ? 0.6 : 0.2), {c, 0, s}, {-s * back, -down, c * back}, {s * down, -back, -c * down}};
     }
 
-    /// Beside the first one, turned within its plane.
+    /// Lays a sheet beside the first one, turned within its plane.
     Pose layer(std::uint32_t number) {
         const double angle = uniform(0, 2 * std::numbers::pi), c = std::cos(angle), s = std::sin(angle);
         const double height = number * uniform(0.02, 0.15);
@@ -92,7 +92,7 @@ class SceneDraw {
         return pose;
     }
 
-    /// It flies to the origin, or to the first one.
+    /// Places a sheet that flies to the origin, or to the first one.
     std::string placement(std::uint32_t number, double width, double height) {
         const bool layered = number > 0 && chance(0.8);
         const Pose pose = layered ? layer(number) : anywhere();
@@ -106,7 +106,7 @@ class SceneDraw {
         }
         std::string text = fmt::format(R"("placement": {{"origin": {}, "u": {}, "v": {})", listed(origin),
                                        listed(pose.u), listed(pose.v));
-        // Pressed together it crumples at once.
+        // A sheet that is pressed together crumples at once.
         if (chance(0.35)) text += fmt::format(R"(, "scale": [{:.9g}, {:.9g}])", uniform(0.5, 1.05), uniform(0.5, 1.05));
         if (chance(0.5)) text += fmt::format(R"(, "jitter": {:.9g}, "seed": {})", log_uniform(1e-5, 4e-2), below(1000));
         return text + fmt::format(R"(}}, "velocity": {})", listed(velocity));

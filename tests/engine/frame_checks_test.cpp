@@ -1,4 +1,4 @@
-// What makes a frame no result, and what a run of several cloths says of the worst: of all cloths, not the first.
+// Some frames are no results, and a run of several cloths names the worst of all cloths, not of the first.
 #include "simulation/frame_checks.h"
 
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ TEST(RunStatisticsTest, TheWorstIsTheLargestOfAnyClothAndFrame) {
     EXPECT_THAT(depths, testing::ElementsAre(0.03, 0.05, 0.01, 0, 5e-7));
 }
 
-// Frames of an earlier run come first, then those between: the drift is from the first of all.
+// Frames of an earlier run come first, then those between; the drift is from the first of all.
 TEST(RunStatisticsTest, EnergyDriftIsFromTheFirstFrameThatThereIs) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary / "out");

@@ -1,5 +1,5 @@
-// A failed run's capsule, raw and with its checksum repaired: an error, or settings that hold, and a scene that can be
-// loaded or says why not.
+// A failed run's capsule, raw and with its checksum repaired, gives an error, or settings that hold and a scene that
+// can be loaded or says why not.
 #include "output/output_error.h"
 #include "run/failure_capsule.h"
 #include "section_input.h"
@@ -18,7 +18,8 @@ void read(std::span<const std::byte> file) {
         return;
     }
     require(capsule.step > 0, "a step of no frames");
-    require(!spelling(schedule_spellings, capsule.scene.schedule).empty(), "a schedule without a name");
+    require(Kernels::parse(capsule.scene.kernels.text()) == capsule.scene.kernels,
+            "kernels that their names do not give");
     try {
         static_cast<void>(load_text(capsule.scene, capsule.scene_text));
     } catch (const SceneFailure& failure) {

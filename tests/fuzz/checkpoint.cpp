@@ -1,5 +1,5 @@
-// A checkpoint's file, raw and with its checksum repaired, and the content of a journal's record: an error, or what is
-// written as it was read; a controller that was read from one goes on with substeps that exist.
+// A checkpoint's file, raw and with its checksum repaired, and the content of a journal's record give an error, or are
+// written as they were read; a controller that was read from one goes on with substeps that exist.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ using fuzz::require;
 
 constexpr const char* loop_part = "loop";
 
-/// What a loop of method `auto` reads of itself, and a while of what it does then.
+/// Reads the state of a loop of method `auto`, and goes on with it for a while.
 void go_on(const std::vector<std::byte>& bytes) {
     const Method& method = row_of(SolverMethod::line);
     SubstepControl control(method, 8, 2, 6);

@@ -1,4 +1,4 @@
-// A command line, a word per line: a command to run, help, or what is wrong with it; never two of them.
+// A command line, a word per line, gives a command to run, help, or an error, never two of them.
 #include "drape/error.h"
 #include "fuzz.h"
 #include "program.h"

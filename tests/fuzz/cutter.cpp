@@ -1,5 +1,5 @@
-// Cuts of a small cloth, by blades that sweep through it and by findings of any kind (a checkpoint's): after each the
-// springs, triangles and pieces against a recount from the cells that there were and the springs that were cut.
+// Cuts a small cloth, by blades that sweep through it and by findings of any kind (a checkpoint's), and after each
+// recounts the springs, triangles and pieces from the cells that there were and the springs that were cut.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class Recount {
         edge_triangles_ = triangle_count();
     }
 
-    /// What a cut found, before and after it was taken.
+    /// Takes a cut's findings, and checks the counts that it made of them.
     void take(const CutFindings& findings, const CutCounts& counts) {
         std::uint32_t springs = 0;
         for (int row = 0; row < rows_; ++row)
@@ -79,7 +79,7 @@ class Recount {
 
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * columns_ + column); }
     bool cell(int column, int row) const { return cells_.contains({column, row}); }
-    /// Half a spring to each side of a cell, both its diagonals.
+    /// Each cell gives half a spring to each of its sides, and both its diagonals.
     float share(int column, int row, std::size_t direction) const {
         switch (direction) {
             case 0:
@@ -92,20 +92,20 @@ class Recount {
                 return cell(column - 1, row) ? 1.0f : 0.0f;
         }
     }
-    /// Between two corners of a cell, along an edge of the mesh.
+    /// Returns whether the edge of the mesh between two corners of a cell is whole.
     bool edge(Place a, Place b) const {
         if (a.second > b.second || (a.second == b.second && a.first > b.first)) std::swap(a, b);
         const std::size_t direction = a.second == b.second ? 0 : a.first == b.first ? 1 : 3;
         return !cut_.contains({index(a.first, a.second), direction});
     }
-    /// Whether a cell's upper left and lower right corners are joined by whole edges of it.
+    /// Returns whether a cell's upper left and lower right corners are joined by whole edges of it.
     bool hangs_together(int column, int row) const {
         const Place a{column, row}, b{column + 1, row}, c{column, row + 1}, d{column + 1, row + 1};
         const bool through_b = edge(a, b) && edge(b, d), through_c = edge(a, c) && edge(c, d);
         const bool across = edge(b, c) && ((edge(a, b) && edge(c, d)) || (edge(a, c) && edge(b, d)));
         return through_b || through_c || across;
     }
-    /// Those with at most one cut edge.
+    /// Counts the triangles with at most one cut edge.
     std::uint32_t triangle_count() const {
         std::uint32_t count = 0;
         for (const auto& [column, row] : cells_) {
@@ -139,7 +139,7 @@ SceneDescription cloth_of(Dice& dice) {
     return scene;
 }
 
-/// On a particle, or anywhere about the cloth.
+/// Returns a place on a particle, or anywhere about the cloth.
 Vec3 corner(Dice& dice, const ClothModel& cloth) {
     if (dice.chance(0.3)) {
         const glsl::vec4& at = cloth.position[dice.below(static_cast<std::uint32_t>(cloth.position.size()))];
@@ -186,7 +186,7 @@ CutFindings any_findings(Dice& dice, const CutTopology& topology) {
     return findings;
 }
 
-/// Where the simulation may have put it.
+/// Returns positions that the simulation may have come to.
 std::vector<glsl::vec4> moved(Dice& dice, std::vector<glsl::vec4> position) {
     const double by = dice.chance(0.5) ? 0 : dice.log_uniform(1e-6, 1);
     for (glsl::vec4& at : position)
@@ -199,7 +199,7 @@ std::vector<glsl::vec4> moved(Dice& dice, std::vector<glsl::vec4> position) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
-    // Where no test is running, those of expect_consistent throw.
+    // The checks of expect_consistent throw where no test is running.
     GTEST_FLAG_SET(throw_on_failure, testing::UnitTest::GetInstance()->current_test_info() == nullptr);
     fuzz::Dice dice({data, size});
     const SceneDescription scene = cloth_of(dice);

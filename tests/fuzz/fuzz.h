@@ -1,6 +1,6 @@
-// What the fuzz targets share. A target is a source of this folder with one LLVMFuzzerTestOneInput, and its row in
-// targets.tsv; `tools/fuzz` builds and runs it alone, fuzz_test replays the committed inputs through all of them, each
-// under a name of its own (CMakeLists.txt).
+// The fuzz targets share this header. A target is a source of this folder with one LLVMFuzzerTestOneInput, and its row
+// in targets.tsv; `tools/fuzz` builds and runs it alone, fuzz_test replays the committed inputs through all of them,
+// each under a name of its own (CMakeLists.txt).
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace drape::fuzz {
 
-/// Something that must not be. Nobody catches it: the fuzzer sees a crash, the replay a failed test.
+/// A fault that was found. Nobody catches it: the fuzzer sees a crash, the replay a failed test.
 class Finding : public std::logic_error {
     using std::logic_error::logic_error;
 };
@@ -34,9 +34,9 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Numbers from an input. Past its end they go on with a sequence that the whole input seeds, so that a few bytes say
-/// a whole scene, and every further one changes a decision of it. No call draws twice in its arguments: their order
-/// would be the compiler's.
+/// Draws numbers from an input. Past its end they go on with a sequence that the whole input seeds, so that a few bytes
+/// make a whole scene, and every further one changes a decision of it. No call draws twice in its arguments: their
+/// order would be the compiler's.
 class Dice {
   public:
     explicit Dice(std::span<const std::uint8_t> input) : input_(input) {
@@ -58,7 +58,7 @@ class Dice {
         return value;
     }
     bool has_input() const { return !input_.empty(); }
-    /// 0 .. count-1, count at most 65536.
+    /// Returns a number from 0 to count-1, count at most 65536.
     std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(bits(count > 256 ? 2 : 1)) % count; }
     bool chance(double probability) { return static_cast<double>(byte()) < 256 * probability; }
     double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(bits(2)) / 65535); }

@@ -1,4 +1,4 @@
-// Every committed input of the fuzz targets, and none, through all that the target checks.
+// Every committed input of the fuzz targets, and the empty one, passes all checks of its target.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST_P(FuzzReplay, FindsNothingInTheCorpus) {
         SCOPED_TRACE(path.filename());
         std::ifstream file(path, std::ios::binary);
         const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-        // No byte may be read behind the input: it has a piece of memory of its own size.
+        // No byte may be read behind the input, so it has a piece of memory of its own size.
         const std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
         EXPECT_NO_THROW(GetParam().run(input.data(), input.size()));
     }

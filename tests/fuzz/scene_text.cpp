@@ -1,5 +1,5 @@
-// A scene file's text, and behind a zero byte each an override: the reader gives a scene or located errors, what it
-// calls resolved says the same, and of a small scene everything is planned that needs no device.
+// The input is a scene file's text and, behind a zero byte each, overrides. The reader gives a scene or located errors,
+// its resolved text says the same, and everything in a small scene is planned that needs no device.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,11 +17,11 @@ namespace {
 
 using fuzz::require;
 
-constexpr std::size_t most_errors = 101;  ///< a hundred, and how many more there are
+constexpr std::size_t most_errors = 101;  ///< a hundred, and one that tells how many more there are
 constexpr std::uint64_t most_particles = 300;
 constexpr std::uint32_t most_substeps = 64;
 
-/// Cloths of millions of particles take their time and no way of their own.
+/// Cloths of millions of particles take their time and reach no code of their own, so they are left out.
 bool has_large_grid(const std::string& input) {
     for (std::size_t at = input.find("grid"); at != std::string::npos; at = input.find("grid", at + 1)) {
         double particles = 1;
@@ -47,7 +47,7 @@ void check_errors(const std::vector<SceneError>& errors, bool overridden) {
     }
 }
 
-/// The buffers and images of a cloth: what each starts with fits into it.
+/// The data with which each buffer and image of a cloth starts fits into it.
 void plan_fields(const SimulationModel& model) {
     for (const ClothModel& cloth : model.cloths) {
         const CutTopology topology(cloth);
@@ -63,7 +63,7 @@ void plan_fields(const SimulationModel& model) {
     }
 }
 
-/// Directions of lights by default are as published, those that were read of unit length: nobody minds which.
+/// Default lights keep the published directions, lights that are read get unit ones; this makes them comparable.
 SceneDescription with_unit_lights(SceneDescription scene) {
     for (DirectionalLight& light : scene.lights) {
         const Vec3 d = light.direction;

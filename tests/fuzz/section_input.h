@@ -1,4 +1,4 @@
-// Files of parts with a checksum: as they are, and as they ought to begin and end, so that what is between is reached.
+// Files of parts with a checksum are tried as they are, and with a valid beginning and end, to reach what is between.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline std::vector<std::byte> bytes_of(const std::uint8_t* data, std::size_t siz
     return {all.begin(), all.end()};
 }
 
-/// Magic, version and checksum are hurdles that only luck would take.
+/// Repairs magic, version and checksum, hurdles that only luck would take.
 inline void repair(const SectionFormat& format, std::vector<std::byte>& file) {
     const std::size_t head = format.magic.size() + sizeof format.version;
     if (file.size() < head + std::tuple_size_v<SectionChecksum>) return;

@@ -1,5 +1,5 @@
-// Random graphs of resources of any size: the plan's bytes, and what the memory budget lets pass, against sums in 128
-// bits.
+// Random graphs of resources of any size: the plan's bytes, and what the memory budget lets pass, agree with sums in
+// 128 bits.
 #include <fmt/format.h>
 
 #include <set>
@@ -18,16 +18,16 @@ using fuzz::require;
 using graph::Access;
 using graph::Lifetime;
 
-// No standard type is wider than 64 bits.
+// No standard type is wider than 64 bits, so this is an extension of the compiler.
 __extension__ using Wide = unsigned __int128;
 constexpr Wide most = UINT64_MAX;
 
 struct Sized {
     graph::Handle handle;
-    Wide bytes;  ///< of all copies
+    Wide bytes;  ///< sum over all copies
 };
 
-/// Of any magnitude, those at which sums overflow among them.
+/// Returns a number of any magnitude, those at which sums overflow among them.
 std::uint64_t magnitude(Dice& dice, int bits) {
     const auto shift = static_cast<int>(dice.below(static_cast<std::uint32_t>(bits)));
     const std::uint64_t top = std::uint64_t{1} << shift;
@@ -106,7 +106,7 @@ void check_plan(Dice& dice) {
             for (const graph::Use& use : graph.passes()[planned.pass].uses) found.insert(use.handle.resource);
         for (const std::uint32_t resource : found) used += resources[resource].bytes;
         require(used == plan.byte_count, "the plan's bytes are not the sum of what its passes use");
-    } catch (const graph::GraphError&) {  // a random use that cannot be
+    } catch (const graph::GraphError&) {  // a random use that is impossible
     } catch (const vulkan::VulkanError&) {
         require(all > most, "sizes within 64 bits are refused");
     }

@@ -23,7 +23,7 @@ Vec3 vector(Dice& dice, double most) {
     return v;
 }
 
-/// Mostly from a range that cloths know; now and then far beyond it.
+/// Draws mostly from a range that cloths know, now and then far beyond it.
 double number(Dice& dice, double low, double high) {
     if (!dice.chance(0.04)) return dice.log_uniform(low, high);
     constexpr double extremes[] = {1e-30, 1e-9, 1e-4, 1e4, 1e9, 1e30};

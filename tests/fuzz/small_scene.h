@@ -1,4 +1,4 @@
-// Small scenes of everything that a scene may hold, for the targets that simulate.
+// Makes small scenes of everything that a scene may hold, for the targets that simulate.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct SmallScene {
     bool cutters = true;
 };
 
-/// The text of a scene file. Most values are everyday ones, some extreme; the reader refuses some of the scenes.
+/// Returns a scene file's text. Most values are everyday ones, some extreme; the reader refuses some of the scenes.
 std::string small_scene(Dice& dice, const SmallScene& limits);
 
 }  // namespace drape::fuzz

@@ -1,4 +1,4 @@
-// A small scene of everything on the C++ twin: pins hold exactly, and every particle is finite or counted as one that
+// In a small scene of everything on the C++ twin pins hold exactly, and every particle is finite or counted as one that
 // is not.
 #include "reference/twin.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 using fuzz::require;
 
-constexpr double exact = 1e-5;  ///< of what its coordinates are computed from
+constexpr double exact = 1e-5;  ///< relative to the numbers that its coordinates are computed from
 
 double size_of(const Vec3& v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
 
@@ -30,7 +30,7 @@ Vec3 place(const glsl::vec4& at) {
 
 bool is_finite(const glsl::vec4& at) { return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z); }
 
-/// Where a moved pin has its particle.
+/// Checks that a moved pin's particle is where the pin has it.
 void check_moved(const DynamicPin& pin, const glsl::vec4& rest_texel, double time, const Vec3& is) {
     const RigidTransform motion = motion_at(pin.path, time);
     const Vec3 rest = place(rest_texel);
@@ -65,7 +65,7 @@ void check_pins(const ClothModel& cloth, const std::vector<glsl::vec4>& position
     }
 }
 
-/// What refuses a frame sees every particle that is not finite.
+/// The watch that refuses a frame sees every particle that is not finite.
 void check_finite(const SimulationModel& model, Twin& twin, Watch& watch, std::uint32_t frame) {
     const FrameInputs inputs = frame_inputs(model, frame);
     std::vector<ClothStatistics> all;

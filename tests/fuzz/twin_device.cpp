@@ -1,10 +1,9 @@
-// A small scene of everything on the device and on the C++ twin: every bit of the state after every frame, and nothing
-// from the validation layer. Needs a device with IEEE arithmetic, as lavapipe is.
+// A small scene of everything gives every bit of the state after every frame on the device as on the C++ twin, and no
+// message of the validation layer. It needs a device with IEEE arithmetic, as lavapipe is.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "cloth/self_contact.h"
@@ -30,15 +29,10 @@ namespace {
 
 using fuzz::require;
 
-/// With core and synchronization validation.
+/// A device with core and synchronization validation.
 struct Gpu {
     vulkan::Instance instance{vulkan::InstanceOptions{.validation = true, .print_messages = false}};
-    vulkan::Device device{instance, selector()};
-
-    static std::string selector() {
-        const char* name = std::getenv("DRAPE_TEST_DEVICE");
-        return name ? name : "";
-    }
+    vulkan::Device device{instance, "cpu"};
 };
 
 Gpu& gpu() {
@@ -59,8 +53,8 @@ bool is_finite(std::span<const std::byte> texels) {
     return std::ranges::all_of(test::texels_of<float>(texels), [](float number) { return std::isfinite(number); });
 }
 
-/// Whether the frame is a result at all: where it is none a run ends. What a comparison or a conversion makes of
-/// numbers that are none is nobody's; nor are pairs that found no room in the device's lists, where the twin tries all.
+/// Returns whether the frame is a result at all; a run ends where it is none. Comparisons and conversions of numbers
+/// that are none may differ, and so may pairs that found no room in the device's lists, where the twin tries all.
 bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceRun& device) {
     bool twin_finite = true, device_finite = true;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
@@ -73,10 +67,10 @@ bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceR
     return twin_finite;
 }
 
-/// Every field of the state.
-void compare_states(const SimulationModel& model, Schedule schedule) {
+/// Compares every field of the state.
+void compare_states(const SimulationModel& model, const Kernels& kernels) {
     Twin twin(model);
-    test::DeviceRun device(gpu().device, model, {}, schedule);
+    test::DeviceRun device(gpu().device, model, {}, kernels);
     for (std::uint32_t frame = 1; frame < model.scene.time.frame_count; ++frame) {
         twin.run_frame(frame);
         device.run_frame(frame);
@@ -87,13 +81,13 @@ void compare_states(const SimulationModel& model, Schedule schedule) {
     }
 }
 
-/// Positions, with what the cutters cut.
-void compare_cut(const SceneDescription& scene, Schedule schedule) {
+/// Compares positions, with what the cutters cut.
+void compare_cut(const SceneDescription& scene, const Kernels& kernels) {
     test::TwinWithCuts twin(scene);
     FrameLoopOptions options;
     options.draw = false;
     options.positions = true;
-    options.schedule = schedule;
+    options.kernels = kernels;
     FrameLoop loop(gpu().device, twin.model(), options);
     bool finite = true;
     const auto compare_frame = [&](const FinishedFrame& frame) {
@@ -126,7 +120,7 @@ void check_messages() {
 
 #ifdef DRAPE_FUZZ_SANITIZED
 extern "C" {
-/// As in gpu_test.cpp: drivers and layers stay loaded, so that their leaks can be told from ours.
+/// Drivers and layers stay loaded, as in gpu_test.cpp, so that their leaks can be told from ours.
 int dlclose(void*) noexcept { return 0; }
 }
 #endif
@@ -139,12 +133,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const SceneResult result = read_scene_text(text, "small scene");
     if (!result.scene) return 0;
     const SimulationModel model(*result.scene);
-    const std::vector<Schedule> schedules = test::schedules(gpu().device, model);
-    const Schedule schedule = schedules[dice.below(static_cast<std::uint32_t>(schedules.size()))];
+    const std::vector<Kernels> sets = test::kernel_sets(gpu().device, model);
+    const Kernels& kernels = sets[dice.below(static_cast<std::uint32_t>(sets.size()))];
     if (result.scene->cutters.empty())
-        compare_states(model, schedule);
+        compare_states(model, kernels);
     else
-        compare_cut(*result.scene, schedule);
+        compare_cut(*result.scene, kernels);
     check_messages();
     return 0;
 }

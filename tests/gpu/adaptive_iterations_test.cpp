@@ -1,4 +1,4 @@
-// Iterations that end when the tolerance is met: the device decides, and decides as its twin does.
+// Iterations end when the tolerance is met: the device decides, and decides as its twin does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using test::expect_same;
 using test::frame_count;
 using test::substep_count;
 
-/// Iterations by frame, device and twin alike; the last frames' are returned.
+/// Compares the iterations by frame of device and twin; returns those of the last frames.
 std::vector<std::uint32_t> compare_iterations(const SceneDescription& scene) {
     const SimulationModel model(scene);
     FrameLoopOptions options;
@@ -46,7 +46,7 @@ TEST(AdaptiveIterations, TheDeviceSkipsWhatTheTwinSkips) {
     scene.solver.tolerance = 0.004;
     scene.cloths[0].holes = {{{10, 5}, {20, 12}}};
     const std::vector<std::uint32_t> counts = compare_iterations(scene);
-    // The tolerance is one that some substeps need several iterations for, and some one.
+    // The tolerance is one for which some substeps need several iterations, and some need one.
     EXPECT_GT(*std::ranges::max_element(counts), substep_count);
     EXPECT_LT(*std::ranges::min_element(counts), 7 * substep_count);
     EXPECT_NE(counts.front(), counts.back());
@@ -83,7 +83,7 @@ TEST(AdaptiveIterations, MetAtOnceIsOneIterationAndNeverMetIsAllOfThem) {
         scene.solver.tolerance = tolerance;
         for (const std::uint32_t count : compare_iterations(scene)) EXPECT_EQ(count, each * substep_count);
     }
-    // All of them is what runs without a tolerance, bit for bit.
+    // All iterations together are those that run without a tolerance, bit for bit.
     SceneDescription plain = scene;
     plain.solver.tolerance = 0;
     const SimulationModel adaptive_model(scene), plain_model(plain);

@@ -1,5 +1,5 @@
-// An image and a buffer of the same memory: what is written by one view is read by the other, hazards across the views
-// are known to the plan, and without its barriers the layer sees them.
+// An image and a buffer share memory: a read by one view sees a write by the other, the plan knows hazards across the
+// views, and without its barriers the layer sees them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using Plans = std::vector<std::pair<const Graph*, const Plan*>>;
 
-constexpr std::uint32_t image_width = 70, image_height = 5;  // a row is no multiple of the device's pitch
+constexpr std::uint32_t image_width = 70, image_height = 5;  // so that a row is no multiple of the device's pitch
 
 struct RowsPush {
     glsl::ivec2 size;
@@ -42,8 +42,8 @@ struct BufferView : ::testing::Test {
                             .lifetime = lifetime,
                             .buffer_view = buffer_view});
     }
-    /// A pass that reads `from` as "source" and writes `to` as "target"; the one of them that has a buffer view is a
-    /// buffer where the pipeline has one.
+    /// Adds a pass that reads `from` as "source" and writes `to` as "target"; whichever has a buffer view is a buffer
+    /// where the pipeline has one.
     void add(const vulkan::ComputePipeline& pipeline, Handle from, Handle& to, Handle shared) {
         graph.add_pass(
             {pipeline.name(), "s", pipeline.name()},
@@ -52,8 +52,8 @@ struct BufferView : ::testing::Test {
                 to = setup.write(to, Access::compute_write, "target");
             },
             [&pipeline, from, shared, written = to.resource](PassContext& context) {
-                if (!pipeline.push_constants()) return context.dispatch(pipeline, image_width, image_height);
-                // The handle that the pass declared: a write makes the next version.
+                if (!pipeline.push_constants()) return context.dispatch(pipeline, {}, image_width, image_height);
+                // The handle is the one that the pass declared: a write makes the next version.
                 const Handle view = shared.resource == written ? Handle{shared.resource, shared.version + 1} : shared;
                 const RowsPush push{{image_width, image_height}, static_cast<std::int32_t>(context.row_pitch(view))};
                 context.dispatch(pipeline, push, image_width, image_height);
@@ -64,7 +64,7 @@ struct BufferView : ::testing::Test {
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) + 0.25f;
         return values;
     }
-    /// The result of one run, when `source` holds `texels`.
+    /// Returns the result of one run, when `source` holds `texels`.
     std::vector<float> run() const {
         const Plan plan = make_plan(graph);
         const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
@@ -80,7 +80,7 @@ struct BufferView : ::testing::Test {
         vulkan::download(gpu().device, pool.image("result"), std::as_writable_bytes(std::span(received)));
         return received;
     }
-    /// What the layer says when the barriers before the last pass are left out.
+    /// Returns the layer's messages when the barriers before the last pass are left out.
     std::vector<std::string> messages_without_barrier() const {
         const Plan plan = make_plan(graph);
         const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});

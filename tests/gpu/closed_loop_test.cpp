@@ -1,4 +1,4 @@
-// The closed loop of method `auto`: the device judges, redoes and changes steps as its twin does, to the bit, and
+// In the closed loop of method `auto` the device judges, redoes and changes steps as its twin does, to the bit, and
 // nobody who asks for the frames one by one gets others.
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ SceneDescription hanging_by_corners(std::uint32_t frames) {
     return automatic(scene, frames);
 }
 
-/// For the library's face; its messages fail the tests at their end.
+/// A device for the library's public interface; its messages fail the tests at their end.
 const Device& validated() {
     static const Device device("", Validation::count);
     return device;
@@ -39,15 +39,15 @@ const Device& validated() {
 
 struct Seen {
     std::vector<FrameEffort> efforts;
-    std::vector<std::vector<float>> positions;  // of the cloths, one after the other
-    std::uint64_t most_cells = 0;               // that the list had room for in the end
+    std::vector<std::vector<float>> positions;  // all cloths one after the other
+    std::uint64_t most_cells = 0;               // room of the list in the end
 };
 
-/// Elements of a resource of the first cloth, 0 of one that there is not.
-std::uint64_t count_of(const graph::Graph& graph, const SimulationModel& model, Field field) {
-    const FieldRow& row = row_of(field);
+/// The elements of one of contact's fields, 0 where there is none.
+std::uint64_t count_of(const graph::Graph& graph, ContactField field) {
+    const ContactRow& row = contact_fields()[static_cast<std::size_t>(field)];
     for (const graph::Resource& resource : graph.resources())
-        if (resource.name == resource_name(model.cloths[0], row)) return resource.byte_count() / row.element.size;
+        if (resource.name == resource_name(row)) return resource.byte_count() / row.element.size;
     return 0;
 }
 
@@ -73,11 +73,11 @@ Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) 
             for (const std::span<const float> cloth : frame.positions)
                 all.insert(all.end(), cloth.begin(), cloth.end());
         });
-    seen.most_cells = count_of(loop.graph(FrameKind::simulate), model, Field::self_cells);
+    seen.most_cells = count_of(loop.graph(FrameKind::simulate), ContactField::cells);
     return seen;
 }
 
-/// Every frame's positions, substeps, attempts and estimate; what the device did is returned.
+/// Compares every frame's positions, substeps, attempts and estimate; returns what the device did.
 Seen compare_loops(const SceneDescription& scene) {
     Seen device = on_device(scene);
     const SimulationModel model(scene);
@@ -124,7 +124,7 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
-/// Two of one kind, which share dispatches (cloth/together.h), and are kept, restored and compared one by one.
+/// Two cloths of one kind share dispatches (cloth/together.h), and are kept, restored and compared one by one.
 TEST(ClosedLoop, WithClothsThatAreSimulatedTogether) {
     SceneDescription scene = everything();
     scene.cloths.push_back(scene.cloths[0]);
@@ -137,12 +137,12 @@ TEST(ClosedLoop, WithClothsThatAreSimulatedTogether) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
-/// Folds on the ground.
+/// The cloth folds on the ground.
 TEST(ClosedLoop, WithClothThatMeetsItself) {
     SceneDescription scene = automatic(test::fold(15, 0.5, SolverMethod::line, 1), 20);
     scene.cloths[0].velocity = {0, -4, 0};
     scene.solver.tolerance = 0.0005;
-    scene.solver.tolerance_motion = 0.5;  // the default's takes 1536 substeps, which the twin's search for pairs feels
+    scene.solver.tolerance_motion = 0.5;  // the default takes 1536 substeps, which the twin's search for pairs feels
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
@@ -154,7 +154,7 @@ TEST(ClosedLoop, WithClothsThatMeetEachOther) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
-/// A pile of sheets that are nearer each other than the search for cells looks.
+/// A pile of sheets that are nearer to each other than the search for cells looks.
 SceneDescription pile(std::uint32_t substeps) {
     SceneDescription scene = test::stack(24, 6, SolverMethod::line, substeps);
     for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
@@ -165,10 +165,10 @@ SceneDescription pile(std::uint32_t substeps) {
 }
 
 void expect_growth(const SceneDescription& scene, const Seen& seen) {
-    EXPECT_GT(seen.most_cells, SimulationModel(scene).self_contact->room.cells);
+    EXPECT_GT(seen.most_cells, SimulationModel(scene).self_contact->capacity.cells);
 }
 
-/// Their lists are made longer and the frame is done again, which nobody but the device notices: the twin has no lists.
+/// Too short lists are made longer and the frame is done again, which only the device notices: the twin has none.
 TEST(ClosedLoop, WithMoreContactThanTheListsHadRoomFor) {
     SceneDescription scene = automatic(pile(1), 5);
     scene.solver.tolerance = 0.1;
@@ -245,7 +245,7 @@ TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
 }
 
 TEST(ClosedLoop, StillClothSleepsUntilSomethingMoves) {
-    // Hangs flat and damped from its edge; after 2.5 s the edge is moved.
+    // The cloth hangs flat and damped from its edge, which moves after 2.5 s.
     SceneDescription scene = test::sheet(9, 8, 0.4, 0.3, 1);
     Cloth& cloth = scene.cloths[0];
     cloth.pins = {test::pin_top(cloth)};
@@ -256,7 +256,7 @@ TEST(ClosedLoop, StillClothSleepsUntilSomethingMoves) {
     const Seen seen = compare_loops(scene);
     const auto asleep = [&](std::uint32_t frame) { return seen.efforts[frame - 1].asleep; };
     EXPECT_FALSE(asleep(1));
-    ASSERT_TRUE(asleep(50));  // ends at 2.5 s
+    ASSERT_TRUE(asleep(50));  // this run ends at 2.5 s
     EXPECT_EQ(seen.positions[49], seen.positions[48]);
     EXPECT_FALSE(asleep(51));
     EXPECT_NE(seen.positions[51], seen.positions[49]);
@@ -283,7 +283,7 @@ class Flight : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Damping, Flight, testing::Values(0.0, 1.0));
 
 TEST_P(Flight, KeepsItsSpeedWhenTheStepChanges) {
-    // Substeps change at the probes; flight may not notice.
+    // Substeps change at the probes, which free flight must not notice.
     SceneDescription scene = test::sheet(65, 65, 1, 1, 1);
     scene.cloths[0].velocity = {1, 2, 0};
     scene.cloths[0].pins.clear();
@@ -297,7 +297,7 @@ TEST_P(Flight, KeepsItsSpeedWhenTheStepChanges) {
         const double t = static_cast<double>(frame + 1) / scene.time.fps;
         for (const std::size_t i : {std::size_t{0}, std::size_t{2140}, std::size_t{4224}}) {
             const glsl::vec4& start = model.cloths[0].position[i];
-            // How far a speed of 1 m/s and an acceleration of 1 m/s^2 carry.
+            // These are the ways of a speed of 1 m/s and of an acceleration of 1 m/s^2.
             const double speed = damping > 0 ? -std::expm1(-damping * t) / damping : t;
             const double acceleration = damping > 0 ? (t - speed) / damping : 0.5 * t * t;
             EXPECT_NEAR(seen.positions[frame][4 * i], start.x + speed, 1e-5);

@@ -1,5 +1,5 @@
-// Cutting on the device: findings and state equal the twin bit for bit, through a thousand cuts; pieces fall free;
-// an idle cutter costs and changes nothing.
+// Cutting on the device gives the twin's findings and state bit for bit, through a thousand cuts; pieces fall free; an
+// idle cutter costs and changes nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::vector<glsl::vec4> texels(std::span<const float> xyzw) {
     return list;
 }
 
-/// Random blades, one after the other, anywhere about the sheet.
+/// Returns random blades, one after the other, anywhere about the sheet.
 std::vector<Cutter> random_blades(std::size_t count, double fps, double size) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(0, 0.9), depth(-0.5, 0.5);
@@ -63,11 +63,11 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     constexpr std::uint32_t cut_count = 1450;  // blades; at least a thousand of them cut
     SceneDescription scene = test::sheet(56, 50, 0.9, 0.8, 2);
     scene.time.frame_count = cut_count + 2;
-    scene.gravity = {0, -0.02, 0};  // pieces stay about
+    scene.gravity = {0, -0.02, 0};  // so that pieces stay about
     scene.cloths[0].damping = 3;
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cloths[0].holes = {{{3, 3}, {6, 7}}};
-    scene.colliders.push_back({Plane{{0, 1, 0}, -1}});  // pieces stay within the blades' reach
+    scene.colliders.push_back({Plane{{0, 1, 0}, -1}});  // keeps pieces within the blades' reach
     scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
 
     test::TwinWithCuts twin(scene);
@@ -140,7 +140,7 @@ TEST(CutTest, ThePieceCutFromAHangingSheetFallsFreeAndTheOtherHangsOn) {
         });
     EXPECT_EQ(cut_frame, 21u);
     EXPECT_GT(lowest_above, -0.62) << "the upper part hangs on";
-    // From the frame of the cut on, nothing outside touches the piece. Its velocity: from the first step.
+    // From the frame of the cut on, nothing outside touches the piece. Its velocity comes from the first step.
     const double g = 9.81, dt = 1.0 / 60;
     const double velocity = (centre[22][1] - centre[21][1]) / dt + g * dt / 2;
     double worst = 0;
@@ -188,8 +188,8 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
     EXPECT_FALSE(plain_loop.pool().has("cutters"));
 }
 
-/// Runs `frames` frames on the device and on the twin: the same bits after each, at least ten cuts. The tethers of the
-/// twin's first cloth as the cuts left them.
+/// Runs `frames` frames on the device and on the twin: the bits after each are the same, and there are at least ten
+/// cuts. Returns the tethers of the twin's first cloth as the cuts left them.
 std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription& scene, std::uint32_t frames) {
     test::TwinWithCuts twin(scene);
     std::uint32_t device_cuts = 0, twin_cuts = 0;
@@ -212,13 +212,13 @@ std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription&
 }
 
 TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
-    // Without colliders, so that the solver is of second order and its history goes over to the new resources too.
+    // Without colliders the solver is of second order, so that its history goes over to the new resources too.
     constexpr std::uint32_t frames = 40;
     SceneDescription scene = test::sheet(40, 36, 0.9, 0.8, 3);
     scene.time.frame_count = frames + 1;
     scene.solver.method = SolverMethod::line;
     scene.solver.iterations = 2;
-    scene.solver.tethers = true;  // which end with the first cut
+    scene.solver.tethers = true;  // end with the first cut
     scene.gravity = {0, -0.5, 0};
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cutters = random_blades(frames - 5, scene.time.fps, 0.9);
@@ -265,7 +265,7 @@ TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
     EXPECT_EQ(cut_frames, std::vector<std::uint32_t>{0});
 }
 
-/// The surface that a triangle sweeps on its way: where it ends, where it began, two triangles per side.
+/// The surface that a triangle sweeps on its way: its last place, its first, and two triangles per side.
 std::vector<std::array<Vec3, 3>> prism(const std::array<Vec3, 3>& from, const Vec3& way) {
     std::array<Vec3, 3> to = from;
     for (Vec3& corner : to)
@@ -283,7 +283,7 @@ TEST(CutTest, EveryFaceOfWhatABladeSweepsCuts) {
     const std::array<Vec3, 3> triangle{{{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}}};
     const Vec3 way{0.3, -0.2, 0.9};
     for (const auto& [a, b, c] : prism(triangle, way)) {
-        SceneDescription scene = test::sheet(6, 6, 0.02, 0.02, 2);  // far smaller, across the middle of the face
+        SceneDescription scene = test::sheet(6, 6, 0.02, 0.02, 2);  // far smaller than the face, across its middle
         scene.time.frame_count = 3;
         scene.gravity = {0, 0, 0};
         const double begin = 0.2 / scene.time.fps, end = 0.8 / scene.time.fps;
@@ -315,7 +315,7 @@ TEST(CutTest, EveryFaceOfWhatABladeSweepsCuts) {
                 std::string where;
                 EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where)) << where;
             });
-        EXPECT_GE(springs, 6u);  // of every row the middle one, and diagonals
+        EXPECT_GE(springs, 6u);  // the middle one of every row, and diagonals
     }
 }
 
@@ -339,7 +339,7 @@ TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
         7, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) { pictures.emplace_back(frame.rgba.begin(), frame.rgba.end()); });
     EXPECT_EQ(cuts, 2);
-    // Nothing moves: the cut sheet, drawn in parts, covers the pixels that the whole one did.
+    // Nothing moves, so the cut sheet, drawn in parts, covers the pixels that the whole one did.
     std::size_t different = 0, covered = 0;
     for (std::size_t pixel = 0; pixel < pictures[0].size(); pixel += 4) {
         covered += std::memcmp(&pictures[0][pixel], &pictures[0][0], 3) != 0;

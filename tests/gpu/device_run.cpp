@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "solver/kernel_choice.h"
 #include "vulkan/api.h"
+#include "vulkan/error.h"
 
 namespace drape::test {
 
@@ -12,7 +14,6 @@ namespace {
 
 std::string normal_buffer(const ClothModel& cloth) { return cloth.name + "/normals on the host"; }
 
-/// Keeps the normals alive and fetches them.
 void add_normal_readback(graph::Graph& graph, const ClothState& state) {
     const Grid& grid = state.model->grid;
     const graph::Handle empty =
@@ -35,8 +36,8 @@ void add_normal_readback(graph::Graph& graph, const ClothState& state) {
 }  // namespace
 
 DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep,
-                     Schedule schedule, const FrameNeeds& needs)
-    : device_(device), model_(model), solver_(device, model, schedule), slots_(device) {
+                     const Kernels& kernels, const FrameNeeds& needs)
+    : device_(device), model_(model), solver_(device, model, kernels), slots_(device) {
     solver_.declare(graph_, needs);
     solver_.add_simulation(graph_);
     solver_.add_normals(graph_);
@@ -67,16 +68,16 @@ std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
     return bytes;
 }
 
-std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationModel& model) {
-    const bool buffered = std::ranges::all_of(
-        model.cloths, [&](const ClothModel& cloth) { return buffered_obstacle(device, cloth.grid).empty(); });
-    std::vector<Schedule> all{Schedule::images};
-    if (buffered) all.push_back(Schedule::buffers);
-    const MethodPlan& plan = model.cloths[0].plan;
-    const bool streamed = buffered && (plan.spare_state || plan.spare_displacement) &&
-                          streamed_obstacle(device, model.cloths[0].grid).empty();
-    if (streamed) all.push_back(Schedule::streams);
-    return all;
+std::vector<Kernels> kernel_sets(const vulkan::Device& device, const SimulationModel& model) {
+    std::vector<Kernels> sets{{}};
+    for (const Kernels& kernels : {Kernels{Kernel::buffer_store}, stream_kernels}) {
+        try {
+            const Kernels possible = possible_kernels(device, model, kernels);
+            if (used_kernels(model, possible) != used_kernels(model, sets.back())) sets.push_back(possible);
+        } catch (const vulkan::VulkanError&) {  // the device has not what they need
+        }
+    }
+    return sets;
 }
 
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where) {

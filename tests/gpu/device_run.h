@@ -1,4 +1,4 @@
-// Runs a model's frames on the device and fetches any of its images: for comparison with the C++ twin.
+// Runs a model's frames on the device and fetches any of its images, for comparison with the C++ twin.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "graph/executor.h"
 #include "solver/cloth_solver.h"
 
@@ -24,12 +24,11 @@ std::vector<T> texels_of(std::span<const std::byte> bytes) {
 class DeviceRun {
   public:
     DeviceRun(const vulkan::Device& device, const SimulationModel& model, const graph::BarrierFilter& keep = {},
-              Schedule schedule = Schedule::automatic, const FrameNeeds& needs = {.drawing = true});
+              const Kernels& kernels = Kernels::automatic(), const FrameNeeds& needs = {.drawing = true});
 
-    /// Simulates from frame-1 to `frame` and waits.
     void run_frame(std::uint32_t frame);
 
-    /// Of a field that the device keeps, or of the normals: row by row.
+    /// Returns a field that the device keeps, or the normals, row by row.
     std::vector<std::byte> bytes(std::size_t cloth, Field field) const;
     template <class T = glsl::vec4>
     std::vector<T> texels(std::size_t cloth, Field field) const {
@@ -52,10 +51,10 @@ class DeviceRun {
     vulkan::FrameSlots slots_;
 };
 
-/// Schedules that the device has for a model's cloths.
-std::vector<Schedule> schedules(const vulkan::Device& device, const SimulationModel& model);
+/// The sets of kernels with the plain ones' bits that the device has for a model's cloths.
+std::vector<Kernels> kernel_sets(const vulkan::Device& device, const SimulationModel& model);
 
-/// Whether two lists of texels are the same bits; on failure `where` names the first difference.
+/// Returns whether two lists of texels are the same bits; on failure `where` names the first difference.
 bool same_bits(const std::vector<glsl::vec4>& a, const std::vector<glsl::vec4>& b, std::string& where);
 
 }  // namespace drape::test

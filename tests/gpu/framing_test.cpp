@@ -1,4 +1,4 @@
-// Where a scene without a camera is looked at from, and what its pins hang on, in numbers and in pictures.
+// A scene without a camera is framed, and its pins hang on fixtures, in numbers and in pictures.
 #include "picture/framing.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-/// Shares of the picture that a scene's start fills: its cloths and bounded bodies, by projected triangles.
+/// Share of the picture that a scene's start fills: its cloths and bounded bodies, by projected triangles.
 double filled_share(const SceneDescription& scene, const Camera& camera, std::uint32_t columns, std::uint32_t rows) {
     constexpr int steps = 400;
     std::vector<bool> hit(std::size_t{columns} * rows);
@@ -58,7 +58,7 @@ TEST(FramingTest, AutomaticCameraFillsThePictureWithWhatIsThere) {
     flag.wind.velocity = {5, 0, 1};
     SceneDescription sheet = one_cloth({{5, 1.6, -3}, {1, 0, 0}, {0, -1, 0}}, {1, 1});
     sheet.cloths[0].pins = {row_of(sheet.cloths[0])};
-    SceneDescription small = sheet;  // in millimetres
+    SceneDescription small = sheet;  // the same sheet in millimetres
     small.cloths[0].size = {1e-3, 1e-3};
     for (const SceneDescription& scene : {flag, sheet, small})
         for (const std::array<std::uint32_t, 2>& size : {std::array{640u, 360u}, {360u, 360u}, {360u, 640u}}) {
@@ -67,7 +67,7 @@ TEST(FramingTest, AutomaticCameraFillsThePictureWithWhatIsThere) {
             EXPECT_GT(share, size[0] < size[1] ? 0.2 : 0.3) << size[0];
             EXPECT_LT(share, 0.6) << size[0];
         }
-    // A falling cloth and what it falls on: half of the picture is what they fall through.
+    // A cloth falls on a sphere: half of the picture is the way that it falls.
     SceneDescription fall = one_cloth({{-0.8, 1.4, -0.8}, {1, 0, 0}, {0, 0, 1}}, {1.6, 1.6});
     fall.colliders = {{Plane{}}, {Sphere{{0, 0.85, 0}, 0.4}}};
     const double share = filled_share(fall, picture_camera(fall, 640, 360), 640, 360);
@@ -101,11 +101,11 @@ TEST(FixtureTest, PinnedEdgesHangOnPolesAndRailsAndCornersOnPoles) {
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(found[0].from[1], 0.5, 1e-12);
     EXPECT_EQ(found[0].to, (Vec3{0.5, 2, 0}));
-    // Where the cloth starts, not where it would lie unstretched.
+    // Fixtures stand where the cloth starts, not where it would lie unstretched.
     scene.cloths[0].placement.scale = {0.5, 1};
     EXPECT_EQ(fixtures(scene)[0].to, (Vec3{0, 2, 0}));
     scene.cloths[0].placement.scale = {1, 1};
-    // Hooks in a line share a rail over all that they travel; each has a knob that moves with it.
+    // Hooks in a line share a rail over all the way that they travel; each has a knob that moves with it.
     scene.cloths[0].pins.clear();
     for (const std::uint32_t column : {0u, 4u, 8u})
         scene.cloths[0].pins.push_back({.particles = {{column, 0}, {column, 0}}});
@@ -153,7 +153,7 @@ TEST_F(FixturePicture, RailIsDrawnWhereThePinsAreUnlessSwitchedOff) {
     const DrawnCloth cloth = square({0, 0, 0}, 1, red, red);
     scene.cloths.resize(1);
     scene.cloths[0].pins = {{.particles = {{0, 0}, {1, 0}}}};
-    // The first row is the lower one of a square in this room.
+    // The first row is the lower one of the square in this room.
     const PixelPosition beside = project(*scene.camera, width, height, {0.53, -0.5, 0});
     EXPECT_GT(draw(scene, {cloth}).at(beside)[1], 20);
     scene.image.fixtures = false;

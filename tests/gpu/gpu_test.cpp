@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -10,8 +9,8 @@
 
 #ifdef __SANITIZE_ADDRESS__
 extern "C" {
-/// Layers and drivers stay loaded, so that the leak report can name their frames, and so that leaks of theirs
-/// (a suppression matches loaded modules only) are told apart from ours.
+/// Layers and drivers stay loaded, so that the leak report can name their frames, and so that leaks of theirs (a
+/// suppression matches loaded modules only) are told apart from ours.
 int dlclose(void*) noexcept { return 0; }
 const char* __lsan_default_suppressions() { return "leak:libVkLayer_khronos_validation.so\n"; }
 /// The driver's freed images would otherwise stay in quarantine.
@@ -24,11 +23,6 @@ namespace drape::test {
 namespace {
 
 std::unique_ptr<Gpu> the_gpu;
-
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-}
 
 void fail_on_messages(vulkan::ValidationLog& log, std::string_view when) {
     if (log.count() == 0) return;
@@ -57,7 +51,7 @@ class ValidationListener : public testing::EmptyTestEventListener {
 Gpu::Gpu()
     : instance_(
           std::make_unique<vulkan::Instance>(vulkan::InstanceOptions{.validation = true, .print_messages = false})),
-      device_(std::make_unique<vulkan::Device>(*instance_, environment("DRAPE_TEST_DEVICE"))),
+      device_(std::make_unique<vulkan::Device>(*instance_, "")),
       instance(*instance_),
       device(*device_) {}
 

@@ -1,5 +1,5 @@
-// What all tests that need a device share: one validated device per process, and a listener that fails the
-// test during which the validation layer said anything.
+// All tests that need a device share one validated device per process, and a listener that fails the test during which
+// the validation layer said anything.
 #pragma once
 
 #include <cstdint>
@@ -31,25 +31,25 @@ class Gpu {
     const vulkan::Device& device;
 };
 
-/// Made at the first call. The environment variable DRAPE_TEST_DEVICE selects the device as --device does.
+/// Made at the first call, on the device that main() chose.
 /// Without a device, a driver or the validation layer it throws, so the test fails: a machine that cannot
 /// run these tests must not look green. From then on every test of the process fails when the layer reports
 /// something during it, and the process fails when device objects are left at its end.
 Gpu& gpu();
 
-/// While it lives the validation layer is expected to speak: the test fails when it does not, and does not
-/// fail because it does.
+/// While it lives the validation layer is expected to speak: the test fails when it does not, and does not fail because
+/// it does.
 class ExpectValidationMessages {
   public:
     ExpectValidationMessages();
     ~ExpectValidationMessages();
     ExpectValidationMessages(const ExpectValidationMessages&) = delete;
     ExpectValidationMessages& operator=(const ExpectValidationMessages&) = delete;
-    /// The texts so far.
+    /// Returns the layer's messages so far.
     std::vector<std::string> messages() const;
 };
 
-/// The SPIR-V of tests/gpu/shaders/NAME, valid for the rest of the process.
+/// Returns the SPIR-V of tests/gpu/shaders/NAME, valid for the rest of the process.
 std::span<const std::uint32_t> test_shader(std::string_view name);
 
 }  // namespace drape::test

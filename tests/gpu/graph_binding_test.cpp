@@ -1,4 +1,4 @@
-// What a pass binds, pushes and shares with its shader must fit: every mistake is refused by name.
+// Everything that a pass binds, pushes and shares with its shader must fit, and every mistake is refused by name.
 #include <gmock/gmock.h>
 
 #include "graph_execution.h"
@@ -95,7 +95,7 @@ TEST_F(GraphExecution, PushConstantsThatTheShaderLacksAreRefused) {
                                                          HasSubstr("vec2 in C++, but the shader has none"))));
 }
 
-/// Of tests/gpu/shaders/interface.comp.
+/// Element of tests/gpu/shaders/interface.comp.
 struct Element {
     glsl::vec4 position;
     float mass, age;
@@ -122,7 +122,7 @@ struct GraphLayouts : GraphExecution {
     vulkan::ComputePipeline pipeline{
         gpu().device, "interface", {"interface.comp", test::test_shader("interface.comp")}, {}};
 
-    /// What recording says of a pass with these elements and push constants; empty when it is content.
+    /// Returns the error at recording a pass with these elements and push constants, empty when there is none.
     template <class Constants>
     std::string error(Handle elements, const Constants& push, bool texels = true) {
         Handle sums = graph.buffer<glsl::vec2>("sums", width * height, Lifetime::persistent);

@@ -1,4 +1,4 @@
-// A graph on the device with a pass that copies an image, and the ways in and out of its images.
+// A graph on the device with a pass that copies an image, and functions that fill and read its images.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct GraphExecution : ::testing::Test {
         return graph.buffer({.name = name, .byte_count = float_count * sizeof(float), .lifetime = lifetime});
     }
 
-    void dispatch(PassContext& context) const { context.dispatch(canary, width, height); }
+    void dispatch(PassContext& context) const { context.dispatch(canary, {}, width, height); }
 
     void copy(const std::string& name, const std::string& stage, Handle from, Handle& to) {
         graph.add_pass(

@@ -1,4 +1,4 @@
-// Plans on a device: contents, layouts, slots, timings, refusals, and the planted hazard that must be seen.
+// Plans run on a device: contents, layouts, slots, timings, refusals, and the planted hazard that must be seen.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -65,8 +65,8 @@ TEST_F(GraphExecution, EveryMissingBarrierOfAChainIsReported) {
     const ResourcePool pool(gpu().device, Plans{{&graph, &plan}});
     { const RecordedPlan whole(graph, plan, pool, TimestampMode::none); }
     ASSERT_EQ(gpu().instance.validation_log().count(), 0u);
-    // The third pass has two barriers: c just written, a read by the first pass; merged into one memory
-    // barrier, so each is planted by dropping all of its pass.
+    // The third pass has two barriers, c just written and a read by the first pass, merged into one memory barrier, so
+    // each is planted by dropping all of its pass.
     for (const std::uint32_t pass : {1u, 2u}) {
         const test::ExpectValidationMessages expected;
         const RecordedPlan broken(graph, plan, pool, TimestampMode::none,

@@ -1,23 +1,21 @@
-// The device that tests of the library's face share, opened as its users open one.
+// Tests of the library's public interface share this device, opened as its users open one.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 
 #include "drape/simulation.h"
 
 namespace drape::test {
 
-/// Validated. The environment variable DRAPE_TEST_DEVICE selects it as --device does.
+/// Validated; the one that main() chose.
 inline const Device& library_device() {
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    static const Device opened(selector ? selector : "", Validation::count);
+    static const Device opened("", Validation::count);
     return opened;
 }
 
-/// Any message fails the test.
+/// Any message of the validation layer fails the test.
 class LibraryTest : public testing::Test {
   protected:
     void TearDown() override { EXPECT_EQ(library_device().validation_count(), before_); }

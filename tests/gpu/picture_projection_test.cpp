@@ -1,5 +1,5 @@
-// The picture shows the simulation: marked particles, simulated among the others, are found in the colour
-// image of the very run whose position arrays say where they are.
+// The picture shows the simulation: marked particles, simulated among the others, are found in the colour image of the
+// very run whose position arrays say where they are.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t picture_width = 640, picture_height = 360, last_frame = 40;
 
-/// Two-cell markers beside the scene's own cloths: they fall, fly and collide with everything else, and shine
-/// in pure colours that nothing else has.
+/// Markers of a cell beside the scene's own cloths fall, fly and collide with everything else, and shine in pure
+/// colours that nothing else has.
 struct Marker {
     Vec3 color, origin, v, velocity;
 };
@@ -27,8 +27,8 @@ const std::array<Marker, 4> markers{{{{1, 0, 0}, {0.05, 1.35, -0.45}, {0, 0, 1},
                                      {{1, 0, 1}, {1.0, 1.1, 0.9}, {0, -1, 0}, {-0.6, 2.9, -0.1}},
                                      {{0, 1, 1}, {-1.3, 1.1, 0.9}, {0, -1, 0}, {0.5, 2.5, 0.2}}}};
 
-/// The four-collider scene without its sheet's own colours: everything but the markers is grey, the only
-/// light the ambient one.
+/// The four-collider scene without its sheet's own colours: everything but the markers is grey, and the only light is
+/// the ambient one.
 SceneDescription marked_scene() {
     SceneDescription scene = test::shipped_scene("four_colliders");
     const Vec3 grey{0.5, 0.5, 0.5};
@@ -44,7 +44,7 @@ SceneDescription marked_scene() {
         marker.grid = {3, 2};
         marker.size = {0.05, 0.025};
         marker.holes.clear();
-        marker.thickness = 0.05;  // rests above the sheet, which keeps less distance
+        marker.thickness = 0.05;  // so that it rests above the sheet, which keeps less distance
         marker.velocity = markers[i].velocity;
         marker.stiffness.rigid = true;
         marker.placement = {markers[i].origin, {1, 0, 0}, markers[i].v};
@@ -58,7 +58,7 @@ struct Center {
     double x = 0, y = 0;
 };
 
-/// Centre of the pixels of a pure colour, by how much of it each holds; nothing when there are none.
+/// Centre of the pixels of a pure colour, weighted by how much of it each holds; nothing when there are none.
 std::optional<Center> find(const std::span<const std::uint8_t> rgba, const Vec3& color) {
     double x = 0, y = 0, sum = 0;
     for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
@@ -80,7 +80,7 @@ std::optional<Center> find(const std::span<const std::uint8_t> rgba, const Vec3&
     return Center{x / sum, y / sum};
 }
 
-/// Centre of a marker in the picture: the mean of its triangles' centres by their area there.
+/// Centre of a marker in the picture, the mean of its triangles' centres by their area there.
 Center projected(const SceneDescription& scene, const std::span<const float> positions) {
     Center center;
     double sum = 0;
@@ -129,7 +129,7 @@ TEST(PictureProjectionTest, MarkedParticlesAreFoundAtTheirPixels) {
             }
         });
     EXPECT_EQ(found_count, (last_frame / 4 + 1) * markers.size());
-    // They moved by far more than the pixel that is allowed.
+    // The markers moved by far more than the pixel that is allowed.
     for (std::size_t i = 0; i < markers.size(); ++i)
         EXPECT_GT(std::hypot(last[i].x - first[i].x, last[i].y - first[i].y), 20) << "marker " << i;
     std::printf("[ measured ] %zu sightings, at most %.3f pixels off\n", found_count, worst);

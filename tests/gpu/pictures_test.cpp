@@ -1,4 +1,4 @@
-// Pictures that a second device draws while the first simulates on are those that one device draws, frame by frame.
+// Pictures that a second device draws while the first simulates on are, frame by frame, those that one device draws.
 #include "picture/pictures.h"
 
 #include <gmock/gmock.h>
@@ -17,14 +17,13 @@ namespace {
 
 using test::library_device;
 
-/// The library's device with another one that draws beside it, whatever the tests' environment says of threads.
+/// Returns the library's device with another one that draws beside it, whatever the tests' environment says of threads.
 Device device_beside(const SceneDescription& scene) {
     constexpr const char* variable = "LP_NUM_THREADS";
     const char* set = std::getenv(variable);
     const std::optional<std::string> before = set ? std::optional<std::string>(set) : std::nullopt;
     unsetenv(variable);
-    const char* selector = std::getenv("DRAPE_TEST_DEVICE");
-    const Device device = Device::for_scene(scene, true, selector ? selector : "", Validation::count);
+    const Device device = Device::for_scene(scene, true, {}, Validation::count);
     EXPECT_EQ(std::getenv(variable), nullptr);
     if (before) setenv(variable, before->c_str(), 1);
     return device;
@@ -65,7 +64,7 @@ SimulationOptions pictures_of(View view = View::shaded) {
 
 bool every_frame(std::uint32_t) { return true; }
 
-/// From the next frame on.
+/// Returns the wanted frames from the next one on.
 std::vector<Pictured> shown_by(Simulation& simulation, const std::function<bool(std::uint32_t)>& wanted = every_frame,
                                const std::function<bool()>& stop = {}) {
     std::vector<Pictured> all;
@@ -158,7 +157,7 @@ TEST_F(PicturesTest, OfClothsThatAreSimulatedTogether) {
     compare(pictures_of());
 }
 
-/// Frames in which cloth sleeps come in sooner than their pictures can be drawn, and more of them than may wait.
+/// Frames in which cloth sleeps come sooner than their pictures can be drawn, and more of them than may wait.
 TEST_F(PicturesTest, OfClothThatSleeps) {
     open(R"({"time": {"fps": 60, "frames": 161}, "image": {"size": [48, 32], "samples": 1},
   "cloths": [{"grid": [8, 9], "size": [0.3, 0.4], "placement": {"origin": [0, 1, 0]}, "areal_density": 0.2, "damping": 4,
@@ -194,7 +193,7 @@ TEST_F(PicturesTest, GoOnFromASavedState) {
     }
 }
 
-/// Explicit steps do not follow inextensible cloth in eight substeps: some frames later the run ends.
+/// Explicit steps do not follow inextensible cloth in eight substeps, so the run ends some frames later.
 TEST_F(PicturesTest, OfFramesBeforeOneThatFailsAreHandedOut) {
     open(R"({"time": {"frames": 60}, "image": {"size": [48, 32], "samples": 1},
   "solver": {"method": "explicit", "substeps": 8}, "cloths": [{"name": "cloth", "grid": [17, 17], "size": [1, 1],

@@ -1,4 +1,4 @@
-// Hand-made cloths drawn by the raster pass, and the picture they make: what the raster tests share.
+// The raster tests share these hand-made cloths, drawn by the raster pass, and the picture that they make.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,13 +27,13 @@ inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[
 inline Vec3 unit(const Vec3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
 inline double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
-/// The tone curve of shaders/include/tone.h, written a second time in double precision: as it is below 0.75, then a
+/// The tone curve of shaders/include/tone.h, written a second time in double precision: the identity below 0.75, then a
 /// shoulder that reaches 1 at 2.5.
 inline double toned(double radiance) {
     const double above = (radiance - 0.75) / 0.25, end = 1.75 / 0.25;
     return above > 0 ? 0.75 + 0.25 * above * (1 + above / (end * end)) / (1 + above) : radiance;
 }
-/// The radiance that is shown as `shown`, by bisection.
+/// Radiance that is shown as `shown`, by bisection.
 inline double radiance_of(double shown) {
     double low = 0, high = 2.5;
     for (int round = 0; round < 50; ++round) (toned(0.5 * (low + high)) < shown ? low : high) = 0.5 * (low + high);
@@ -59,8 +59,8 @@ inline glsl::vec4 texel(const Vec3& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 1.0f};
 }
 
-/// Flat grid around `center`, `u` and `v` the full edges along columns and rows; `normal`: what its image
-/// says.
+/// A flat grid around `center`; `u` and `v` are its full edges along columns and rows, `normal` the value of its normal
+/// image.
 inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& normal, const Vec3& front,
                              const Vec3& back, std::uint32_t particles = 2) {
     DrawnCloth cloth{
@@ -81,7 +81,7 @@ inline DrawnCloth flat_cloth(const Vec3& center, const Vec3& u, const Vec3& v, c
     return cloth;
 }
 
-/// Faces +z, towards the tests' camera.
+/// A square that faces +z, towards the tests' camera.
 inline DrawnCloth square(const Vec3& center, double side, const Vec3& front, const Vec3& back) {
     return flat_cloth(center, {side, 0, 0}, {0, side, 0}, {0, 0, 1}, front, back);
 }
@@ -101,11 +101,11 @@ struct Shot {
     std::uint32_t samples = 1;
     double time = 0;
     RasterOptions options{.shadow = false};
-    std::vector<graph::Skipped>* skipped = nullptr;
+    std::vector<graph::Remark>* skipped = nullptr;
     const vulkan::Device* device = &test::gpu().device;
 };
 
-/// Black background, no light, white ambient light, camera on the z axis.
+/// The room has a black background, no light, white ambient light, and a camera on the z axis.
 inline SceneDescription dark_room() {
     SceneDescription scene;
     scene.camera = Camera{{0, 0, 3}, {0, 0, 0}, 40};
@@ -121,7 +121,7 @@ class Raster : public testing::Test {
         return draw_twice(std::move(scene), cloths, shot)[0];
     }
 
-    /// The same plan submitted in both frame slots.
+    /// Submits the same plan in both frame slots.
     std::array<Picture, 2> draw_twice(SceneDescription scene, const std::vector<DrawnCloth>& cloths,
                                       const Shot& shot = {}) {
         scene.cloths.resize(cloths.size());
@@ -156,7 +156,7 @@ class Raster : public testing::Test {
     }
 
   private:
-    /// What the shadow map is fitted to.
+    /// Describes a drawn cloth to which the shadow map is fitted.
     static void describe(const DrawnCloth& drawn, Cloth& cloth) {
         const auto at = [&](std::size_t i) {
             return Vec3{drawn.positions[i].x, drawn.positions[i].y, drawn.positions[i].z};

@@ -1,4 +1,4 @@
-// The raster pass: what is drawn, where, in front of what, and in which colour, checked against closed forms.
+// The raster pass draws the right shapes at the right places, depths and colours, checked against closed forms.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ PixelPosition pixel(const SceneDescription& scene, const Vec3& point) {
     return project(*scene.camera, width, height, point);
 }
 
-/// Which of red, green and blue a pixel has at all.
+/// Returns which of red, green and blue a pixel has at all.
 std::array<bool, 3> channels(const std::array<int, 3>& pixel_color) {
     return {pixel_color[0] > 0, pixel_color[1] > 0, pixel_color[2] > 0};
 }
@@ -135,7 +135,7 @@ TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {
     scene.camera->fov = 60;
     const Picture picture = draw(scene, {}, {.time = 0.5});
     const auto has = [&](const Vec3& point) { return channels(picture.at(pixel(scene, point))); };
-    // Silhouette of a sphere: the cone from the eye; its rim lies nearer than the centre.
+    // The silhouette of a sphere is the cone from the eye; its rim lies nearer than the centre.
     const Vec3 center{0.7, 0.3, 0};
     const Vec3 from_eye = center + -1.0 * scene.camera->position;
     const double squared = dot(from_eye, from_eye), cone = 0.3 * std::sqrt(1 - 0.09 / squared);
@@ -232,7 +232,7 @@ TEST_F(Raster, WithoutANormalTheTriangleGivesIt) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen.at(160, 120)[k], expected.at(160, 120)[k], 1);
 }
 
-/// Which of a cloth's colours squares of a tenth of a metre have, in columns of eight.
+/// Checks which of a cloth's colours squares of a tenth of a metre have, in columns of eight.
 class RasterPattern : public Raster {
   protected:
     void expect_second(Pattern pattern, bool (*second)(int column, int row)) {
@@ -268,7 +268,7 @@ TEST_F(RasterPattern, StripesRunAlongColumns) {
 
 TEST_F(Raster, FoldsDarkenTheirInside) {
     SceneDescription scene = dark_room();
-    // A valley along the picture's height, its flanks at 45 degrees: towards its middle row and column the four
+    // A valley runs along the picture's height, its flanks at 45 degrees: towards its middle row and column the four
     // horizons are at 45, 45, 0 and 0 degrees, so that (sin 45 + sin 45) / 4 of the surroundings are hidden.
     DrawnCloth valley = flat_cloth({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, 3);
     for (glsl::vec4& x : valley.positions) x.z = std::abs(x.x);
@@ -321,7 +321,7 @@ TEST_F(Raster, MissingCellsAreNotDrawn) {
         EXPECT_EQ(channels(picture.at(pixel(scene, kept))), channels(red));
 }
 
-/// A floor, a square one metre above it, light straight down.
+/// A floor, with a square one metre above it and light straight down.
 SceneDescription floor_scene() {
     SceneDescription scene = dark_room();
     scene.camera = Camera{{0, 2.5, 3}, {0, 0, 0}, 50};
@@ -364,7 +364,7 @@ TEST_F(Raster, CollidersCastShadowsWithoutACloth) {
     }
 }
 
-/// Of a picture against encoded values 0..255, three per pixel, dB.
+/// PSNR of a picture against encoded values 0..255, three per pixel, dB.
 double psnr(const Picture& picture, const std::vector<double>& expected) {
     double squares = 0;
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -380,11 +380,11 @@ TEST_F(Raster, TheFloorIsThePlaneAsTriangles) {
     scene.ambient_ground = {0.1, 0.05, 0.2};
     scene.colliders[0].rotate = {4, 30, -7};
     for (const Collider& body :
-         {painted(Sphere{{-0.3, 0.1, 0.2}, 0.4}, {0.4, 0.5, 0.6}),  // partly under it
+         {painted(Sphere{{-0.3, 0.1, 0.2}, 0.4}, {0.4, 0.5, 0.6}),  // partly under the floor
           painted(Box{{0.8, 0, -0.4}, {0.2, 0.5, 0.3}}, green), painted(Plane{{0, 0, 1}, -2}, blue)})
         scene.colliders.push_back(body);
     const DrawnCloth cloth = flat_cloth({0.3, 0.2, 0.5}, {0.9, 0.1, 0}, {0, -0.7, -0.3}, {0, 0, 1}, red, blue);
-    SceneDescription moving = scene;  // to where it is: only what keeps still is a floor
+    SceneDescription moving = scene;  // moves to where it is: only a plane without a path is a floor
     moving.colliders[0].path.keys = {{0, {}, {}}, {1, {}, {}}};
     for (const bool shadow : {false, true}) {
         const Shot shot{.samples = 4, .options = {.shadow = shadow, .shift = {0.3, -0.2}}};
@@ -410,7 +410,7 @@ TEST_F(Raster, FourSamplesComeCloseToSixtyFour) {
     cloth.appearance.pattern = Pattern::checker;
     cloth.appearance.second = {1, 0.537, 0.537};  // a quarter of white's light added: the filter's error grows with it
     Shot shot{.options = {.shadow = true}};
-    // Sixty-four pictures of one sample, each moved by its share of a pixel, averaged as light.
+    // Sixty-four pictures of one sample each, moved by their share of a pixel, are averaged as light.
     std::vector<double> sum(std::size_t{width} * height * 3);
     for (int sample = 0; sample < 64; ++sample) {
         const int column = sample % 8, row = sample / 8;
@@ -429,7 +429,7 @@ TEST_F(Raster, FourSamplesComeCloseToSixtyFour) {
     EXPECT_GT(four, 42.5);
 }
 
-/// Where shaders cannot load samples they are resolved first, and rounded once more.
+/// Where shaders cannot load samples, these are resolved first, and rounded once more.
 TEST_F(Raster, ResolvedSamplesMakeTheSamePicture) {
     SceneDescription scene = floor_scene();
     scene.colliders.push_back(painted(Sphere{{0.2, 0.3, 0}, 0.3}, {0.4, 0.5, 0.6}));
@@ -451,9 +451,9 @@ TEST_F(Raster, ResolvedSamplesMakeTheSamePicture) {
 }
 
 TEST_F(Raster, SaysWhyThereIsNoShadow) {
-    std::vector<graph::Skipped> skipped;
+    std::vector<graph::Remark> skipped;
     const auto shadow_reason = [&]() -> std::string {
-        for (const graph::Skipped& entry : skipped)
+        for (const graph::Remark& entry : skipped)
             if (entry.what == "shadow") return entry.reason;
         return "drawn";
     };

@@ -27,7 +27,7 @@ void no_damping(SceneDescription& scene) {
 }
 void no_lift(SceneDescription& scene) { scene.wind.lift = 0; }
 void no_wind(SceneDescription& scene) { scene.wind.velocity = {}; }
-/// As if k h^2 were k h with 1000 substeps a second.
+/// Springs are as soft as if k h^2 were k h with 1000 substeps a second.
 void springs_a_thousand_times_too_soft(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) {
         cloth.stiffness.stretch /= 1000;

@@ -1,15 +1,15 @@
-// One way to break the program for every oracle of every shipped scene: the oracle must notice.
+// For every oracle of every shipped scene there is one way to break the program that the oracle must notice.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 
 namespace drape::test {
 
-/// As far as the scene goes.
+/// The break runs as far as the scene goes.
 inline constexpr std::uint32_t to_the_end = 0xffffffff;
 
 struct SceneBreak {
@@ -17,7 +17,7 @@ struct SceneBreak {
     std::string check;   ///< the oracle that must go red
     std::string what;    ///< what is wrong
     std::uint32_t last;  ///< frame by which it shows
-    /// What breaks it: the scene before it is run, or its model; the other is null. The oracle judges by the file.
+    /// Breaks the scene before it is run, or its model; the other is null. The oracle judges by the file.
     void (*break_scene)(SceneDescription&);
     void (*break_model)(SimulationModel&) = nullptr;
 

@@ -1,4 +1,4 @@
-// The scenes that the program is shipped with, found when the tests run.
+// The scenes that the program is shipped with are found when the tests run.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace drape::test {
 
 inline std::filesystem::path scene_folder() { return std::filesystem::path(DRAPE_SOURCE_DIR) / "scenes"; }
 
-/// File names without .json, sorted.
+/// Returns file names without .json, sorted.
 inline std::vector<std::string> shipped_scene_names() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(scene_folder()))

@@ -1,5 +1,4 @@
-// Every shipped scene meets the oracles that its file names, and every one of them notices when the program
-// is broken.
+// Every shipped scene meets the oracles that its file names, and every one of them notices when the program is broken.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 
 class SceneOracleTest : public testing::TestWithParam<std::string> {};
 
-/// The unbroken run, as far as the broken one goes, meets the oracle; the broken one does not.
+/// The unbroken run meets the oracle as far as the broken one goes; the broken one does not.
 void expect_noticed(const verify::SceneRun& unbroken, const verify::SceneRun& broken, const Oracle& oracle,
                     const test::SceneBreak& damage) {
     const verify::Verdict whole = verify::judge(unbroken.until(broken.last_frame()), oracle);

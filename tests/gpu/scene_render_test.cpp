@@ -1,5 +1,5 @@
-// Every shipped scene through the whole chain, simulation and picture, under core and synchronization
-// validation (gpu_test.h fails a test during which the layer spoke).
+// Every shipped scene goes through the whole chain, simulation and picture, under core and synchronization validation
+// (gpu_test.h fails a test during which the layer spoke).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Frames {
     std::vector<std::vector<float>> positions;  ///< all cloths one after another
 };
 
-/// Frames 0 .. last, of which every `step`-th is handed out.
+/// Runs frames 0 .. last, of which every `step`-th is handed out.
 Frames run(const SceneDescription& scene, std::uint32_t last, std::uint32_t step, std::uint32_t samples) {
     const SimulationModel model(scene);
     FrameLoop loop(test::gpu().device, model, picture_options(samples));
@@ -53,8 +53,8 @@ std::array<double, 3> without_grey(const std::array<double, 3>& color) {
     return {color[0] - grey, color[1] - grey, color[2] - grey};
 }
 
-/// Share of the picture whose hue is that of `color`: light and shade change brightness and the checker
-/// whitens, but the direction away from grey stays. Pixels near grey have no hue.
+/// Share of the picture whose hue is that of `color`. Light and shade change brightness and the checker whitens, but
+/// the direction away from grey stays. Pixels near grey have no hue.
 double share_of_hue(const std::vector<std::uint8_t>& rgba, const Vec3& color) {
     const std::array<double, 3> wanted = without_grey(color);
     const double wanted_size = std::hypot(wanted[0], wanted[1], wanted[2]);
@@ -112,7 +112,7 @@ TEST_P(SceneRenderTest, DrawsEveryClothWithFourSamplesAndTwiceTheSameBytes) {
     expect_the_same(run(scene, 24, 8, 4), first);
 }
 
-/// The hue test above is no tautology: without its cloths the same scene has none of their colours.
+/// This shows that the test of hues is no tautology: without its cloths the same scene has none of their colours.
 TEST_P(SceneRenderTest, ColoursAreTheCloths) {
     SceneDescription scene = test::shipped_scene(GetParam());
     std::vector<Vec3> colors;

@@ -15,7 +15,7 @@ namespace {
 using test::library_device;
 using SimulationStateGuard = test::LibraryTest;
 using SimulationStateWatch = test::LibraryTest;
-/// What a frame was, as far as it may be compared.
+/// The parts of a frame that may be compared.
 struct Seen {
     std::vector<std::vector<float>> positions;
     std::vector<std::uint8_t> rgba;
@@ -45,9 +45,9 @@ Seen seen(const FinishedFrame& frame) {
 using Frames = std::map<std::uint32_t, Seen>;
 struct Told {
     Frames frames;
-    /// At the end, of each cloth that meets itself: first frame not proved, most pairs, motions cut short.
+    /// At the end, for each cloth that meets itself: first frame not proved, most pairs, motions cut short.
     std::vector<std::tuple<std::optional<std::uint32_t>, std::uint32_t, std::uint64_t>> met;
-    std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // after the cut found in a frame, of the last cloth cut
+    std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // of the last cloth cut, by the frame of the cut
 };
 
 SimulationOptions options_of(Told& told, bool draw) {
@@ -58,7 +58,7 @@ SimulationOptions options_of(Told& told, bool draw) {
     return options;
 }
 
-/// From the next frame on, with the states that could be saved, by their next frame.
+/// Runs from the next frame on; keeps the states that could be saved, by their next frame.
 void run(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationState>* states = nullptr) {
     const std::uint32_t last = simulation.scene().time.frame_count - 1;
     std::uint32_t paused = 0;
@@ -123,7 +123,7 @@ constexpr const char* closed_loop_scene =
               "holes": [[[2, 2], [5, 5]]], "pins": [{"edge": "top"}]}],
   "colliders": {"spheres": [{"center": [0.3, 0.7, 0.5], "radius": 0.15,
                              "path": [{"t": 0}, {"t": 0.4, "translate": [0, 0, -0.6]}]}]}})";
-// Hangs still after a while, sleeps, is woken by its edge.
+// The cloth hangs still after a while, sleeps, and is woken by its edge.
 constexpr const char* sleeping_scene =
     R"({"time": {"fps": 20, "frames": 61}, "cloths": [{"grid": [9, 8], "size": [0.4, 0.3], "damping": 8,
   "pins": [{"edge": "top", "path": [{"t": 2.5}, {"t": 2.8, "translate": [0.1, 0, 0]}]}]}]})";
@@ -147,7 +147,7 @@ const std::string relaxed =
 const std::string explicitly = with_method(named_scene, "\"explicit\", \"substeps\": 41");
 const std::string by_lines = with_method(named_scene, "\"line\", \"substeps\": 4, \"tethers\": true");
 
-// Falls on its lower edge, onto another cloth, and folds; a pin carries a corner through it.
+// The cloth falls on its lower edge, onto another one, and folds; a pin carries a corner through it.
 constexpr const char* meeting_scene = R"({"time": {"fps": 60, "frames": 41},
   "cloths": [{"grid": [11, 12], "size": [0.4, 0.44], "self_collision": true, "velocity": [0, -2, 0], "thickness": 0.01,
               "placement": {"origin": [0, 0.45, 0], "u": [1, 0, 0.02], "v": [-0.001, -1, 0.05]},
@@ -188,8 +188,8 @@ TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     }
 }
 
-/// With another number at `place` of the part `loop` (engine/docs/checkpoint.md): 0: next frame, 4: substeps, 8: first
-/// frame not simulated.
+/// Returns a state with another number at `place` of the part `loop` (engine/docs/checkpoint.md): 0: next frame, 4:
+/// substeps, 8: first frame not simulated.
 SimulationState with_number(SimulationState state, std::size_t place, std::uint32_t number) {
     std::memcpy(state.at("loop").data() + place, &number, sizeof number);
     return state;
@@ -222,7 +222,7 @@ TEST_F(SimulationStateGuard, NumbersThatNoLoopComesToAreRefused) {
     }
 }
 
-/// Explicit steps do not follow inextensible cloth in eight substeps; what lasts for six frames is no result.
+/// Explicit steps do not follow inextensible cloth in eight substeps; an error that lasts for six frames is no result.
 TEST_F(SimulationStateWatch, TheWatchRemembersWhatWasSeenBefore) {
     const SceneDescription scene = parse_scene(R"({"time": {"frames": 60}, "solver": {"method": "explicit",
   "substeps": 8}, "cloths": [{"name": "cloth", "grid": [17, 17], "size": [1, 1], "stiffness": "rigid",
@@ -253,7 +253,7 @@ TEST_F(SimulationStateGuard, ASleeperWithoutTheFrameThatItRepeatsIsRefused) {
     do first.step();
     while (!first.frame().effort.asleep);
     const SimulationState state = first.save();
-    // Wherever the flag lies that says whether statistics follow; one at their end may say that nothing does.
+    // The flag that says whether statistics follow may lie anywhere; one at their end may say that nothing does.
     std::size_t refused = 0;
     for (std::size_t place = state.at("loop").size(); place-- > 0;) {
         SimulationState without = state;

@@ -1,4 +1,4 @@
-// The library's face: stepping, streaming and what a program reads from a simulation.
+// Through the library's public interface a program steps, streams and reads a simulation.
 #include "drape/simulation.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 using SimulationTest = test::LibraryTest;
 
-/// Hangs by its top row; a blade falls through it from frame 3 on.
+/// The sheet hangs by its top row; a blade falls through it from frame 3 on.
 SceneDescription cut_sheet() {
     SceneDescription scene;
     scene.time.frame_count = 12;
@@ -39,7 +39,6 @@ SimulationOptions everything() {
     return options;
 }
 
-/// A frame's own copy.
 struct Copy {
     explicit Copy(const FinishedFrame& from)
         : frame(from.frame), rgba(from.rgba.begin(), from.rgba.end()), energy(from.statistics[0].kinetic_energy) {
@@ -120,7 +119,7 @@ TEST_F(SimulationTest, NormalsAreThoseOfTheTrianglesAround) {
     }
 }
 
-// By each method, with substeps that method auto changes from frame to frame.
+// This holds for each method, with substeps that method auto changes from frame to frame.
 TEST_F(SimulationTest, VelocitiesAreThoseOfTheStatistics) {
     for (const SolverMethod method :
          {SolverMethod::automatic, SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line}) {
@@ -130,7 +129,7 @@ TEST_F(SimulationTest, VelocitiesAreThoseOfTheStatistics) {
         scene.solver = {.method = method, .substeps = 12};
         SimulationOptions options;
         options.velocities = true;
-        options.statistics = false;  // implied
+        options.statistics = false;  // implied by the velocities
         Simulation simulation(scene, options, library_device());
         while (simulation.step()) {
             const FinishedFrame& frame = simulation.frame();
@@ -166,18 +165,19 @@ TEST_F(SimulationTest, TellsOfCutsAndHasTheTrianglesThatAreLeft) {
 TEST_F(SimulationTest, PicturesShowCollidersWhereTheyAreInThatFrame) {
     SceneDescription moving = cut_sheet();
     moving.cutters.clear();
-    moving.cloths[0].pins[0].particles = {{0, 0}, {11, 9}};  // all of it: nothing but the ball moves
+    moving.cloths[0].pins[0].particles = {{0, 0}, {11, 9}};  // all particles, so that nothing but the ball moves
     moving.time = {.fps = 10, .frame_count = 4};
     Collider ball{Sphere{{-0.6, 1, 0.8}, 0.2}};
     ball.path.keys = {{0, {0, 0, 0}, {}}, {0.1, {0.4, 0, 0}, {}}, {0.2, {0.8, 0.2, 0}, {}}, {0.3, {1.2, 0, 0}, {}}};
-    // The larger one, at rest, decides on how many segments both are drawn with: the same in every scene here.
+    // The larger ball, at rest, decides on the number of segments that both are drawn with, the same in every scene
+    // here.
     const Collider large{Sphere{{1.2, 1.6, -0.6}, 0.5}};
     moving.colliders = {ball, large};
     Simulation simulation(moving, everything(), library_device());
     for (std::size_t number = 0; number < 4; ++number) {
         ASSERT_TRUE(simulation.step());
         SceneDescription still = moving;
-        // There before the start, by way of all its places: shadow maps cover where a ball may be.
+        // The ball is there before the start, by way of all its places: shadow maps cover where a ball may be.
         MotionPath& path = still.colliders[0].path;
         for (MotionKey& key : path.keys) key.time -= 10;
         path.keys.push_back({-1, ball.path.keys[number].translate, {}});

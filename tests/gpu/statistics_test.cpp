@@ -1,5 +1,5 @@
-// The statistics of a frame: the device's record equals the twin's bit for bit, and its numbers are those of a
-// plain evaluation of the downloaded state in double precision.
+// The device's record of a frame's statistics equals the twin's bit for bit, and its numbers are those of a plain
+// evaluation of the downloaded state in double precision.
 #include "reference/statistics.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class StatisticsRun {
         solver_.upload(*pool_);
     }
 
-    /// Of cloth 0.
+    /// Returns the record of cloth 0.
     glsl::StatisticsRecord record(const TwinCloth& state, std::uint32_t frame) {
         const std::string name = model_.cloths[0].name;
         vulkan::upload(test::gpu().device, pool_->image(name + "/position"),
@@ -71,7 +71,7 @@ class StatisticsRun {
     vulkan::FrameSlots slots_;
 };
 
-/// The initial state, stretched by `stretch`, crumpled at random by up to `noise` (m), moving at random.
+/// Returns the initial state, stretched by `stretch`, crumpled at random by up to `noise` (m), moving at random.
 TwinCloth crumpled_state(const SimulationModel& model, float stretch, float noise, unsigned seed) {
     TwinCloth state = Twin(model).cloth(0);
     std::mt19937 random(seed);
@@ -96,7 +96,7 @@ Difference difference(const vec4& a, const vec4& b) {
     return {double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z)};
 }
 
-/// Strain and elastic energy of the springs of `family`, spring by spring in double.
+/// Strain and elastic energy of the springs of `family`, spring by spring in double precision.
 StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& model, const TwinCloth& state,
                               SpringFamily family, double& energy, double& squared_error, double& worst_error) {
     const Stiffness& stiffness = scene.cloths[0].stiffness;
@@ -137,7 +137,7 @@ StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& m
     return strain;
 }
 
-/// Everything but penetration, evaluated plainly in double from the scene and the state.
+/// Everything but penetration, evaluated plainly in double precision from the scene and the state.
 ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model, const TwinCloth& state) {
     const ClothModel& cloth = model.cloths[0];
     ClothStatistics plain;
@@ -189,7 +189,7 @@ void expect_plain(const ClothStatistics& statistics, const ClothStatistics& plai
     expect_relative(statistics.potential_energy, plain.potential_energy, "potential energy");
     expect_relative(statistics.elastic_energy, plain.elastic_energy, "elastic energy");
     expect_relative(statistics.mass, plain.mass, "mass");
-    // Coordinates may cancel: relative to the distance.
+    // Coordinates may cancel, so their error is relative to the distance.
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(statistics.center_of_mass[k], plain.center_of_mass[k], 1e-5 * plain.largest_distance);
     expect_relative(statistics.largest_distance, plain.largest_distance, "largest distance");
@@ -241,7 +241,7 @@ TEST(StatisticsTest, Holes) {
         return cloth_statistics(model, model.cloths[0], expect_same_record(model, of));
     };
     const ClothStatistics few = statistics(with_holes, state), many = statistics(whole, all);
-    // 70 and 168 cells less: as many masses, twice as many diagonals, and the sides that have no cell left.
+    // 70 and 168 cells less are as many masses, twice as many diagonals, and the sides that have no cell left.
     EXPECT_NEAR(few.mass / many.mass, 1 - 238.0 / (64 * 32), 1e-6);
     EXPECT_EQ(many.shear.spring_count - few.shear.spring_count, 2 * 238u);
     EXPECT_LT(few.stretch.spring_count, many.stretch.spring_count);
@@ -310,7 +310,7 @@ TEST(StatisticsTest, NonFiniteParticlesAreCountedLocatedAndLeftOut) {
         EXPECT_EQ(before.non_finite_count, 0u);
         EXPECT_EQ(statistics.non_finite_count, 3u);
         EXPECT_EQ(statistics.first_non_finite, grid.particle(7, 12));
-        // Two of them are inner particles, one is a corner.
+        // Two of the three are inner particles, one is a corner.
         EXPECT_NEAR(statistics.mass, before.mass - 2.25 * model.cloths[0].inner_mass, 1e-6 * before.mass);
         EXPECT_LT(statistics.stretch.spring_count, before.stretch.spring_count);
         EXPECT_TRUE(std::isfinite(statistics.stretch.rms + statistics.kinetic_energy + statistics.largest_speed));
@@ -322,7 +322,7 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValuesAndExtremesAreNamed) 
     const Grid& grid = model.cloths[0].grid;
     TwinCloth state = crumpled_state(model, 1, 0, 1);
     state[Field::position][grid.particle(77, 3)].x = 1e30f;
-    for (const std::uint32_t column : {100u, 20u})  // as fast as each other: the lower index counts
+    for (const std::uint32_t column : {100u, 20u})  // as fast as each other, so the lower index counts
         state[Field::displacement][grid.particle(column, 29 - column / 5)] = {0, 1e3f, 0, 0};
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
     EXPECT_EQ(statistics.non_finite_count, 0u);
@@ -338,7 +338,7 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValuesAndExtremesAreNamed) 
     for (const auto& [name, value] : values) EXPECT_TRUE(std::isfinite(value)) << name;
 }
 
-/// Every kind, one of them key-framed.
+/// Returns a collider of every kind, one of them key-framed.
 std::vector<Collider> every_kind() {
     return {{Plane{{0, 1, 0}, 4.3}},
             {Sphere{{3.4, 4.9, -2.05}, 0.1}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}}},
@@ -431,9 +431,9 @@ INSTANTIATE_TEST_SUITE_P(Methods, FrameStatistics,
                                          std::pair(SolverMethod::line, 3u)));
 
 TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
-    // A soft sheet hangs: it stretches truly by gL/c^2/sqrt(3) RMS, which full-stiffness micro-steps follow exactly and
-    // softened ones by the share of the stiffness that they use; relaxation errs by its law: 0.83 of it RMS over
-    // columns, rows hardly.
+    // A soft sheet hangs. It stretches truly by gL/c^2/sqrt(3) RMS, which full-stiffness micro-steps follow exactly and
+    // softened ones by the share of the stiffness that they use; relaxation errs by its law, 0.83 of it RMS over
+    // columns and hardly over rows.
     SceneDescription scene = test::sheet(25, 25, 1, 1, 64);
     Cloth& cloth = scene.cloths[0];
     cloth.areal_density = 0.2;
@@ -484,7 +484,7 @@ TEST(StatisticsTest, NobodyAsksNothingRuns) {
     const FrameLoop loop(test::gpu().device, model, options);
     EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0].name)));
     const auto& skipped = loop.plan(FrameKind::simulate_and_output).skipped;
-    EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Skipped& s) { return s.what == "statistics"; }));
+    EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Remark& s) { return s.what == "statistics"; }));
     options.statistics = true;
     const FrameLoop asked(test::gpu().device, model, options);
     const auto statistics_passes = [&](FrameKind kind) {

@@ -48,7 +48,7 @@ inline SceneDescription everything() {
     return scene;
 }
 
-/// Of so many columns, rows: held in a corner and along an edge, nothing but springs acts on it.
+/// Makes a sheet of so many columns and rows, held in a corner and along an edge, on which nothing but springs acts.
 inline SceneDescription thrown_sheet(std::pair<std::uint32_t, std::uint32_t> grid, std::uint32_t substeps) {
     const auto [columns, rows] = grid;
     SceneDescription scene = sheet(columns, rows, 1.1, 0.9, substeps, 1);
@@ -108,21 +108,21 @@ inline void expect_same(const FieldRow& row, std::span<const std::byte> device, 
     EXPECT_FALSE(device.empty()) << row.name;
 }
 
-/// Of two runs' first cloths.
+/// Compares a field of two runs' first cloths.
 inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& other, std::uint32_t frame) {
     expect_same(row_of(field), one.bytes(0, field), other.bytes(0, field), frame);
 }
 
-/// On every schedule that the default device may take, or on one alone. Returns the record of the last frame's contact
-/// between cloths, if they meet.
+/// By every set of kernels that the default device may take, or by one alone. Returns the record of the last frame's
+/// contact between cloths, if they meet.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
                                 const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true},
-                                std::optional<Schedule> only = {}) {
+                                std::optional<Kernels> only = {}) {
     const SimulationModel model(scene, options);
-    Twin twin(model, only.value_or(Schedule::images));
+    Twin twin(model, only.value_or(Kernels()));
     std::vector<std::unique_ptr<DeviceRun>> devices;
-    for (const Schedule schedule : only ? std::vector{*only} : schedules(on, model))
-        devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, schedule, needs));
+    for (const Kernels& kernels : only ? std::vector{*only} : kernel_sets(on, model))
+        devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, kernels, needs));
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
         for (const auto& device : devices) device->run_frame(frame);

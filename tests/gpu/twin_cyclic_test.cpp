@@ -1,5 +1,5 @@
 // Lines solved by cyclic reduction on the device equal the twin's that do the same, bit for bit (lavapipe).
-#include "cloth/cyclic_lines.h"
+#include "cloth/kernel_steps.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -10,14 +10,15 @@ using test::free_lines;
 
 /// `reduced`: how many passes along lines a frame must have that are, `others`: that are not.
 void compare_reduced(const SceneDescription& scene, std::ptrdiff_t reduced, std::ptrdiff_t others = 0) {
-    const std::vector<Step> steps = cyclic_steps(SimulationModel(scene));
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), cyclic_kernels);
     const auto count = [&](bool is_reduced) {
-        return std::ranges::count_if(
-            steps, [&](const Step& step) { return step.kind == StepKind::line && step.reduced == is_reduced; });
+        return std::ranges::count_if(steps, [&](const Step& step) {
+            return step.kind == StepKind::line && (step.kernel == Kernel::line_cyclic) == is_reduced;
+        });
     };
     EXPECT_EQ(count(true), reduced);
     EXPECT_EQ(count(false), others);
-    test::compare(scene, {}, test::gpu().device, {.drawing = true}, Schedule::cyclic);
+    test::compare(scene, {}, test::gpu().device, {.drawing = true}, cyclic_kernels);
 }
 
 constexpr std::ptrdiff_t passes = 4 * test::substep_count;
@@ -74,15 +75,15 @@ SceneDescription brief_lone_pins() {
     return scene;
 }
 
-TEST(TwinCyclicTest, NestedSweepsAroundLonePins) {
-    const std::vector<Step> steps = cyclic_steps(SimulationModel(brief_lone_pins()));
+TEST(TwinCyclicTest, NestedBoxesAroundLonePins) {
+    const std::vector<Step> steps = kernel_steps(SimulationModel(brief_lone_pins()), cyclic_kernels);
     EXPECT_TRUE(std::ranges::all_of(steps, [](const Step& step) {
-        return step.reduced == (step.kind == StepKind::line || step.kind == StepKind::nested);
+        return (step.kernel != Kernel::plain) == (step.kind == StepKind::line || step.kind == StepKind::nested);
     }));
     compare_reduced(brief_lone_pins(), 4 * 2);
 }
 
-TEST(TwinCyclicTest, NestedSweepsWithHolesSoftInCompressionWithoutShear) {
+TEST(TwinCyclicTest, NestedBoxesWithHolesSoftInCompressionWithoutShear) {
     SceneDescription scene = brief_lone_pins();
     scene.cloths[0].stiffness = {false, 800, 0, 0, 0.03};
     scene.cloths[0].holes = {{{3, 4}, {9, 10}}, {{52, 25}, {60, 33}}};
@@ -114,7 +115,7 @@ TEST(CanaryTest, AMissingBarrierBetweenReducedLinesIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("line row") == std::string::npos;
         },
-        Schedule::cyclic);
+        cyclic_kernels);
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

@@ -160,26 +160,26 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
                                          std::array<std::uint32_t, 2>{32, 17}, std::array<std::uint32_t, 2>{20, 11},
                                          std::array<std::uint32_t, 2>{65, 33}));
 
-TEST(TwinLineTest, NestedSweepsAroundLonePins) {
+TEST(TwinLineTest, NestedBoxesAroundLonePins) {
     const SimulationModel model(lone_pins());
     ASSERT_EQ(model.cloths[0].plan.iterated.size(), 4u + 3u) << "lines, and rounds of pins";
     compare(lone_pins());
 }
 
-TEST(TwinLineTest, NestedSweepsOfSpringsSoftInCompression) {
+TEST(TwinLineTest, NestedBoxesOfSpringsSoftInCompression) {
     SceneDescription scene = lone_pins();
     scene.cloths[0].stiffness.compression = 0.03;
     compare(scene);
 }
 
-TEST(TwinLineTest, NestedSweepsAndAContact) {
+TEST(TwinLineTest, NestedBoxesAndAContact) {
     SceneDescription scene = lone_pins();
     scene.colliders.push_back({Sphere{{0.3, -0.5, 0.2}, 0.25}});
     scene.cloths[0].holes = {{{3, 4}, {9, 10}}};
     compare(scene);
 }
 
-TEST(TwinLineTest, NestedSweepsWithHolesAndNoShear) {
+TEST(TwinLineTest, NestedBoxesWithHolesAndNoShear) {
     SceneDescription scene = lone_pins();
     scene.cloths[0].stiffness.shear = 0;
     scene.cloths[0].holes = {{{3, 4}, {9, 10}}, {{52, 25}, {60, 33}}};

@@ -1,6 +1,6 @@
 // Relaxation whose springs are swept, an iteration at once, and cells whose twist is, against the twin, which takes the
 // passes one by one.
-#include "cloth/streams.h"
+#include "cloth/kernel_steps.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -18,8 +18,8 @@ SceneDescription swept(Grid2 grid) { return test::thrown_sheet(grid, 5); }
 /// `sweeps`: how many of them a frame must have, so that the comparison means something. With the tensions that the
 /// stretch error asks for, where stretch springs give.
 void compare(const SceneDescription& scene, std::ptrdiff_t sweeps) {
-    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
-    EXPECT_EQ(std::ranges::count(steps, StepKind::sweep, &Step::kind), sweeps);
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), stream_kernels);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::all_springs, &Step::kind), sweeps);
     const Stiffness& stiffness = scene.cloths[0].stiffness;
     const bool tense = !stiffness.rigid && stiffness.stretch > 0;
     test::compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = tense});
@@ -128,8 +128,8 @@ TEST(TwinSweepTest, IterationsThatTheDeviceMayLeaveOutAreNotSwept) {
 /// With cells that twist.
 void compare_twist(SceneDescription scene) {
     scene.cloths[0].stiffness.bend = 1e-3;
-    const std::vector<Step> steps = streamed_steps(SimulationModel(scene));
-    EXPECT_EQ(std::ranges::count(steps, StepKind::twist_sweep, &Step::kind), scene.solver.substeps);
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), stream_kernels);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::all_twist, &Step::kind), scene.solver.substeps);
     EXPECT_EQ(std::ranges::count(steps, StepKind::twist, &Step::kind), 0);
     test::compare(scene, {}, test::gpu().device, {.drawing = true});
 }
@@ -177,7 +177,7 @@ TEST(CanaryTest, AMissingBarrierBeforeASweepIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("force") == std::string::npos;
         },
-        Schedule::streams);
+        stream_kernels);
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

@@ -46,7 +46,7 @@ TEST(TwinTest, MoreCollidersThanAreReadEarly) {
     compare(scene);
 }
 
-/// Of every kind some that come after the early ones, in more than one group of 32.
+/// Some colliders of every kind come after the early ones, in more than one group of 32.
 TEST(TwinTest, ManyCollidersOfEveryKind) {
     SceneDescription scene = everything();
     std::mt19937 random(3);
@@ -163,7 +163,7 @@ TEST(CanaryTest, AMissingBarrierBetweenSpringPassesIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("spring column odd") == std::string::npos;
         },
-        Schedule::buffers);
+        Kernels{Kernel::buffer_store});
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

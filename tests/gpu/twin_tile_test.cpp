@@ -1,6 +1,6 @@
 // Explicit micro-steps that tiles take several at once, and springs that they sweep, equal the twin's, which takes
 // steps and passes one by one (lavapipe).
-#include "cloth/streams.h"
+#include "cloth/kernel_steps.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -17,19 +17,19 @@ SceneDescription tiled(Grid2 grid, std::uint32_t substeps) {
 /// `counts`: how many micro-steps the passes of a frame must take, in turn, so that the comparison means something.
 void compare_tiles(const SceneDescription& scene, const std::vector<std::uint32_t>& counts) {
     std::vector<std::uint32_t> taken;
-    for (const Step& step : tiled_steps(SimulationModel(scene)))
+    for (const Step& step : kernel_steps(SimulationModel(scene), tile_kernels))
         if (step.kind == StepKind::explicit_step) taken.push_back(step.count);
     EXPECT_EQ(taken, counts);
-    test::compare(scene, {}, test::gpu().device, {.drawing = true}, Schedule::tiles);
+    test::compare(scene, {}, test::gpu().device, {.drawing = true}, tile_kernels);
 }
 
 /// `sweeps`: how many of them a frame must have.
 void compare_sweeps(const SceneDescription& scene, std::ptrdiff_t sweeps) {
-    const std::vector<Step> steps = tiled_steps(SimulationModel(scene));
-    EXPECT_EQ(std::ranges::count(steps, StepKind::sweep, &Step::kind), sweeps);
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), tile_kernels);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::all_springs, &Step::kind), sweeps);
     const Stiffness& stiffness = scene.cloths[0].stiffness;
     const bool tense = !stiffness.rigid && stiffness.stretch > 0;
-    test::compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = tense}, Schedule::tiles);
+    test::compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = tense}, tile_kernels);
 }
 
 class TwinTileTest : public testing::TestWithParam<Grid2> {};
@@ -120,7 +120,7 @@ TEST(CanaryTest, AMissingBarrierBetweenTilesIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("explicit steps") == std::string::npos;
         },
-        Schedule::tiles);
+        tile_kernels);
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

@@ -30,17 +30,17 @@ SceneDescription several(SolverMethod method) {
 }
 
 /// Whether the device has them in one image.
-bool are_together(const SceneDescription& scene, Schedule schedule) {
+bool are_together(const SceneDescription& scene, const Kernels& kernels) {
     const SimulationModel model(scene);
-    const DeviceRun run(test::gpu().device, model, {}, schedule);
+    const DeviceRun run(test::gpu().device, model, {}, kernels);
     return run.pool().has("sheet and 2 more/position") && run.pool().has("third/position");
 }
 
 TEST(TwinTogetherTest, Lines) {
     const SceneDescription scene = several(SolverMethod::line);
-    const auto schedules = test::schedules(test::gpu().device, SimulationModel(scene));
-    EXPECT_FALSE(are_together(scene, Schedule::images));
-    for (const Schedule schedule : schedules) EXPECT_EQ(are_together(scene, schedule), schedule != Schedule::images);
+    EXPECT_FALSE(are_together(scene, Kernels()));
+    for (const Kernels& kernels : test::kernel_sets(test::gpu().device, SimulationModel(scene)))
+        EXPECT_EQ(are_together(scene, kernels), kernels.has(Kernel::buffer_store));
     compare(scene);
 }
 

@@ -1,5 +1,5 @@
-// Pictures that show data: what is read off a heat map is what the statistics say, the legend is the map's, normals
-// are the cloth's. A heat map's colours are turned back into strains by the colour map, as a person does.
+// Pictures show data: the strains read off a heat map are the statistics', the legend is the map's, normals are the
+// cloth's. The colour map turns a heat map's colours back into strains, as a person does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ struct Shown {
     ClothStatistics statistics;
 };
 
-/// A square metre that faces the camera and fills most of the picture, `scale` times its rest size.
+/// A square metre faces the camera and fills most of the picture, `scale` times its rest size.
 SceneDescription sheet(std::array<double, 2> scale) {
     SceneDescription scene;
     scene.time.frame_count = 2;
@@ -53,7 +53,7 @@ SceneDescription sheet(std::array<double, 2> scale) {
     return scene;
 }
 
-/// The first frame.
+/// Draws one frame, the first unless another is asked for.
 Shown shown(const SceneDescription& scene, const PictureView& view, std::uint32_t frame = 0) {
     SimulationOptions options;
     options.draw = true;
@@ -71,7 +71,7 @@ double distance(const Color& pixel, const std::array<double, 3>& color) {
     return std::sqrt(squares);
 }
 
-/// The place of the map whose colour is nearest, and how near.
+/// Returns the place of the map whose colour is nearest, and how near it is.
 std::pair<double, double> place_of(const ColorMap& map, const Color& pixel) {
     static std::map<const ColorMap*, std::vector<std::array<double, 3>>> tables;
     std::vector<std::array<double, 3>>& table = tables[&map];
@@ -123,7 +123,7 @@ const Strained strained[] = {
 INSTANTIATE_TEST_SUITE_P(Every, UniformStrain, testing::ValuesIn(strained),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Of all pixels with a colour of the map right of the legend.
+/// Returns the largest strain of all pixels right of the legend that have a colour of the map.
 double largest_strain_in(const Picture& picture, const StrainScale& scale) {
     double largest = scale.low;
     for (std::uint32_t y = 0; y < height; ++y)
@@ -151,7 +151,7 @@ TEST_F(ViewTest, CutSpringsAreNotStrained) {
     SceneDescription scene = sheet({1, 1});
     scene.image.background = {0, 0, 0};
     scene.time.frame_count = 12;
-    // A blade through the whole sheet between two columns, then both halves are drawn apart.
+    // A blade goes through the whole sheet between two columns, then both halves are drawn apart.
     scene.cutters.push_back({{{{0.03, 3, -3}, {0.03, 3, 3}, {0.03, -9, 0}}}, 0, 0.02, {}});
     for (const std::uint32_t column : {0u, 8u}) {
         MotionPath away;
@@ -161,7 +161,7 @@ TEST_F(ViewTest, CutSpringsAreNotStrained) {
     }
     const PictureView view{View::stretch, 0.5};
     const Shown seen = shown(scene, view, 11);
-    // 5 cm on a cell of 12.5 cm would be 40 %.
+    // A gap of 5 cm on a cell of 12.5 cm would be 40 %.
     EXPECT_LT(seen.statistics.stretch.largest, 0.3);
     EXPECT_LT(largest_strain_in(seen.picture, strain_scale(view, scene).value()),
               seen.statistics.stretch.largest + 0.03 * view.range);
@@ -184,7 +184,7 @@ TEST_F(ViewTest, LegendIsTheMapWithTheEndsOfTheScale) {
             const double place = 1 - static_cast<double>(row) / (bar.height - 1);
             EXPECT_LT(distance(picture.at(bar.x + bar.width / 2, bar.y + row), color_at(*scale.map, place)), 2);
         }
-        // The sheet is not strained: other numbers are all that another range changes.
+        // The sheet is not strained, so another range changes nothing but the numbers.
         const Picture other = shown(scene, {kind, 0.05}).picture;
         std::size_t different = 0;
         for (std::uint32_t y = 0; y < height; ++y)
@@ -205,7 +205,7 @@ TEST_F(ViewTest, NormalsAreColors) {
     const double c = std::cos(0.5), s = std::sin(0.5);
     scene.cloths[0].placement = {{-0.5 * c, 0.5, 0.5 * s}, {c, 0, -s}, {0, -1, 0}, {1, 1}};
     const Color pixel = shown(scene, {View::normals, 0}).picture.at(160, 120);
-    // Towards the camera: cross(along rows, along columns) or its opposite.
+    // The normal points towards the camera: cross(along rows, along columns) or its opposite.
     const double expected[] = {0.5 + 0.5 * s, 0.5, 0.5 + 0.5 * c};
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(pixel[i], 255 * expected[i], 1.5);
 }
@@ -213,7 +213,7 @@ TEST_F(ViewTest, NormalsAreColors) {
 TEST_F(ViewTest, WireHasALinePerEdge) {
     const SceneDescription scene = sheet({1, 1});
     const Picture picture = shown(scene, {View::wire, 0}).picture;
-    // Along a row of pixels through cells: sides of columns and diagonals, two lines per cell.
+    // A row of pixels through cells meets sides of columns and diagonals, two lines per cell.
     int lines = 0;
     bool dark = false;
     const std::uint32_t y = 125;

@@ -1,4 +1,4 @@
-// The check of the checker: a planted hazard must be reported, every time, and only real ones may be.
+// The checker is checked: a planted hazard must be reported, every time, and only real ones may be.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Image make_image(const char* name) {
                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
-/// Three images, first filled with `texels`, the others with zero.
+/// Three images, the first filled with `texels`, the others with zero.
 struct Chain {
     vulkan::ComputePipeline copy{gpu().device, "canary", {"canary.comp"}, {}};
     Image first = make_image("first"), second = make_image("second"), third = make_image("third");
@@ -98,7 +98,7 @@ TEST(VulkanCanary, a_missing_barrier_is_reported) {
 }
 
 TEST(VulkanCanary, a_hazard_is_still_reported_after_many_of_its_kind) {
-    // The layer can mute what it said often; then a canary early on would hide real findings.
+    // The layer can mute a message that it gave often; then a canary early on would hide real findings.
     const Chain chain;
     for (int i = 0; i < 30; ++i) {
         const ExpectValidationMessages expected;
@@ -108,7 +108,7 @@ TEST(VulkanCanary, a_hazard_is_still_reported_after_many_of_its_kind) {
 }
 
 TEST(VulkanCanary, one_image_read_and_written_through_two_views_is_no_hazard_within_a_dispatch) {
-    // How the design binds images that a pass updates in place: sound, and seen across dispatches.
+    // Images that a pass updates in place are bound so: it is sound, and hazards are seen across dispatches.
     const Chain chain;
     gpu().device.run_once([&](VkCommandBuffer commands) {
         chain.record_copy(commands, chain.first, chain.first);
@@ -127,7 +127,7 @@ TEST(VulkanCanary, one_image_read_and_written_through_two_views_is_no_hazard_wit
 TEST(VulkanCanary, the_filter_for_copies_in_general_lets_real_layout_errors_through) {
     const Chain chain;
     std::vector<std::byte> bytes(chain.texels.size() * sizeof(float));
-    for (int i = 0; i < 15; ++i) download(gpu().device, chain.first, bytes);  // each a filtered message
+    for (int i = 0; i < 15; ++i) download(gpu().device, chain.first, bytes);  // each causes a filtered message
     EXPECT_EQ(gpu().instance.validation_log().count(), 0u);
     const vulkan::Buffer target(gpu().device, {"target", bytes.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     const ExpectValidationMessages expected;
@@ -135,7 +135,7 @@ TEST(VulkanCanary, the_filter_for_copies_in_general_lets_real_layout_errors_thro
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.imageExtent = {width, height, 1};
-        // The image rests in GENERAL: this layout is a lie.
+        // The image rests in GENERAL, so this layout is a lie.
         vkCmdCopyImageToBuffer(commands, chain.first.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(), 1,
                                &region);
     });

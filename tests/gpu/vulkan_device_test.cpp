@@ -1,4 +1,4 @@
-// Finding devices, refusing selectors, and the memory budget.
+// Devices are found, wrong selectors refused, and the memory budget kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,6 @@ using vulkan::VulkanError;
 
 namespace {
 
-/// Sets an environment variable for a scope.
 class Environment {
   public:
     Environment(std::string name, const char* value) : name_(std::move(name)) {
@@ -113,6 +112,18 @@ TEST(VulkanDevice, can_be_named_by_index_uuid_and_name) {
     }
 }
 
+TEST(VulkanDevice, is_what_the_environment_says_where_no_selector_is_given) {
+    const DeviceInfo wanted = gpu().device.info();
+    {
+        const Environment index("DRAPE_DEVICE", std::to_string(wanted.index).c_str());
+        EXPECT_EQ(vulkan::Device(gpu().instance, "").info().index, wanted.index);
+    }
+    const Environment nonsense("DRAPE_DEVICE", "no such device");
+    EXPECT_EQ(vulkan::Device(gpu().instance, wanted.uuid_text()).info().index, wanted.index);
+    EXPECT_THAT(error_of([] { vulkan::Device(gpu().instance, ""); }),
+                AllOf(HasSubstr("DRAPE_DEVICE: no device matches \"no such device\""), HasSubstr(wanted.name)));
+}
+
 TEST(VulkanDevice, an_unknown_selector_lists_the_devices) {
     const std::string error = error_of([] { vulkan::Device(gpu().instance, "no such device"); });
     EXPECT_THAT(error, HasSubstr("no device matches \"no such device\""));
@@ -193,7 +204,7 @@ TEST(VulkanMemoryBudget, is_nine_tenths_of_the_largest_device_local_heap) {
     EXPECT_EQ(vulkan::memory_budget_limit(memory, false), 9'000u);
     memory.memoryHeaps[1].size = std::numeric_limits<std::uint64_t>::max();
     EXPECT_GT(vulkan::memory_budget_limit(memory, false), std::uint64_t{1} << 63);
-    // A CPU device's heap is the machine's memory, which no machine has 16 EiB of.
+    // A CPU device's heap is the machine's memory, and no machine has 16 EiB.
     EXPECT_LT(vulkan::memory_budget_limit(memory, true), std::uint64_t{1} << 60);
 }
 

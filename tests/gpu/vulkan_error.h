@@ -1,4 +1,3 @@
-// What a call that must fail says.
 #pragma once
 
 #include <string>
@@ -7,7 +6,7 @@
 
 namespace drape::test {
 
-/// Text of the VulkanError that `function` throws.
+/// Returns the text of the VulkanError that `function` throws.
 template <class Function>
 std::string error_of(Function function) {
     try {

@@ -1,5 +1,5 @@
-// Each Vulkan call that makes something is failed once: the error names it, the budget is whole again, and
-// nothing is left over (the validation layer would name it at the end of the process).
+// Each Vulkan call that makes something is failed once: the error names it, the budget is whole again, and nothing is
+// left over (the validation layer would name it at the end of the process).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class Fault<slot, VkResult (*)(Arguments...)> {
     static inline int skipped_;
 };
 
-/// The error of `make` while `slot` fails.
+/// Returns the error of `make` while `slot` fails.
 template <auto* slot, class Function>
 std::string error_with(VkResult result, Function make, int skipped = 0) {
     const std::uint64_t used = gpu().device.budget().used();
@@ -148,7 +148,7 @@ TEST(VulkanFaults, run_once_reports_each_failing_call_and_leaves_the_queue_usabl
 }
 
 TEST(VulkanFaults, a_slow_fence_is_waited_for_again) {
-    // VK_TIMEOUT is one slice that passed, not a failure.
+    // VK_TIMEOUT means that one slice passed, not that the wait failed.
     const Fault<&vkWaitForFences> fault(VK_TIMEOUT);
     EXPECT_NO_THROW(gpu().device.run_once([](VkCommandBuffer) {}));
 }

@@ -1,4 +1,4 @@
-// Two frames in flight: submit, wait, and what is refused.
+// Two frames in flight are submitted and waited for, and misuse is refused.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ using vulkan::structure;
 
 namespace {
 
-/// One reusable command buffer per slot; each fills the slot's word of a host-visible buffer.
+/// Each slot has one reusable command buffer, which fills the slot's word of a host-visible buffer.
 class Fills {
   public:
     Fills() : target_(gpu().device, {"words", 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferHome::readback}) {

@@ -1,4 +1,4 @@
-// Pipelines: specialisation, push constants, rasterising, and what is refused when one is made.
+// Pipelines are specialised, get push constants and rasterise, and a wrong one is refused when it is made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,8 +52,8 @@ class TriangleFrame {
     static constexpr std::uint32_t side = 4;
 
     std::vector<std::uint32_t> draw(const GraphicsPipeline& pipeline) {
-        // From far above to far below along x = -1, and a tip at x = 0: all of the left half within the
-        // frame.
+        // The triangle goes from far above to far below along x = -1, with a tip at x = 0: all of the left half within
+        // the frame.
         constexpr std::array<float, 12> corners = {-1, -20, 0.5f, 0, -1, 20, 0.5f, 0, 0, 0, 0.5f, 0};
         upload(gpu().device, corners_, std::as_bytes(std::span(corners)));
         gpu().device.run_once([&](VkCommandBuffer commands) { record(commands, pipeline); });
@@ -128,7 +128,7 @@ class TriangleFrame {
                  {"depth", VK_FORMAT_D32_SFLOAT, side, side, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}};
 };
 
-/// What scale.comp makes of `source`.
+/// Returns the values that scale.comp makes of `source`.
 std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<float>& source, float term) {
     const vulkan::Device& device = gpu().device;
     constexpr VkBufferUsageFlags usage =

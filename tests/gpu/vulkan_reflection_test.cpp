@@ -1,4 +1,4 @@
-// What a module says of itself is read whole, and every kind of difference from a C++ struct is found and named.
+// Reflection reads a module whole, and every kind of difference from a C++ struct is found and named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using vulkan::VulkanError;
 
 namespace {
 
-/// Of interface.comp.
+/// Element of interface.comp.
 struct Element {
     glsl::vec4 position;
     float mass, age;
@@ -105,7 +105,7 @@ std::string push_difference() {
 }  // namespace
 
 TEST(VulkanReflection, reads_every_descriptor_that_is_used) {
-    // Binding 7 is declared in the GLSL and never used: only what is statically used counts.
+    // Binding 7 is declared in the GLSL and never used; only statically used ones count.
     EXPECT_EQ(interface_module().descriptors.size(), 6u);
     const auto image = [](std::string_view name, std::uint32_t binding, bool readable, bool writable, VkFormat format,
                           DescriptorKind kind = DescriptorKind::storage_image) {

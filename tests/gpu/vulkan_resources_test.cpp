@@ -1,4 +1,4 @@
-// Images and buffers: round trips, refusals before anything is allocated, and what a failure leaves behind.
+// Images and buffers give back their bytes, are refused before anything is allocated, and leave nothing when they fail.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -163,8 +163,8 @@ TEST(VulkanImage, beyond_the_budget_is_refused_before_it_is_made) {
 }
 
 TEST(VulkanImage, that_fails_half_way_leaves_nothing) {
-    // The texels fit, what the driver really needs (padded rows) does not: the image exists by then, and the
-    // validation layer would name it when the device goes.
+    // The texels fit, but the driver's real need (padded rows) does not: the image exists by then, and the validation
+    // layer would name it when the device goes.
     const vulkan::ImageDescription description{.name = "half made", .width = 1, .height = 7, .usage = copied};
     const std::uint64_t needed = Image(gpu().device, description).byte_count();
     if (needed == 7 * 16) GTEST_SKIP() << "this driver pads nothing";
@@ -237,7 +237,7 @@ TEST(VulkanDevice, refuses_memory_types_nobody_has) {
     const auto visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(gpu().device.physical(), &memory);
-    // PROTECTED and LAZILY_ALLOCATED exclude host visibility: as a preference that must not matter.
+    // PROTECTED and LAZILY_ALLOCATED exclude host visibility, which must not matter to a preference.
     const std::uint32_t type = gpu().device.memory_type(all, visible, VK_MEMORY_PROPERTY_PROTECTED_BIT);
     EXPECT_EQ(memory.memoryTypes[type].propertyFlags & visible, VkMemoryPropertyFlags(visible));
 }

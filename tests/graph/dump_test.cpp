@@ -1,4 +1,4 @@
-// What people read: the dumps fold substeps, list resources, and give reasons.
+// Dumps are for people: they fold substeps, list resources, and give reasons.
 #include <gtest/gtest.h>
 #include <json/json.h>
 

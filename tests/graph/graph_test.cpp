@@ -1,4 +1,4 @@
-// Building a graph: versioned handles, and mistakes refused by name.
+// A graph is built with versioned handles, and mistakes are refused by name.
 #include "graph/graph.h"
 
 #include <gtest/gtest.h>

@@ -39,12 +39,12 @@ VkAccessFlags2 expand_accesses(VkAccessFlags2 accesses) {
     return accesses;
 }
 
-/// One thing that happens to the resource, in submission order: a use, or a barrier.
+/// A use of the resource or a barrier, in submission order.
 struct Event {
     std::string name;
     std::size_t command = 0;  ///< uses of one pass share it: nothing can be put between them
     bool is_barrier = false, from_host = false;
-    VkPipelineStageFlags2 stages = 0;  ///< of a use
+    VkPipelineStageFlags2 stages = 0;  ///< stages of a use
     VkAccessFlags2 accesses = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     Barrier barrier{};  ///< expanded
@@ -108,8 +108,8 @@ Event use_event(Access access, std::string name, std::size_t command) {
     return event;
 }
 
-/// Follows one earlier access (one stage, at most one kind of write; or a layout change, available by
-/// itself) through the barriers that come after it.
+/// Follows one earlier access (one stage, at most one kind of write; or a layout change, available by itself) through
+/// the barriers that come after it.
 class Track {
   public:
     Track(VkPipelineStageFlags2 stage, VkAccessFlags2 write) : stage_(stage), write_(write) {}
@@ -156,8 +156,8 @@ class Track {
 
     VkPipelineStageFlags2 stage_ = 0;
     VkAccessFlags2 write_ = 0;
-    VkPipelineStageFlags2 ordered_ = 0;    ///< what starts here starts after the access
-    VkPipelineStageFlags2 available_ = 0;  ///< what starts here starts after the write is available
+    VkPipelineStageFlags2 ordered_ = 0;    ///< work that starts here starts after the access
+    VkPipelineStageFlags2 available_ = 0;  ///< work that starts here starts after the write is available
     std::array<VkAccessFlags2, all_stages.size()> visible_{};
 };
 
@@ -173,7 +173,6 @@ std::vector<Track> tracks_of(const Event& event) {
     return tracks;
 }
 
-/// The history of one resource through the whole sequence.
 class History {
   public:
     History(std::span<const Execution> sequence, std::string resource) : name_(std::move(resource)) {
@@ -184,7 +183,7 @@ class History {
         hazards.insert(hazards.end(), layout_hazards_.begin(), layout_hazards_.end());
         for (std::size_t x = 0; x < events_.size(); ++x) {
             const Event& earlier = events_[x];
-            // A host read ends before the next submit begins: nothing on the device has to wait for it.
+            // A host read ends before the next submit begins, so nothing on the device has to wait for it.
             if (earlier.from_host || (earlier.is_barrier && !earlier.changes_layout())) continue;
             for (Track& track : tracks_of(earlier)) follow(x, track, hazards);
         }

@@ -1,8 +1,8 @@
-// Finds missing and too weak barriers by brute force: every pair of conflicting uses of a resource, in every
-// execution of a sequence of plans, must be joined by a chain of barriers. Written from the Vulkan
-// specification (chapter "Synchronization and Cache Control"), with its own table of accesses, and sharing no
-// code with make_plan. It takes every barrier to concern its resource alone, and counts no stage as logically
-// earlier or later than another: both stricter than Vulkan.
+// Finds missing and too weak barriers by brute force: every pair of conflicting uses of a resource, in every execution
+// of a sequence of plans, must be joined by a chain of barriers. It is written from the Vulkan specification (chapter
+// "Synchronization and Cache Control"), with its own table of accesses, and shares no code with make_plan. It takes
+// every barrier to concern its resource alone, and counts no stage as logically earlier or later than another, which
+// are both stricter than Vulkan.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,11 @@ struct Hazard {
     std::string text() const { return resource + ": " + earlier + " -> " + later + ": " + problem; }
 };
 
-/// Plans submitted one after another, after a set-up that wrote every persistent and constant resource by
-/// transfer. Resources of different graphs are the same when their names are. `only`: look at this one alone.
+/// Finds the hazards of plans submitted one after another, after a set-up that wrote every persistent and constant
+/// resource by transfer. Resources of different graphs are the same when their names are. `only` names one to look at.
 std::vector<Hazard> find_hazards(std::span<const Execution> sequence, const std::string& only = {});
 
-/// Where a barrier stands in a plan: before passes[pass], or, past the last pass, among the final barriers.
+/// Place of a barrier in a plan: before passes[pass], or, past the last pass, among the final barriers.
 struct BarrierPlace {
     std::size_t pass, index;
 };
@@ -37,7 +37,7 @@ std::vector<BarrierPlace> barrier_places(const Plan& plan);
 Barrier& barrier_at(Plan& plan, BarrierPlace place);
 void remove_barrier(Plan& plan, BarrierPlace place);
 
-/// Barriers without any of which the plan, run twice, still has no hazard.
+/// Returns the barriers without any one of which the plan, run twice, still has no hazard.
 std::vector<BarrierPlace> redundant_barriers(const Graph& graph, const Plan& plan);
 
 }  // namespace drape::graph

@@ -1,4 +1,4 @@
-// make_plan against the brute-force checker, and the checker against planted faults.
+// make_plan is tested against the brute-force checker, and the checker against planted faults.
 #include <gtest/gtest.h>
 
 #include "hazard_checker.h"
@@ -31,7 +31,7 @@ TEST(RandomPlans, HaveNoHazardInThreeConsecutiveExecutions) {
         barriers += barrier_places(plan).size();
         culled += plan.skipped.size();
     }
-    // Or the graphs were too simple to prove anything.
+    // Simpler graphs would prove nothing.
     EXPECT_GT(barriers, 10u * graph_count);
     EXPECT_GT(culled, graph_count);
 }
@@ -57,8 +57,8 @@ TEST(RandomPlans, NeedEveryBarrierTheyHave) {
     }
 }
 
-/// Every single flag, but for two at the source of entry barriers: MEMORY_READ, which orders nothing, and
-/// MEMORY_WRITE for what lives within a plan, which this very plan may need or not (another might).
+/// Takes away every single flag, but for two at the source of entry barriers: MEMORY_READ, which orders nothing, and
+/// MEMORY_WRITE for resources that live within a plan, which this very plan may need or not (another might).
 std::vector<std::function<void(Barrier&)>> weakenings(const Barrier& barrier, Lifetime lifetime) {
     VkAccessFlags2 unneeded = VK_ACCESS_2_MEMORY_READ_BIT;
     if (lifetime != Lifetime::persistent && lifetime != Lifetime::constant) {
@@ -121,7 +121,7 @@ TEST(RandomPlans, NeedEveryLayoutChange) {
     EXPECT_GT(checked, graph_count);
 }
 
-/// The checker's own claims, on plans written by hand.
+/// The checker's own claims are tested on plans written by hand.
 struct HazardChecker : ::testing::Test {
     Graph graph;
     Handle color = graph.image({.name = "color", .lifetime = Lifetime::persistent});

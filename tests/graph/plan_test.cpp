@@ -1,4 +1,4 @@
-// Planning: what runs, which barriers stand where, and why.
+// A plan says what runs, which barriers stand where, and why.
 #include "graph/plan.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ struct Planning : ::testing::Test {
     void write(const std::string& name, Handle& handle, Access access) {
         pass(name, [&](PassSetup& setup) { handle = setup.write(handle, access); });
     }
-    /// Something always wanted, so that readers are not culled.
+    /// Adds a pass that is always wanted, so that readers are not culled.
     void keep(const std::string& name, const std::function<void(PassSetup&)>& setup) {
         pass(name, [&](PassSetup& p) {
             setup(p);

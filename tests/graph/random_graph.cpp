@@ -52,7 +52,7 @@ void RandomGraphs::use_something(Graph& graph, PassSetup& setup) {
             setup.read(handles_[r], access);
         }
     } catch (const GraphError&) {
-        // Not every access fits every resource: the graph refuses, and the pass does without.
+        // Not every access fits every resource: the graph refuses it, and the pass does without.
     }
 }
 

@@ -1,4 +1,3 @@
-// Seeded random graphs for the hazard tests.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +7,11 @@
 
 namespace drape::graph {
 
-/// A mix of images and buffers of every lifetime, each with the accesses its kind allows.
+/// Makes random graphs of images and buffers of every lifetime, each with the accesses that its kind allows.
 class RandomGraphs {
   public:
     explicit RandomGraphs(std::uint32_t seed);
-    /// Each call: another graph over the same resources.
+    /// Returns another graph over the same resources.
     Graph make(std::uint32_t pass_count);
 
   private:

@@ -22,7 +22,7 @@ struct Run {
 
 void PrintTo(const Run& run, std::ostream* out) { *out << run.name; }
 
-/// Held by its top row and crumpled a little, so that no two springs are alike.
+/// The sheet is held by its top row and crumpled a little, so that no two springs are alike.
 SceneDescription scene_of(const Run& run) {
     SceneDescription scene = test::sheet(run.columns, run.rows, 1.3, 0.9, run.substeps, run.iterations);
     scene.solver.method = run.method;

@@ -30,7 +30,7 @@ TEST(AtomicFile, AppearsOnlyWhenCommitted) {
     const FileRecord record = file.commit();
     EXPECT_THAT(names_in(temporary.path()), ElementsAre("manifest.json"));
     EXPECT_EQ(read_text(temporary / "manifest.json"), "hello world");
-    // The hash that `xxhsum -H2` prints for this text.
+    // The hash is the one that `xxhsum -H2` prints for this text.
     EXPECT_EQ(record, (FileRecord{"manifest.json", 11, xxh3_128_hex("hello world")}));
     EXPECT_EQ(record.hash, "df8d09e93f874900a99b8775cc15b6c7");
 }
@@ -99,7 +99,7 @@ TEST(AtomicFile, ReportsAFileSizeLimitAndKeepsEarlierFiles) {
     EXPECT_EQ(std::filesystem::file_size(temporary / "frame_0000.png"), 65536u);
 }
 
-// Every file that exists under its own name is whole, whenever the writer is killed.
+// Every file under its own name is whole, whenever the writer is killed.
 TEST(AtomicFile, NoFileIsTornWhenTheWriterIsKilled) {
     std::mt19937 random(7);
     const std::string content(256 << 10, 'c');

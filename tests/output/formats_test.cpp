@@ -1,4 +1,4 @@
-// Every output format: the promises that all keep, and what is in the files by readers that share nothing with them.
+// Every output format keeps the common promises, and readers that share nothing with it find the right contents.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -209,7 +209,7 @@ TEST(Pc2, LeavesOutParticlesWithoutTriangles) {
     EXPECT_EQ(base.uv, (Positions{0.5, 1, 1, 1, 0, 0, 0.5, 0}));
 }
 
-// A run that ends early: what came before is counted right.
+// The count is right after a run that ends early.
 TEST(Pc2, CountsTheSamplesThatCame) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary.path());

@@ -44,7 +44,7 @@ TEST(FrameTable, KeepsFramesOfAnyOrderAndTheLaterOfTwo) {
     EXPECT_TRUE(names_in(temporary / "out").empty());
 }
 
-// Rows of unlike lengths, so that some lie across the ends of what is read at once.
+// Rows have unlike lengths, so that some lie across the ends of what is read at once.
 TEST(FrameTable, ManyFramesAreThoseThatWereAdded) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary / "out");
@@ -82,7 +82,7 @@ TEST(FrameTable, AFullFileIsToldOfByTheManifestsName) {
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     EXPECT_THAT(text, testing::HasSubstr("out/manifest.json"));
     EXPECT_THAT(text, testing::HasSubstr("too large"));
-    const Rows rows = rows_of(table);  // those up to then
+    const Rows rows = rows_of(table);  // rows added until the failure
     EXPECT_GT(rows.size(), 50000u);
     EXPECT_EQ(rows.rbegin()->first + 1, rows.size());
 }

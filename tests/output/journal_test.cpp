@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t few = 1 << 20;  // bytes that may wait once there is a file
 
-/// Of about 64 KiB.
+/// Returns a record of about 64 KiB.
 JournalRecord record_of(std::uint32_t frame) {
     return {.frame = frame,
             .values = {{"a", frame * 0.5}},

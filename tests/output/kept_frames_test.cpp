@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const std::string key = run_key({"scene", "64x48"});
 
-// Three frames of a run, as the program writes them.
+// Writes three frames of a run as the program does.
 std::vector<FileRecord> write_frames(const fs::path& path, const std::string& of_run) {
     OutputFolder folder(path, ExistingFiles::resume);
     PngSequence sequence(folder, 4, 2, of_run);

@@ -94,7 +94,7 @@ constexpr const char* golden = R"json({
     "choice": "the laws expect it",
     "iterations": 8,
     "method": "line",
-    "schedule": "buffers",
+    "kernels": "buffer_store",
     "stretch_error_rms": 0.0075,
     "substeps": 20,
     "tethers": true,
@@ -134,7 +134,7 @@ TEST(Manifest, WithoutFramesTheStatisticsAreAnEmptyArray) {
     }
 }
 
-// What a program's text says of itself must not be taken for the place of the statistics.
+// Words of a program's text must not be taken for the place of the statistics.
 TEST(Manifest, TextThatLooksLikeTheStatisticsIsText) {
     Manifest manifest = example();
     const std::string mark = "\n  \"statistics\": [";
@@ -202,7 +202,7 @@ TEST(Manifest, AnyTextIsEscaped) {
     for (Json::ArrayIndex i = 0; i < 5; ++i) {
         EXPECT_EQ(json["run"]["command_line"][i].asString(), manifest.command_line[i]);
     }
-    manifest.command_line = {"\xff\xfe"};  // not UTF-8: what matters is that the file stays readable
+    manifest.command_line = {"\xff\xfe"};  // not UTF-8; the file must stay readable
     EXPECT_TRUE(parse(manifest_json(manifest))["run"]["command_line"][0].isString());
 }
 

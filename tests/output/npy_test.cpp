@@ -46,7 +46,7 @@ TEST(Npy, FollowsTheFormat) {
     EXPECT_EQ(values, counting(60, 0));
 }
 
-// The other reader: NumPy itself, where it is installed.
+// NumPy itself reads the file, where it is installed.
 TEST(Npy, NumpyReadsIt) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
     const TemporaryFolder temporary;

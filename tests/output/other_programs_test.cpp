@@ -1,4 +1,4 @@
-// Files of output formats as the programs read them that they are made for. Those that are not installed are skipped;
+// The programs that output formats are made for read their files. Those that are not installed are skipped;
 // tools/check_exports has the large ones.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// Whether the shell command succeeds.
+/// Returns whether the shell command succeeds.
 bool runs(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
 
 void expect_python(const TemporaryFolder& folder, const std::string& text) {
@@ -20,7 +20,7 @@ void expect_python(const TemporaryFolder& folder, const std::string& text) {
     EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", folder.path().string()).c_str()), 0);
 }
 
-/// What a format's stream has of pictures of one colour each.
+/// Returns a format's stream of pictures of one colour each.
 std::string stream(const char* format, std::uint32_t width, std::uint32_t height,
                    const std::vector<std::array<std::uint8_t, 3>>& colors) {
     WrittenRun run;
@@ -47,7 +47,7 @@ std::string stream(const char* format, std::uint32_t width, std::uint32_t height
     return bytes;
 }
 
-// Values of ITU-R BT.709-6, table 3.
+// The values are those of ITU-R BT.709-6, table 3.
 TEST(Y4m, HasEvenSizesAndTheColorsOfTheStandard) {
     const std::string bytes = stream("y4m", 3, 1, {{255, 255, 255}, {0, 0, 0}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}});
     const std::string header = "YUV4MPEG2 W4 H2 F15000:1001 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n";
@@ -112,7 +112,7 @@ assert [(float(s["timestep"]), s["part"], s["file"]) for s in sets] == [
 )");
 }
 
-/// The values of a bracketed list of a USD file.
+/// Returns the values of a bracketed list of a USD file.
 std::vector<float> numbers(std::string text) {
     std::vector<float> values;
     for (char& c : text)
@@ -125,7 +125,7 @@ std::vector<float> numbers(std::string text) {
     }
 }
 
-// By its text; tools/check_exports opens it with a USD library.
+// The text is tested here; tools/check_exports opens it with a USD library.
 TEST(Usda, HasPointsAndFacesByFrame) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary.path());
@@ -152,7 +152,7 @@ TEST(Usda, HasPointsAndFacesByFrame) {
     EXPECT_EQ(list_after(rag, "extent.timeSamples", "        14: ").size(), 6u);
 }
 
-// A run that ends early ends its time there.
+// The file's time ends where the run ends.
 TEST(Usda, EndsWithTheFramesThatCame) {
     const TemporaryFolder temporary;
     OutputFolder folder(temporary.path());

@@ -130,8 +130,8 @@ TEST(OutputFolder, KeepsASecondProcessOut) {
     for (const int end : {ready[0], ready[1], release[0], release[1]}) close(end);
 }
 
-// A finished run's folder: two frames, positions, a profile known from the manifest only, and what others put
-// there.
+// Fills a folder with a finished run (two frames, positions, a profile known from the manifest only) and with others'
+// files.
 void fill_with_a_run(const fs::path& path) {
     OutputFolder folder(path);
     Manifest manifest;

@@ -80,8 +80,7 @@ TEST(PngSequence, BuffersAreReused) {
     std::set<const std::uint8_t*> buffers;
     for (std::uint64_t frame = 0; frame < 30; ++frame) {
         std::vector<std::uint8_t> rgba = sequence.take_buffer(frame_width * frame_height * 4);
-        // At most two frames are pending, so from the fourth on there is a written one's buffer, with its
-        // content.
+        // At most two frames are pending, so from the fourth on a written one's buffer comes back, with its content.
         EXPECT_EQ(rgba[0], frame < 3 ? rgba[0] : 7) << frame;
         rgba[0] = 7;
         buffers.insert(rgba.data());
@@ -97,7 +96,7 @@ TEST(PngSequence, CarriesAWorkersErrorToTheCaller) {
     std::filesystem::create_directory(temporary / "frame_0002.png");
     PngSequence sequence(folder, 4, 2);
     const std::string expected = "cannot write '" + folder.path_of("frame_0002.png") + "': Is a directory";
-    // The error arrives at some later submit: with a bounded queue at the latest when the queue is full.
+    // The error arrives at some later submit, at the latest when the bounded queue is full.
     EXPECT_EQ(error_text<OutputError>([&] { submit_frames(sequence, 1000); }), expected);
     EXPECT_EQ(error_text<OutputError>([&] { sequence.finish(); }), expected);
     EXPECT_LT(names_in(temporary.path()).size(), 20u);

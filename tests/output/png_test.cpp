@@ -72,12 +72,12 @@ TEST(Png, CarriesAText) {
     EXPECT_EQ(decode_png(png).text, text);
     EXPECT_EQ(decode_png(plain).text, "");
     EXPECT_EQ(decode_with_libpng(png), without_alpha(rgba));
-    // Length, type, keyword, 0, text, checksum: nothing else is different.
+    // The text adds a length, type, keyword, 0, itself and a checksum, and nothing else is different.
     EXPECT_EQ(png.size(), plain.size() + 12 + 6 + text.size());
     const std::string bytes(png.begin(), png.end());
     EXPECT_THAT(bytes, testing::HasSubstr(std::string("tEXtdrape\0", 10) + text));
     const std::size_t at = bytes.find("frame 7");
-    png[at] ^= 1;  // its checksum no longer fits: no text is better than a wrong one
+    png[at] ^= 1;  // its checksum no longer fits, and no text is better than a wrong one
     EXPECT_EQ(decode_png(png).text, "");
 }
 

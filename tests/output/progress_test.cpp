@@ -138,7 +138,7 @@ TEST(Progress, QuietSaysNothingButMessages) {
     }
 }
 
-// Whether the process may redraw a line when its stderr is this device and TERM has this value.
+// Returns whether the process may redraw a line when its stderr is this device and TERM has this value.
 bool redraws(const char* device, const char* terminal) {
     const int status = wait_for(start_child([&] {
         const int target = open(device, O_RDWR | O_NOCTTY);

@@ -71,7 +71,7 @@ inline int wait_for(pid_t child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// The text of the Error an action throws; empty when it throws none.
+// Returns the text of the Error that an action throws; empty when it throws none.
 template <class Error, class Action>
 std::string error_text(const Action& action) {
     try {

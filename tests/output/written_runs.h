@@ -1,4 +1,4 @@
-// A small run for the tests of output formats, with a cut in it.
+// The tests of output formats write this small run, with a cut in it.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ inline WrittenRun two_cloths() {
 
 inline const std::vector<std::uint32_t> whole_flag = two_cloths().cloths[0].faces, cut_flag{0, 3, 1, 1, 4, 2, 2, 4, 5};
 
-/// Numbers that a decimal detour would round.
+/// Returns numbers that a detour over decimals would round.
 inline Positions positions_of(std::uint32_t frame, std::size_t particles) {
     Positions values(particles * 3);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -41,14 +41,14 @@ inline std::vector<float> with_w(const Positions& xyz) {
     return xyzw;
 }
 
-/// A picture of the run's size: every byte another.
+/// Returns a picture of the run's size, every byte of which is another.
 inline std::vector<std::uint8_t> picture_of(std::uint32_t frame) {
     std::vector<std::uint8_t> rgba(4 * 2 * 4);
     for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<std::uint8_t>(7 * i + frame);
     return rgba;
 }
 
-/// Writes the run, with the cut; `frames` of them. Velocities are the positions of the frame after, contacts the
+/// Writes `frames` frames of the run, with the cut. Velocities are the positions of the frame after, contacts the
 /// particles' numbers less 1; only the second frame has an error.
 inline std::vector<FileRecord> write(FrameWriter& writer, std::uint32_t frames = 3, bool finish = true) {
     const WrittenRun run = two_cloths();

@@ -1,4 +1,4 @@
-// What a profile makes of measured frames: statistics, reports that can be read back, and the comparison of two.
+// Profiles of measured frames have the right statistics, come back from their reports, and are compared.
 #include "profile/profile.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Eleven frames of 10, 11 .. 20 ms, times `factor`; `copy` takes 1 ms in every second one.
+/// Returns eleven frames of 10, 11 .. 20 ms, times `factor`; `copy` takes 1 ms in every second one.
 Profile measured(double factor) {
     Profile profile;
     profile.scene = "flag.json";
@@ -123,7 +123,7 @@ TEST(ProfileComparison, OnlyWhatIsBeyondTheNoiseIsSlower) {
         return compare(profile_json(measured(1)), "a", profile_json(measured(factor)), "b");
     };
     EXPECT_FALSE(against(1).slower());
-    // The frames spread by a third: 1.2 times as long is noise there, but not for the pass, which took the same each
+    // The frames spread by a third, so 1.2 times as long is noise there, but not for the pass, which took the same each
     // time.
     const Comparison comparison = against(1.2);
     ASSERT_EQ(comparison.rows.size(), 4u);
@@ -136,9 +136,9 @@ TEST(ProfileComparison, OnlyWhatIsBeyondTheNoiseIsSlower) {
 
 TEST(ProfileComparison, SaysWhatDiffersAndWhatIsNoProfile) {
     Profile other = measured(1);
-    other.schedule = "images";
+    other.kernels = "plain";
     const Comparison comparison = compare(profile_json(measured(1)), "a", profile_json(other), "b");
-    EXPECT_THAT(comparison.differences, ElementsAre(HasSubstr("schedule")));
+    EXPECT_THAT(comparison.differences, ElementsAre(HasSubstr("kernels")));
     for (const char* text : {"", "[]", "{}", "{\"context\": {}, \"benchmarks\": []}",
                              "{\"context\": {}, \"benchmarks\": 3}", "{\"context\": {}, \"benchmarks\": [1]}"})
         try {

@@ -1,4 +1,4 @@
-"""The Python module: what it reads, hands out and refuses. Every simulation runs under Vulkan's validation."""
+"""The Python module reads, hands out and refuses the right things, under Vulkan's validation throughout."""
 import gc
 import json
 import os
@@ -171,7 +171,7 @@ class Frames(Validated):
                 array[0, 0, 0] = 1
         start = first.copy()
         simulation.step()
-        self.assertFalse(np.array_equal(first, start))  # what is in a view is the newest frame
+        self.assertFalse(np.array_equal(first, start))  # a view shows the newest frame
         np.testing.assert_allclose(np.linalg.norm(simulation.normals(), axis=2), 1, atol=1e-5)
         kept = first.copy()
         self.simulations.clear()

@@ -1,4 +1,4 @@
-// The motion of method auto, closed loop and all, against the double-precision network.
+// Method auto, closed loop and all, follows the motion of the double-precision network.
 #include <gtest/gtest.h>
 
 #include "network_scenes.h"
@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// RMS distance (m) of cloth 0 from the reference at the end of the frame.
+/// Returns the RMS distance (m) of cloth 0 from the reference at the end of the frame.
 double motion_of(const SceneDescription& scene, std::uint32_t frames, const ReferenceRun& reference) {
     const SimulationModel model(scene);
     TwinLoop loop(model);

@@ -1,4 +1,5 @@
-// Bending of the solvers: as stiff in every direction, whatever a sweep adds taken off again, no net force or torque.
+// The solvers' bending is as stiff in every direction, takes off again what a sweep adds, and leaves no net force or
+// torque.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double rigidity = 1e-3;
 
-/// A square metre that does nothing but bend, one substep per frame; `compliance`: m/(b h^2) of the axes' elements.
+/// A square metre does nothing but bend, one substep per frame; `compliance`: m/(b h^2) of the axes' elements.
 SceneDescription bending_sheet(SolverMethod method, double compliance) {
     SceneDescription scene = test::sheet(65, 65, 1, 1, 1);
     scene.gravity = {0, 0, 0};
@@ -26,8 +27,8 @@ SceneDescription bending_sheet(SolverMethod method, double compliance) {
     return scene;
 }
 
-/// Bending energy (J) of the shape as one substep from rest feels it: forces F = m d/h^2 and, since they are linear
-/// in x, E = -1/2 sum x . F.
+/// Bending energy (J) of the shape as one substep from rest feels it: its forces are F = m d/h^2 and, since they are
+/// linear in x, E = -1/2 sum x . F.
 double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape) {
     const SimulationModel model(scene);
     EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
@@ -48,7 +49,6 @@ double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape
     return energy;
 }
 
-/// The flat sheet's particles (m).
 std::vector<Vec3> flat() {
     std::vector<Vec3> shape;
     for (int row = 0; row < 65; ++row)
@@ -59,7 +59,7 @@ std::vector<Vec3> flat() {
 struct Solver {
     SolverMethod method;
     double compliance;  ///< m/(b h^2)
-    double limit;       ///< of the relative error; a sweep's own falls as 1/compliance^2, at borders as 1/compliance
+    double limit;       ///< largest relative error; a sweep's own falls as 1/compliance^2, at borders as 1/compliance
     const char* name() const { return method == SolverMethod::relax ? "relax" : "explicit"; }
 };
 
@@ -73,7 +73,7 @@ TEST_P(SolverBending, IsAsStiffInEveryDirection) {
         const double felt = felt_energy(scene, test::rolled(flat(), angle, curvature)) / (0.5 * rigidity * curvature);
         std::printf("[ measured ] %s, m/(b h^2) %g: rigidity along %g degrees %.4f B\n", solver.name(),
                     solver.compliance, degrees, felt);
-        // The axes' elements are missing in the half cells at the borders, the twist nowhere.
+        // The axes' elements are missing in the half cells at the borders, the twist is missing nowhere.
         const double twist = 0.5 * std::pow(std::sin(2 * angle), 2);
         EXPECT_NEAR(felt, (1 - twist) * 63.0 / 64 + twist, solver.limit);
     }
@@ -83,7 +83,7 @@ TEST_P(SolverBending, TwistsAsThePlateOfPoissonsRatioZero) {
     const Solver& solver = GetParam();
     std::vector<Vec3> saddle = flat();
     for (Vec3& at : saddle) at[2] = 0.5 * at[0] * at[1];
-    // B/2 integral of 2 kxy^2 with kxy = 1/2.
+    // The energy is B/2 integral of 2 kxy^2 with kxy = 1/2.
     const double felt = felt_energy(bending_sheet(solver.method, solver.compliance), saddle) / (rigidity * 0.25);
     std::printf("[ measured ] %s, m/(b h^2) %g: twist %.4f of the plate's\n", solver.name(), solver.compliance, felt);
     EXPECT_NEAR(felt, 1, solver.limit);
@@ -108,7 +108,7 @@ TEST_P(BendingForces, KeepMomentumAndAngularMomentum) {
         x = {x.x + noise(random), x.y + noise(random), x.z + noise(random), x.w};
     Vec3 momentum{}, angular{};
     double size = 0, angular_size = 0;
-    // Step by step: within one, no particle moves twice, and its arm is where it was before.
+    // The sums go step by step: within a step no particle moves twice, and its arm is where it was before.
     for (const Step& step : frame_steps(model)) {
         if (step.kind == StepKind::advance) break;
         const TwinCloth before = state;
@@ -136,7 +136,7 @@ TEST_P(BendingForces, KeepMomentumAndAngularMomentum) {
 }
 
 TEST(LineBending, KeepsMomentumHoweverStiff) {
-    // Its forces act where the substep ends, so the angular momentum is kept to the substep's length.
+    // The line's forces act where the substep ends, so the angular momentum is kept to the substep's length.
     SceneDescription scene = bending_sheet(SolverMethod::line, 1e-3);
     scene.cloths[0].holes = {{{5, 3}, {19, 28}}, {{40, 40}, {41, 41}}};
     const SimulationModel model(scene);

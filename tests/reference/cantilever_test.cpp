@@ -1,5 +1,5 @@
-// A strip clamped level at one end hangs like the heavy elastica of its rigidity (docs/physics.md 7): fall over reach
-// H/W against Gamma = rho g L^3/B.
+// A strip clamped level at one end hangs like the heavy elastica of its rigidity (docs/physics.md 7): its fall over
+// reach H/W is a function of Gamma = rho g L^3/B.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// H/W once the strip hangs still.
+/// Returns H/W once the strip hangs still.
 double fall_over_reach(const SceneDescription& scene) {
     const SimulationModel model(scene);
     EXPECT_EQ(model.cloths[0].plan.used_bend, scene.cloths[0].stiffness.bend);
@@ -36,8 +36,8 @@ TEST_P(Cantilever, HangsAsTheElastica) {
                     100 * (ratio[k] / expected.second - 1));
     }
     EXPECT_NEAR(ratio[2] / expected.second, 1, 0.02);
-    // The order by differences, since the strip also stretches (by 0.04 %). At Gamma 10 they are too small to tell; a
-    // single sweep of relaxation has its own error, of order 1/(segments m/(b h^2)).
+    // The order is found by differences, since the strip also stretches (by 0.04 %). At Gamma 10 they are too small to
+    // tell; a single sweep of relaxation has its own error, of order 1/(segments m/(b h^2)).
     if (method == SolverMethod::relax || gamma == 10) return;
     const double order = std::log2((ratio[0] - ratio[1]) / (ratio[1] - ratio[2]));
     std::printf("[ measured ] order %.2f\n", order);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Gamma, Cantilever,
 class LineCantilever : public testing::TestWithParam<std::pair<double, double>> {};
 
 TEST_P(LineCantilever, HangsAsTheElasticaOnAFewSubsteps) {
-    // m/(b h^2) is 2e-3 at Gamma 1 and 4 substeps: 3 is what a sweep over coloured elements can follow.
+    // m/(b h^2) is 2e-3 at Gamma 1 and 4 substeps, while a sweep over coloured elements can follow 3.
     const auto [gamma, expected] = GetParam();
     for (const std::uint32_t substeps : {4u, 8u, 20u}) {
         SceneDescription scene = model_scenes::hanging_cantilever(32, gamma, SolverMethod::line);

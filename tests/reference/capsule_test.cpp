@@ -1,4 +1,4 @@
-// Foot points on capsules in single precision against the nearest ball of the sweep in double precision.
+// Foot points on capsules in single precision agree with the nearest ball of the sweep in double precision.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -15,7 +15,7 @@ Vec3 foot_of(const glsl::vec3& p, const glsl::SurfacePoint& surface) {
             double(p.z) - double(surface.normal.z) * double(surface.distance)};
 }
 
-/// As the device holds it, in its own frame.
+/// Returns the capsule as the device holds it, in its own frame.
 Capsule upright(const glsl::vec3& size) {
     return {{0, -double(size.x), 0}, {0, double(size.x), 0}, {double(size.y), double(size.z)}};
 }
@@ -26,7 +26,7 @@ TEST(CapsuleTest, FootPointsMatchDoublePrecision) {
     double worst_foot = 0, worst_distance = 0;
     int checked = 0, inside = 0, on_side = 0, swallowed = 0;
     while (checked < 20000) {
-        // Also ends that nearly or wholly hold each other.
+        // Some ends nearly or wholly hold each other.
         const double half = checked % 5 == 0 ? 0.3 * ratio(random) * ratio(random) : ratio(random);
         const glsl::vec3 size{float(half), float(ratio(random)), float(ratio(random))};
         const Capsule capsule = upright(size);

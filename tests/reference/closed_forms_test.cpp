@@ -1,4 +1,4 @@
-// Closed forms against tabulated numbers, and against what they claim to solve.
+// Closed forms agree with tabulated numbers, and with the equations that they solve.
 #include "reference/closed_forms.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(ClosedFormsTest, Pendulum) {
 }
 
 TEST(ClosedFormsTest, HangingColumn) {
-    // Three links, unit weights: below them hang 3, 2, 1 particles, or half a particle less.
+    // With three links of unit weight 3, 2, 1 particles hang below them, or half a particle less.
     EXPECT_DOUBLE_EQ(hanging_link_tension(3, 0, 1, 1, false), 3);
     EXPECT_DOUBLE_EQ(hanging_link_tension(3, 2, 1, 1, true), 0.5);
     EXPECT_DOUBLE_EQ(hanging_length(3, 1, 100, 1, 1, false), 1 + 0.06);
@@ -96,7 +96,7 @@ TEST(ClosedFormsTest, ChainModes) {
         EXPECT_NEAR(hanging_chain_frequency(n, 2, 9.81), zeros[n - 1] / 2 * std::sqrt(9.81 / 2), 1e-6);
         EXPECT_NEAR(hanging_chain_shape(n, 2, 2), 0, 1e-12);
         EXPECT_EQ(hanging_chain_shape(n, 2, 0), 1);
-        // (g z y')' + omega^2 y = 0.
+        // The shape solves (g z y')' + omega^2 y = 0.
         const double z = 0.8, e = 1e-3, omega = hanging_chain_frequency(n, 2, 9.81);
         const auto y = [n](double at) { return hanging_chain_shape(n, 2, at); };
         const double flux = 9.81 * ((z + e / 2) * (y(z + e) - y(z)) - (z - e / 2) * (y(z) - y(z - e))) / (e * e);

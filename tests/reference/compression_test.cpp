@@ -1,5 +1,5 @@
-// Springs that are pushed together act by a share of their stiffness (`stiffness.compression`): the projection, the
-// double-precision network against closed forms, and every method against that network.
+// Springs that are pushed together act by a share of their stiffness (`stiffness.compression`): in the projection, in
+// the double-precision network (against closed forms), and in every method (against that network).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST(Compression, TheProjectionIsThatOfASofterSpring) {
     EXPECT_EQ(pulled.correction.x, whole.correction.x);
 }
 
-/// Held by its top row, its weight pulling upwards: it stands on its head within its plane, which it cannot leave.
+/// The sheet hangs upwards from its top row: it stands on its head within its plane, which it cannot leave.
 SceneDescription standing(double compression) {
     SceneDescription scene = test::sheet(17, 17, 1, 1, 1);
     scene.gravity = {0, 9.81, 0};
@@ -38,7 +38,8 @@ SceneDescription standing(double compression) {
 }
 
 TEST(Compression, AChainPushesByItsShare) {
-    // Twenty links pushed together by a tenth: each end is pushed by compression k l/10; the energy is that of k share.
+    // Twenty links are pushed together by a tenth: each end is pushed by compression k l/10, with the energy of that
+    // share.
     SpringNetwork network = test::chain(20, 1, 1, 500, {1, 0, 0});
     network.gravity = {0, 0, 0};
     for (NetworkSpring& spring : network.springs) spring.compression = 0.2;
@@ -52,7 +53,7 @@ TEST(Compression, AChainPushesByItsShare) {
     EXPECT_NEAR(network.gradient(x).back()[0], 500 * (1 / 0.9 - 1), 1e-6);
 }
 
-/// RMS distance (m) of a method from the reference after a quarter of a second.
+/// Returns the RMS distance (m) of a method from the reference after a quarter of a second.
 double standing_error(SolverMethod method, std::uint32_t substeps, const ReferenceRun& reference, double compression) {
     SceneDescription scene = standing(compression);
     scene.solver.method = method;
@@ -89,7 +90,7 @@ TEST(Compression, EveryMethodStandsAsTheNetworkDoes) {
     EXPECT_LE(micro_steps, 0.01 * given);
 }
 
-/// Held by an edge and let go where it slopes, without wind: nothing gives it energy.
+/// The sheet is held by an edge and let go where it slopes, without wind, so nothing gives it energy.
 SceneDescription swinging(SolverMethod method, std::uint32_t substeps, std::uint32_t iterations, double compression) {
     SceneDescription scene = test::sheet(13, 9, 0.6, 0.4, substeps);
     Cloth& cloth = scene.cloths[0];
@@ -102,7 +103,7 @@ SceneDescription swinging(SolverMethod method, std::uint32_t substeps, std::uint
     return scene;
 }
 
-/// The most energy (J) that a second of it comes to, over that at the start.
+/// Returns the most energy (J) that the sheet comes to within a second, over that at the start.
 double energy_gained(const SceneDescription& scene) {
     const SimulationModel model(scene);
     const SpringNetwork network(scene, 0);
@@ -127,10 +128,9 @@ double energy_gained(const SceneDescription& scene) {
     return most;
 }
 
-// A spring carries its tension across its rest length: where that is taken for that of its stiffness pushed together,
-// such a sheet explodes (35 J, by 80 substeps of `line` at 0.03).
-// Its tension is known for what it is on both sides of the rest length: the next projection takes back what was too
-// much.
+// A spring's tension means the same on both sides of its rest length: the next projection takes back what was too much.
+// Where it is taken for that of the spring's stiffness pushed together, a sheet explodes (35 J, by 80 substeps of
+// `line` at 0.03).
 TEST(Compression, ASpringThatSnapsIsSolvedAsItIs) {
     using namespace glsl;
     const float compliance = 0.5f, share = 0.125f, carried = 0.25f;  // m
@@ -142,7 +142,7 @@ TEST(Compression, ASpringThatSnapsIsSolvedAsItIs) {
 }
 
 TEST(Compression, ASheetThatSwingsGainsNoEnergy) {
-    const double scale = 0.2 * 0.6 * 0.4 * 9.81 * 0.4;  // J, of a fall by its height
+    const double scale = 0.2 * 0.6 * 0.4 * 9.81 * 0.4;  // J, energy of a fall by the sheet's height
     for (const double compression : {0.1, 0.03, 0.001})
         for (const std::uint32_t substeps : {10u, 20u, 80u})
             for (const std::uint32_t iterations : {1u, 3u}) {

@@ -1,4 +1,4 @@
-// Penetration of particles, edges and triangles into each collider kind: at rest, moving, rotated, overlapping.
+// Particles, edges and triangles do not penetrate any collider kind: at rest, moving, rotated, overlapping.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ Vec3 mean(std::initializer_list<Vec3> points) {
 }
 
 struct Depths {
-    double particles = 0, edges = 0, triangles = 0;  ///< deepest, m; below zero: never inside
+    double particles = 0, edges = 0, triangles = 0;  ///< deepest penetration, m; never inside where below zero
     bool touched = false;
 };
 
@@ -65,7 +65,7 @@ Depths drop(const std::vector<Collider>& colliders, const std::function<void(Sce
     return deepest;
 }
 
-/// `size`: of the collider; `radius`: least radius of curvature (0: flat or sharp: no sagitta bound).
+/// `size`: of the collider; `radius`: least radius of curvature, 0 for a flat or sharp one, without a sagitta.
 void expect_contact(const char* what, const Depths& depths, double size, double radius) {
     const double diagonal = 1.6 / 32 * std::sqrt(2.0) * 1.1;  // cell diagonal, stretched by a tenth
     const double sagitta = radius > 0 ? diagonal * diagonal / (8 * radius) : 0;
@@ -230,7 +230,7 @@ TEST(ContactTest, NoKindOfColliderThrowsWhatStartsInIt) {
     }
 }
 
-/// A collider of any kind, 1 mm to 10 m large, anywhere and turned.
+/// Returns a collider of any kind, 1 mm to 10 m large, anywhere and turned.
 Collider random_collider(std::mt19937& random) {
     const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
     const auto size = [&] { return std::pow(10, uniform(-3, 1)); };
@@ -243,7 +243,7 @@ Collider random_collider(std::mt19937& random) {
     return collider;
 }
 
-/// The passes of the device leave out colliders that a point is beyond the reach of: contact must leave such points.
+/// The passes of the device leave out colliders whose reach a point is beyond, so contact must leave such points.
 TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
@@ -254,7 +254,7 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
         const glsl::ColliderRecord record = collider_record(collider, 0, 0);
         const double thickness = uniform(0, 1) < 0.2 ? 0 : std::pow(10, uniform(-4, -1));
         Vec3 at{uniform(-6, 6), uniform(-6, 6), uniform(-6, 6)};
-        // Most are next to where contact begins: out along the distance's gradient, to a few roundings of it.
+        // Most points are next to where contact begins, moved along the distance's gradient to a few roundings of it.
         for (int step = 0; step < 3 && i % 8 != 0; ++step) {
             const auto distance = [&](const Vec3& x) { return exact::surface_distance(collider, 0, x); };
             const double wanted = thickness * (1 + 1e-6 * normal(random)), off = wanted - distance(at), d = 1e-7;

@@ -1,5 +1,5 @@
-// Cloths that start through each other, on the twin: led apart, slowly, and met from then on; judged by a checker that
-// shares nothing with what looks for crossings in the substeps.
+// Cloths that start through each other are led apart, slowly, and meet from then on, on the twin. A checker that shares
+// nothing with the search for crossings in the substeps judges them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ Vec3 mean_of(const Twin& twin, std::size_t cloth) {
 
 struct Parted {
     std::uint32_t last_crossed = 0, crossing_again = 0, met = 0;
-    double fastest = 0;  ///< m/s, that the two part at
+    double fastest = 0;  ///< m/s at which the two part
 };
 
 Parted run(const SceneDescription& scene, std::uint32_t frames) {
@@ -55,7 +55,7 @@ TEST(CrossedStartTest, IsToldOfAndTheWayOffIsKnown) {
     EXPECT_NEAR(contact.crossed[0].depth, 0.1, 1e-6);
     EXPECT_EQ(contact.meetings, (std::vector<glsl::uint>{1, glsl::self_meets_apart, glsl::self_meets_apart, 1}));
     ASSERT_EQ(contact.to_part.size(), 1u);
-    // The standing one has 0.1 m above and 0.2 m below: down. Of both, by their masses.
+    // The standing one has 0.1 m above and 0.2 m below, so it goes down, and both go by their masses.
     EXPECT_EQ(contact.to_part[0].way.y, -1.0f);
     EXPECT_NEAR(double(contact.to_part[0].parts.x + contact.to_part[0].parts.y), 1, 1e-6);
     EXPECT_LT(contact.to_part[0].parts.x, contact.to_part[0].parts.y / 4);
@@ -73,13 +73,13 @@ TEST(CrossedStartTest, TheTwoAreLedApartWithoutMovingAsAWhole) {
         EXPECT_NEAR(then, start, 0.004);
         const Parted found = run(scene, 30);
         EXPECT_GT(found.last_crossed, 2u);
-        EXPECT_LT(found.last_crossed, 12u);  // 0.1 m at 1 m/s: 6 frames
+        EXPECT_LT(found.last_crossed, 12u);  // 0.1 m at 1 m/s takes 6 frames
         EXPECT_EQ(found.crossing_again, 0u);
         EXPECT_LT(found.fastest, 1.3);
     }
 }
 
-/// Led down off a sheet that is held, and one that is led up, which then lies on it.
+/// One cloth is led down off a sheet that is held, another one is led up and then lies on it.
 TEST(CrossedStartTest, FromThenOnTheyMeet) {
     SceneDescription scene = test::crossed(SolverMethod::line, 16);
     scene.gravity = {0, -9.81, 0};
@@ -94,7 +94,7 @@ TEST(CrossedStartTest, FromThenOnTheyMeet) {
     EXPECT_GT(found.met, 20u);
 }
 
-/// Nobody leads two apart of which both are held; without gravity they stay as they are.
+/// Two cloths that are both held are not led apart; without gravity they stay as they are.
 TEST(CrossedStartTest, WhatIsHeldIsNotLed) {
     SceneDescription scene = test::crossed(SolverMethod::line, 8);
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 10)};
@@ -113,7 +113,7 @@ TEST(CrossedStartTest, ThoseThatOnlyTouchNeverMeet) {
     EXPECT_EQ(model.self_contact->meetings, (std::vector<glsl::uint>{1, 0, 0, 1}));
 }
 
-/// Against extended precision: what crosses is found, and what is found all but crosses.
+/// Against extended precision, crossings are found, and what is found all but crosses.
 TEST(CrossedStartTest, EdgesThatGoThroughTrianglesAreFound) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> anywhere(-1, 1);
@@ -127,7 +127,7 @@ TEST(CrossedStartTest, EdgesThatGoThroughTrianglesAreFound) {
         const auto exactly = [](glsl::vec3 x) {
             return TriangleCrossings::Point{double(x.x), double(x.y), double(x.z)};
         };
-        // A needle about the edge: its own other edges cross nothing that the edge does not.
+        // The needle about the edge has two more edges, which cross nothing that the edge does not.
         TriangleCrossings::Point beside = exactly(q);
         beside[0] += 1e-9;
         const TriangleCrossings::Mesh needle{{exactly(p), exactly(q), beside}, {0, 1, 2}},

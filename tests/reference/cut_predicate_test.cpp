@@ -1,4 +1,4 @@
-// The crossing predicate in single precision against double precision on random pairs, and degenerate cases.
+// The crossing predicate in single precision agrees with double precision on random pairs and degenerate cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Smallest distance of a decision to its threshold, relative to the longest edge, and the decision: the segment
-/// p q against triangle t in double precision.
+/// The decision on the segment p q against triangle t in double precision, and its smallest distance to a threshold,
+/// relative to the longest edge.
 struct Decision {
     bool hit;
     double margin;
@@ -36,7 +36,7 @@ Decision crosses(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
         const Vec3& a = t[k];
         const Vec3& b = t[(k + 1) % 3];
         const Vec3 edge = minus(b, a);
-        // Distance between the two lines: volume over the area they span.
+        // The distance between the two lines is the volume over the area that they span.
         const Vec3 span = cross(along, edge);
         const double volume = dot(along, cross(minus(a, p), minus(b, p)));
         margin = std::min(margin, exact::norm(span) > 0 ? std::abs(volume) / exact::norm(span) : 0);
@@ -68,7 +68,7 @@ TEST(CutPredicateTest, EqualsDoublePrecisionOnRandomPairsOutsideARoundingBand) {
     std::uniform_real_distribution<float> unit(-1, 1);
     const auto triangle = [&](double size, const Vec3& at) {
         std::array<Vec3, 3> t;
-        for (Vec3& corner : t)  // single precision inputs: the reference decides about the same triangles
+        for (Vec3& corner : t)  // inputs in single precision, so that the reference decides about the same triangles
             corner = {double(float(at[0] + size * double(unit(random)))),
                       double(float(at[1] + size * double(unit(random)))),
                       double(float(at[2] + size * double(unit(random))))};
@@ -125,7 +125,7 @@ TEST(CutPredicateTest, FractionIsWhereThePlaneIsMet) {
     EXPECT_FLOAT_EQ(glsl::crossing_fraction({0, 0, 1}, {0, 0, -3}, a, b, c), 0.25f);
     EXPECT_FLOAT_EQ(glsl::crossing_fraction({0, 0, -3}, {0, 0, 1}, a, b, c), 0.75f);
     EXPECT_EQ(glsl::crossing_fraction({5, 0, 1}, {5, 0, -3}, a, b, c), glsl::not_crossed);
-    // Both triangles that share an edge take a segment through it: nothing slips through a seam.
+    // Both triangles that share an edge take a segment through it, so nothing slips through a seam.
     const glsl::vec3 p{0, 0, 1}, q{0, 0, -1};
     EXPECT_GE(glsl::crossing_fraction(p, q, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}), 0.0f);
     EXPECT_GE(glsl::crossing_fraction(p, q, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}), 0.0f);

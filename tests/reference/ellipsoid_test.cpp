@@ -1,4 +1,4 @@
-// Foot points on ellipsoids in single precision against bisection in double precision.
+// Foot points on ellipsoids in single precision agree with bisection in double precision.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -19,8 +19,8 @@ TEST(EllipsoidTest, FootPointsMatchDoublePrecision) {
         const double size = std::max({radii[0], radii[1], radii[2]});
         Vec3 direction{unit(random), unit(random), unit(random)};
         if (exact::norm(direction) < 0.1) continue;
-        // A surface point moved along its normal: outside by up to the size, inside by up to half the least
-        // radius of curvature, where the foot is unique.
+        // A surface point is moved along its normal: outside by up to the size, inside by up to half the least radius
+        // of curvature, where the foot is unique.
         double level = 0;
         for (std::size_t k = 0; k < 3; ++k) level += std::pow(direction[k] / radii[k], 2);
         Vec3 surface, normal;

@@ -1,4 +1,4 @@
-// The explicit micro-step against statics, conservation laws and the worst starts.
+// The explicit micro-step agrees with statics and conservation laws, and survives the worst starts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ SceneDescription explicit_sheet(std::uint32_t columns, std::uint32_t rows, doubl
 }
 
 TEST(ExplicitTest, AHangingSheetStretchesByItsTension) {
-    // Columns alone: the tension under link j carries the mass below it, strain = rho g (N - j - 1/2) dy / stretch.
+    // Columns alone: the tension under link j carries the mass below it, so strain = rho g (N - j - 1/2) dy / stretch.
     const std::uint32_t links = 32;
     SceneDescription scene = explicit_sheet(9, links + 1, 0.25, 1.0, 24, 0.2);
     Cloth& cloth = scene.cloths[0];
@@ -46,7 +46,7 @@ TEST(ExplicitTest, AHangingSheetStretchesByItsTension) {
     EXPECT_LE(worst, 0.01);
 }
 
-/// A sheet of `links` x `links` pinned along its top, 30 degrees out of the vertical; full stiffness, no damping.
+/// A sheet of `links` x `links` is pinned along its top, 30 degrees out of the vertical; full stiffness, no damping.
 SceneDescription swing(std::uint32_t links, std::uint32_t substeps, double strain_damping) {
     SceneDescription scene = explicit_sheet(links + 1, links + 1, 1, 1, substeps, strain_damping);
     Cloth& cloth = scene.cloths[0];
@@ -57,7 +57,7 @@ SceneDescription swing(std::uint32_t links, std::uint32_t substeps, double strai
     return scene;
 }
 
-/// Energy above the sheet hanging straight down, mean over half a second around `end`, of that at the start.
+/// Energy above the sheet hanging straight down, as a mean over half a second around `end`, over that at the start.
 double energy_kept(const SceneDescription& scene, std::uint32_t end) {
     const SimulationModel model(scene);
     EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
@@ -116,7 +116,7 @@ double energy_above(const SimulationModel& scene, const TwinCloth& state) {
     return test::energy_of(scene, 0, state).total() + scene.scene.cloths[0].areal_density * 9.81 * 2;
 }
 
-/// Simulates two seconds from a start that `disturb` makes; largest energy of the last second over that of the start.
+/// Simulates two seconds from a start that `disturb` makes; returns the last second's largest energy over the start's.
 template <class Disturb>
 double energy_growth(const SceneDescription& scene, const Disturb& disturb) {
     const SimulationModel model(scene);

@@ -1,4 +1,4 @@
-// Free fall and ballistic flight, damped and undamped, against the closed form after 10 s.
+// Free fall and ballistic flight, damped and undamped, agree with the closed form after 10 s.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Coulomb friction on an incline, on a moving surface and around a bar.
+// Friction is Coulomb's on an incline, on a moving surface and around a bar.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double angle = 30.0 * M_PI / 180.0;
 
-/// A sheet lying on a 30 degree incline that falls along -x, at rest; pair friction `mu`.
+/// A sheet lies at rest on a 30 degree incline that falls along -x; the pair's friction is `mu`.
 SceneDescription incline(double mu) {
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 16);
     scene.colliders.push_back({Plane{{-std::sin(angle), std::cos(angle), 0}, 0}, mu});
@@ -66,15 +66,15 @@ TEST(FrictionTest, ASurfaceThatMovesCarriesTheClothAlong) {
         EXPECT_NEAR(double(twin.cloth(0)[Field::position][i].x) - double(model.cloths[0].position[i].x), 0.5, 2e-3);
 }
 
-/// A strip over a bar, its ends hanging to unequal lengths; held on top until it hangs still, then by friction alone.
+/// A strip over a bar hangs to unequal lengths, held on top until it hangs still, then by friction alone.
 struct Capstan {
     static constexpr std::uint32_t rows = 65, held_row = 13;
-    static constexpr double length = 1.6, spacing = length / (rows - 1), radius = 0.1025;  ///< of the bar and the cloth
+    static constexpr double length = 1.6, spacing = length / (rows - 1), radius = 0.1025;  ///< bar and cloth together
     static constexpr double arc = M_PI * radius;
     static constexpr double shorter = held_row * spacing - arc / 2, longer = length - held_row * spacing - arc / 2;
 
     /// Tension where the strip leaves the bar on the longer side, over weight per length, when it is about to slide
-    /// there: Euler's and Eytelwein's equation with the weight on the bar, dT/dt = mu (T + r sin t) + r cos t.
+    /// there, by Euler's and Eytelwein's equation with the weight on the bar, dT/dt = mu (T + r sin t) + r cos t.
     static double bearable(double mu) {
         constexpr int parts = 20000;
         constexpr double step = M_PI / parts;
@@ -112,7 +112,7 @@ struct Capstan {
         return scene;
     }
 
-    /// How far the longer end has sunk `seconds` after the release.
+    /// Returns how far the longer end has sunk `seconds` after the release.
     static double sunk(double mu, double seconds) {
         const SimulationModel model(scene(mu));
         Twin twin(model);

@@ -1,4 +1,4 @@
-// Reference (b) in time: its order, and its agreement with (a), with which it shares only the model.
+// Reference (b) has its order in time, and agrees with (a), with which it shares only the model.
 #include "reference/implicit_reference.h"
 
 #include <gtest/gtest.h>

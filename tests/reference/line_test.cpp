@@ -1,4 +1,4 @@
-// The line solver against the double-precision network, statics and the worst starts.
+// The line solver agrees with the double-precision network and statics, and survives the worst starts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST_P(LineSwing, ConvergesInSecondOrder) {
         "order %.2f\n",
         GetParam(), coarse, middle, fine, order);
     EXPECT_LE(middle, 1e-4);
-    // Fitted over a factor of four: 2 but for the springs' own vibrations, which no such step resolves.
+    // The order is fitted over a factor of four: 2 but for the springs' own vibrations, which no such step resolves.
     EXPECT_GE(order, 1.3);
     EXPECT_LE(fine, 2.5e-5);
 }
@@ -54,7 +54,7 @@ TEST_P(LineSwing, ConvergesInSecondOrder) {
 INSTANTIATE_TEST_SUITE_P(Damping, LineSwing, testing::Values(0.0, 2.0));
 
 TEST(LineTest, ASwingNeedsNoMoreSubstepsForMoreLinks) {
-    // h sqrt(g L)/l = 0.8 and 3.3; the limit of transverse waves, were the tension not implicit, is 0.67.
+    // h sqrt(g L)/l is 0.8 and 3.3, where the limit of transverse waves would be 0.67 if the tension were not implicit.
     const double times[] = {0.5};
     const SceneDescription scene = test::swing(64, 100, 30);
     const ReferenceRun reference = run_symplectic(SpringNetwork(scene, 0), times, {.cfl = 0.24});
@@ -108,7 +108,7 @@ TEST(LineTest, AHangingSheetStretchesByItsTension) {
 }
 
 TEST(LineTest, AChainHangsAsTheElasticCatenary) {
-    // Two equal chains side by side, without shear: each has half the mass and half the stiffness of a metre of cloth.
+    // Two equal chains lie side by side, without shear, each with half the mass and the stiffness of a metre of cloth.
     const std::uint32_t links = 64;
     SceneDescription scene = test::sheet(links + 1, 2, 1.0, 1.0 / links, 4);
     scene.solver.method = SolverMethod::line;
@@ -162,8 +162,8 @@ TEST(LineTest, RigidClothPulledTooLongStretchesEvenly) {
     }
 }
 
-/// Largest strain of rows and columns over the last half of two seconds, RMS over the springs that exist; infinite when
-/// a position is not finite.
+/// Returns the largest strain of rows and columns over the last half of two seconds, RMS over the springs that exist;
+/// infinite when a position is not finite.
 double late_strain(SimulationModel& model, Twin& twin) {
     const ClothModel& cloth = model.cloths[0];
     const TwinCloth& state = twin.cloth(0);
@@ -271,8 +271,8 @@ TEST_P(LineSwing, TethersOfAnEdgeCostNoAccuracy) {
 }
 
 TEST(LineStress, ADrapeOnLongSubstepsGainsNoEnergy) {
-    // 0.16 substeps per cell along the sheet. Without the carried tension the solve reaches 30 J with the control that
-    // takes to backward Euler, and 190 J without it.
+    // There are 0.16 substeps per cell along the sheet. Without the carried tension the solve reaches 30 J with the
+    // control that takes to backward Euler, and 190 J without it.
     SceneDescription scene = test::sheet(65, 65, 1, 1, 10);
     scene.solver.method = SolverMethod::line;
     Cloth& cloth = scene.cloths[0];

@@ -1,4 +1,4 @@
-// Networks that the tests of the double-precision reference share, and small linear algebra on positions.
+// The tests of the double-precision reference share these networks and small linear algebra on positions.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace drape::test {
 
 using model_scenes::swing;
 
-/// A chain of `links` equal springs in a line along `direction` (unit) from the origin, its first particle pinned,
-/// inner particles of mass density/links and end particles of half that, as at the border of a cloth.
+/// A chain of `links` equal springs in a line along `direction` (unit) from the origin. Its first particle is pinned,
+/// inner particles have mass density/links and end particles half that, as at the border of a cloth.
 inline SpringNetwork chain(std::uint32_t links, double length, double density, double axial_stiffness,
                            const Vec3& direction) {
     SpringNetwork network;
@@ -38,7 +38,7 @@ inline std::vector<Vec3> shaken(std::vector<Vec3> positions, double size, unsign
     return positions;
 }
 
-/// Slope of log(error) over log(size) between neighbours; the least of them.
+/// Returns the least slope of log(error) over log(size) between neighbours.
 inline double least_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
     double least = INFINITY;
     for (std::size_t k = 1; k < sizes.size(); ++k)

@@ -1,4 +1,4 @@
-// Pins: fixed, key-framed, released.
+// Pins are fixed, key-framed or released.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(PinTest, AKeyFramedPinFollowsItsPathAboutItsPivot) {
 }
 
 TEST(PinTest, AReleasedParticleKeepsItsVelocityAndThenFlies) {
-    // Zero end slopes: the middle key's velocity is (0.6 - 0)/(1 - 0) along x at t = 0.5, its acceleration -2.4.
+    // End slopes are zero, so the middle key's velocity is (0.6 - 0)/(1 - 0) along x at t = 0.5, its acceleration -2.4.
     for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line})
         for (const std::uint32_t substeps : {1u, 16u}) {
             SceneDescription scene = test::sheet(4, 4, 0.3, 0.3, substeps);

@@ -1,5 +1,5 @@
-// Cyclic reduction of the lines' two systems (shaders/include/cyclic.h): against elimination in double precision, and
-// against the lines that are walked.
+// Cyclic reduction of the lines' two systems (shaders/include/cyclic.h) agrees with elimination in double precision,
+// and with the lines that are walked.
 #include "reference/reduced_system.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace glsl;
 
-/// A tridiagonal system in double precision: `below` and `above` the diagonal, subtracted.
+/// A tridiagonal system in double precision; `below` and `above` the diagonal are subtracted.
 struct DoubleSystem {
     std::vector<double> diagonal, below, above, right;
 
@@ -33,7 +33,7 @@ struct DoubleSystem {
     }
 };
 
-/// Largest error of x components, by the largest component.
+/// Returns the largest error of x components, over the largest component.
 double relative_error(const std::vector<vec3>& found, const DoubleSystem& exact) {
     const std::vector<double> expected = exact.solution();
     double error = 0, largest = 0;
@@ -49,7 +49,7 @@ struct ReducedSystem : testing::TestWithParam<std::size_t> {
     float between(float least, float most) { return std::uniform_real_distribution<float>(least, most)(random); }
 };
 
-/// The first system of a line whose springs have up to `stiffest`, every seventh particle held or all free.
+/// The first system of a line whose springs have up to `stiffest`, with every seventh particle held or all free.
 struct TensionSystem {
     std::vector<CyclicRow> rows;
     std::vector<EliminatedParticle> eliminated;
@@ -83,7 +83,7 @@ struct TensionSystem {
     }
 };
 
-/// What rounds is the springs' pull, which both ways begin with: neither has more digits than it leaves.
+/// The springs' pull is rounded, which both ways begin with, so neither has more digits than it leaves.
 TEST_P(ReducedSystem, OfTensionIsAsExactAsALineThatIsWalked) {
     for (const float stiffest : {1e-3f, 1.0f, 1e3f, 1e6f})
         for (const bool held : {false, true}) {
@@ -97,7 +97,7 @@ TEST_P(ReducedSystem, OfTensionIsAsExactAsALineThatIsWalked) {
         }
 }
 
-/// Rows of springs as spring_row writes them, and the same system as eliminate_spring has it, in double precision.
+/// The rows of springs are spring_row's, and the same system is eliminate_spring's in double precision.
 TEST_P(ReducedSystem, OfSpringsIsWhatIsEliminatedInDoublePrecision) {
     for (const float compliance : {1e-4f, 1e-2f, 1.0f}) {
         const std::size_t count = GetParam();
@@ -131,7 +131,7 @@ TEST_P(ReducedSystem, OfSpringsIsWhatIsEliminatedInDoublePrecision) {
     }
 }
 
-// One spring, whole powers of two and one beside them, the longest that a workgroup takes.
+// The lengths are one spring, whole powers of two and one beside them, and the longest that a workgroup takes.
 INSTANTIATE_TEST_SUITE_P(Rows, ReducedSystem, testing::Values(2, 3, 4, 31, 32, 33, 257, 1024));
 
 TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
@@ -140,7 +140,7 @@ TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
     scene.cloths[0].placement.v = {0, 0, 1};
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(48, 0, 48, 0)};
     const SimulationModel model(scene);
-    Twin walked(model), reduced(model, Schedule::cyclic);
+    Twin walked(model), reduced(model, cyclic_kernels);
     double distance = 0;
     for (std::uint32_t frame = 1; frame <= 12; ++frame) {
         walked.run_frame(frame);

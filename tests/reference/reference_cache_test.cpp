@@ -1,4 +1,4 @@
-// The cache of reference runs: what it gives back, and what it refuses.
+// The cache of reference runs gives back every run that it stored, and refuses any other file.
 #include "reference/reference_cache.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST_F(ReferenceCacheTest, GivesBackEveryBit) {
     EXPECT_TRUE(second.from_cache);
     expect_equal(first.run, second.run);
     for (const auto& entry : std::filesystem::directory_iterator(cache.file_of(key).parent_path()))
-        EXPECT_EQ(entry.path(), cache.file_of(key));  // nothing left beside
+        EXPECT_EQ(entry.path(), cache.file_of(key));  // nothing is left beside it
 }
 
 TEST_F(ReferenceCacheTest, ComputesAgainWhenAnyByteChangedOrIsMissing) {

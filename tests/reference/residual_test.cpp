@@ -1,4 +1,4 @@
-// When a substep's iterations end: the RMS of the stretch error against the tolerance.
+// A substep's iterations end when the RMS of the stretch error is within the tolerance.
 #include <gtest/gtest.h>
 
 #include <limits>

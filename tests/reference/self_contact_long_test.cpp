@@ -1,4 +1,4 @@
-// Long runs of cloth that meets itself: fold and twist until they have settled or are wound up.
+// Cloth that meets itself is run for long: fold and twist until they have settled or are wound up.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,7 +13,7 @@ struct Seen {
     std::uint32_t first_crossed = 0, first_unproved = 0;  ///< frames; 0: none
 };
 
-/// To the first crossing, or to the end.
+/// Runs to the first crossing, or to the end.
 Seen run(const SceneDescription& scene, std::uint32_t frames) {
     const SimulationModel model(scene);
     Twin twin(model);
@@ -32,7 +32,7 @@ void expect_never_crossed(const SceneDescription& scene, std::uint32_t frames) {
     EXPECT_EQ(seen.first_unproved, 0u);
 }
 
-/// Everyday numbers, until it has settled; with DRAPE_FULL_CONTACT=1 in the environment finer sheets for longer.
+/// Everyday numbers run until the cloth has settled, DRAPE_FULL_CONTACT=1 in the environment finer sheets for longer.
 std::uint32_t everyday(std::uint32_t number, std::uint32_t in_full) {
     return std::getenv("DRAPE_FULL_CONTACT") ? in_full : number;
 }
@@ -50,8 +50,8 @@ TEST(SelfContactLongTest, Stack) {
     expect_never_crossed(test::stack(everyday(5, 8), everyday(10, 12), SolverMethod::line, 24), everyday(120, 150));
 }
 
-/// What falls onto a pile does not take what lies on the ball along, into it: of a motion cut short the mean one of all
-/// was left once, and a pile of 50 sheets of 32 x 32 went 13 cm into the ball.
+/// Sheets that fall onto a pile must not carry the lowest ones into the ball. A motion cut short once kept the mean of
+/// all, and a pile of 50 sheets of 32 x 32 went 13 cm into the ball.
 TEST(SelfContactLongTest, StackStaysOutsideTheBall) {
     const SimulationModel model(test::stack(12, 8, SolverMethod::line, 8));
     Twin twin(model);

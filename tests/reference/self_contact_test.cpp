@@ -1,4 +1,4 @@
-// Contact of cloths with themselves and each other, on the twin: judged by a checker that shares nothing with it.
+// Contact of cloths with themselves and each other, on the twin, is judged by a checker that shares nothing with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST(SelfContactTest, ThinFoldsLieOnEachOtherByExplicitSteps) {
 
 TEST(SelfContactTest, FoldsAsThickAsAnEdge) { expect_apart(test::fold(13, 1, SolverMethod::line, 16), 50); }
 
-/// What fell on itself fast, few substeps long, is pressed together to microns; it comes apart again and lies still.
+/// Cloth that fell on itself fast, in few substeps, is pressed to microns; it comes apart again and lies still.
 TEST(SelfContactTest, WhatWasPressedTogetherComesApart) {
     const SimulationModel model(test::fold(25, 0.5, SolverMethod::line, 6));
     Twin twin(model);
@@ -79,7 +79,7 @@ TEST(SelfContactTest, WhatWasPressedTogetherComesApart) {
     EXPECT_EQ(lying, 0u);
 }
 
-/// Sheets that fall onto each other and the ground, each `apart` above the one before.
+/// Sheets fall onto each other and the ground, each `apart` above the one before.
 SceneDescription pile(std::uint32_t count, double apart) {
     SceneDescription scene = test::stack(count, 7, SolverMethod::line, 8);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -97,7 +97,7 @@ double mean_height(const Twin& twin, std::size_t cloth) {
     return sum / static_cast<double>(x.size());
 }
 
-/// What a layer of a pile carries grows with all that lies on it; given back evenly, its thickness was lost.
+/// The load of a layer grows with the pile above it; when thickness was given back evenly, the lowest ones lost theirs.
 TEST(SelfContactTest, APileKeepsItsHeight) {
     const SceneDescription scene = pile(20, 0.03);
     const SimulationModel model(scene);
@@ -111,7 +111,7 @@ TEST(SelfContactTest, APileKeepsItsHeight) {
     EXPECT_LT(share, 1.05);
 }
 
-/// Contact gives back no faster than it says, however little of the thickness is left.
+/// Contact gives thickness back no faster than it says, however little is left.
 TEST(SelfContactTest, WhatStartsPressedTogetherIsNotThrownApart) {
     SceneDescription scene = pile(2, 0.001);
     scene.gravity = {0, 0, 0};
@@ -133,12 +133,12 @@ TEST(SelfContactTest, WhatStartsPressedTogetherIsNotThrownApart) {
 
 TEST(SelfContactTest, FoldsByRelaxation) { expect_apart(test::fold(13, 0.4, SolverMethod::relax, 16), 50); }
 
-/// Pulled tight around itself: motions are cut short.
+/// The sheet is pulled tight around itself, so that motions are cut short.
 TEST(SelfContactTest, ATwistedSheetIsNeverCrossed) {
     expect_apart(test::twist(13, 0.4, SolverMethod::line, 30, 1.5, 1), 60, true);
 }
 
-/// Nobody can keep apart what is held: then nothing is certified.
+/// Nothing can keep apart parts that are held, so nothing is certified.
 TEST(SelfContactTest, WhatIsHeldAcrossItselfIsNotCertified) {
     SceneDescription scene = test::sheet(13, 13, 1, 1, 8);
     scene.solver.method = SolverMethod::line;
@@ -187,7 +187,7 @@ TEST(SelfContactTest, ClothsThatAreHeldAgainstEachOther) {
     expect_apart(scene, 40, true);
 }
 
-/// Metres times kg: where the mass of all cloths is, times that mass.
+/// Returns the height of the centre of mass of all cloths times their mass, m kg.
 double mass_moment(const SimulationModel& model, const Twin& twin) {
     double moment = 0;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
@@ -225,7 +225,7 @@ TEST(SelfContactTest, ClothsOfDifferentMassExchangeMomentumAndMakeNone) {
     EXPECT_NEAR(off, 0, 0.03);
 }
 
-/// Against points tried all over the two primitives.
+/// The nearest points are compared with points tried all over the two primitives.
 TEST(SelfContactKernelTest, NearestPointsAreNearest) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> anywhere(-1, 1);
@@ -262,8 +262,8 @@ glsl::uvec4 pair_of_cells(glsl::ivec2 a, glsl::ivec2 b, int k) {
 
 glsl::SelfCorners raised(glsl::SelfCorners x, glsl::vec3 by) { return {x.a + by, x.b + by, x.c + by, x.d + by}; }
 
-/// Primitives of 2 cm that are microns apart, a metre from the origin: what rounding leaves of the line between their
-/// nearest points is no plane's normal.
+/// The primitives are of 2 cm, microns apart, a metre from the origin: the line between their nearest points, as
+/// rounding leaves it, is no plane's normal.
 TEST(SelfContactKernelTest, APlaneIsKnownBetweenWhatAllButTouches) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> anywhere(-1, 1), inside(0.2f, 0.4f), micron(2e-6f, 1e-5f);
@@ -353,7 +353,7 @@ TEST(SelfContactKernelTest, PairsOfTwoCellsThatShareNoCornerAreKnown) {
     }
 }
 
-/// Whatever the corners are told to do, what the shares leave of it does not bring the two together.
+/// However the corners are told to move, the shares leave no motion that brings the two together.
 TEST(SelfContactKernelTest, TruncatedMotionsDoNotMeet) {
     std::mt19937 random(8);
     std::uniform_real_distribution<float> anywhere(-1, 1);
@@ -378,7 +378,7 @@ TEST(SelfContactKernelTest, TruncatedMotionsDoNotMeet) {
                                             k == 0 || (edges && k == 1) ? 1.0f : -1.0f, along[k], before, false, 1e-6f);
                 EXPECT_GE(share[k], before) << trial;
                 cut_short += share[k] < 1 ? 1 : 0;
-                // As if another pair had allowed less.
+                // Another pair may have allowed less.
                 if (trial % 3 == 0) share[k] = before + (share[k] - before) * 0.5f;
             }
         }
@@ -402,10 +402,10 @@ TEST(TriangleCrossingsTest, KnowsCrossingFromTouchingAndApart) {
     };
     EXPECT_EQ(with({0.2, 0.2, -1}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 1u);
     EXPECT_EQ(with({0.2, 0.2, 0.01}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 3, 4, 5}), 0u);
-    // Sharing a corner: through the inside, beside it.
+    // Triangles that share a corner: through the inside, beside it.
     EXPECT_EQ(with({0.2, 0.2, -1}, {0.3, 0.2, 1}, {5, 5, 1}, {0, 1, 2, 0, 3, 4}), 1u);
     EXPECT_EQ(with({-0.2, -0.2, -1}, {-0.3, -0.2, 1}, {5, 5, 1}, {0, 1, 2, 0, 3, 4}), 0u);
-    // Sharing an edge.
+    // Triangles that share an edge do not cross.
     EXPECT_EQ(with({0.2, 0.2, 0.01}, {5, 5, 1}, {5, 5, 2}, {0, 1, 2, 0, 1, 3}), 0u);
 }
 

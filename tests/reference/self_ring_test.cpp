@@ -1,6 +1,6 @@
-// What the passes of contact leave out because the cloth keeps it apart (shaders/include/self_ring.h) is nothing that
-// they would list: on patches bent, stretched, sheared, crumpled and thrown at random, against the test of the pairs
-// itself.
+// The pairs that the passes of contact leave out because the cloth keeps them apart (shaders/include/self_ring.h) are
+// none that they would list, by the test of the pairs itself on patches bent, stretched, sheared, crumpled and thrown
+// at random.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ using glsl::vec3;
 
 constexpr int across = 4;
 
-/// A patch of the first `columns` x `rows` of 4 x 4 particles: where each is and how it moves, by row.
+/// The first `columns` x `rows` of a patch of 4 x 4 particles: positions and motions, by row.
 struct Patch {
     glsl::SelfCloth cloth{};
     int columns = across, rows = across;
@@ -65,7 +65,7 @@ bool is_listed(const Patch& patch, bool edges, glsl::uvec4 pair) {
     return glsl::self_listed_pair(edges, gap, patch.corners(patch.moves, pair), kept, patch.cloth.thickness);
 }
 
-/// Pairs of primitives of close pair k, all of whose corners the patch has, that are listed.
+/// Counts the listed pairs of primitives of close pair k, all of whose corners the patch has.
 int listed_of(const Patch& patch, int k) {
     const glsl::ivec4 cells = glsl::self_close_pair(k);
     const ivec2 one{cells.x, cells.y}, other{cells.z, cells.w};
@@ -84,7 +84,7 @@ int listed_of(const Patch& patch, int k) {
     return listed;
 }
 
-/// Whether both cells have their first particle: else the pair is none.
+/// A pair exists if both cells have their first particle.
 bool exists(const Patch& patch, int k) {
     const glsl::ivec4 cells = glsl::self_close_pair(k);
     return std::max(cells.x, cells.z) < patch.columns && std::max(cells.y, cells.w) < patch.rows;
@@ -105,7 +105,7 @@ class RandomPatch {
         if (within(0, 1) < 0.3f) patch.rows = 2 + static_cast<int>(within(0, 2.99f));
         const vec3 origin = anywhere(2), u = unit(), turned = glsl::ordered_cross(u, unit());
         const vec3 v = turned * (1 / length(turned)), w = glsl::ordered_cross(u, v);
-        // Bent about each axis and twisted, stretched or pressed, sheared, and each particle for itself.
+        // The patch is bent about each axis and twisted, stretched or pressed, sheared, each particle moved for itself.
         const float stretch = within(0.6f, 1.4f), shear = within(-0.5f, 0.5f) * within(0, 1);
         const vec3 bend = anywhere(within(0, 30));
         const float noise = within(0, 1) < 0.5f ? 0 : within(0, 0.4f) * spacing;
@@ -158,7 +158,7 @@ TEST(SelfRingTest, NothingIsLeftOutThatWouldBeListed) {
     }
 }
 
-/// What it is for: of cloth that lies or is bent as over a rod of four spacings, nothing close is looked at.
+/// The ring is of use: in cloth that is flat, or bent as over a rod of four spacings, nothing close is looked at.
 TEST(SelfRingTest, OfClothThatIsFlatOrRoundNothingIsLookedAt) {
     for (const float radius : {1e6f, 0.08f}) {
         Patch patch;
@@ -177,7 +177,7 @@ TEST(SelfRingTest, OfClothThatIsFlatOrRoundNothingIsLookedAt) {
     }
 }
 
-/// Each pair of cells at most two columns and rows apart is one cell's, the one with the lower place first.
+/// Each pair of cells at most two columns and rows apart belongs to one cell, the one with the lower place first.
 TEST(SelfRingTest, EveryClosePairIsOneCells) {
     std::array<int, 25> seen{};
     for (int k = 0; k < glsl::self_close_pairs; ++k) {

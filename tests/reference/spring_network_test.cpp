@@ -1,4 +1,4 @@
-// The spring network: what it is built from, its derivatives, its symmetries, and the fast kernel beside it.
+// The spring network is built right, and its derivatives, symmetries and fast kernel agree with it.
 #include "reference/spring_network.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(SpringNetworkTest, HasTheMassesSpringsAndRestLengthsOfTheDevice) {
     for (const double m : network.mass) total += m;
     const Cloth& cloth = scene.cloths[0];
     EXPECT_NEAR(total, cloth.areal_density * (1.2 * 0.6 - 6 * 0.15 * 0.1), 1e-14);
-    // Every spring of the device once, with share * k = share * m_inner / (compliance h^2).
+    // Every spring of the device occurs once, with share * k = share * m_inner / (compliance h^2).
     std::size_t found = 0;
     const CutTopology topology(model);
     for (const glsl::SpringPush& push : test::pushes<glsl::SpringPush>(model.plan)) {
@@ -170,8 +170,8 @@ TEST(SpringNetworkTest, FastKernelEqualsThePlainGradient) {
     EXPECT_EQ(acceleration[1][1], -9.81);
 }
 
-/// Bending energy of a square sheet rolled gently into a cylinder of the given curvature whose axis lies at `angle`
-/// to the columns, over B/2 curvature^2 area.
+/// Returns the bending energy of a square sheet rolled gently into a cylinder of the given curvature whose axis lies at
+/// `angle` to the columns, over B/2 curvature^2 area.
 double rolled_energy(double angle) {
     SceneDescription scene = test::sheet(65, 65, 1.0, 1.0, 1);
     scene.cloths[0].stiffness.bend = 1e-3;
@@ -185,15 +185,15 @@ TEST(SpringNetworkTest, BendingIsAsStiffInEveryDirection) {
     const double across_angle = std::numbers::pi / 4, axes = rolled_energy(0),
                  between = rolled_energy(across_angle / 2), across = rolled_energy(across_angle);
     std::printf("[ measured ] rigidity over B: axes %.4f, 22.5 degrees %.4f, 45 degrees %.4f\n", axes, between, across);
-    // Borders: the outermost half cells of the bent axis carry no curvature, a share 1/64 of the area. Across the axes
-    // half of the rigidity is the twist's, which every cell has.
+    // The outermost half cells of the bent axis carry no curvature, a share 1/64 of the area. Across the axes half of
+    // the rigidity is the twist's, which every cell has.
     EXPECT_NEAR(axes, 63.0 / 64, 1e-4);
     EXPECT_NEAR(between, 0.75 * 63.0 / 64 + 0.25, 1e-4);
     EXPECT_NEAR(across, 0.5 * 63.0 / 64 + 0.5, 1e-4);
 }
 
 TEST(SpringNetworkTest, BendingStaysBelowTheCellsBound) {
-    // Explicit steps rely on it: 16 (b0 + b1 + t)/m bounds the squared frequencies of any assembly of cells.
+    // Explicit steps rely on it that 16 (b0 + b1 + t)/m bounds the squared frequencies of any assembly of cells.
     SceneDescription scene = holed_sheet();
     scene.cloths[0].stiffness = {false, 0, 0, 2e-3};
     for (const bool whole : {false, true}) {
@@ -222,8 +222,8 @@ TEST(SpringNetworkTest, BendingEndsAtHoles) {
     const SpringNetwork network(holed_sheet(), 0);
     for (const BendingElement& element : network.bending)
         for (std::size_t k = 0; k < 3; ++k) EXPECT_GT(network.mass[element.particle[k]], 0);
-    // Column 3, rows 1 2 3: particle (3, 2) lies on the hole's upper edge, cloth on one side only, so a row triple
-    // there has half the weight and a column triple none.
+    // Particle (3, 2) lies on the hole's upper edge, with cloth on one side only: a row triple there has half the
+    // weight and a column triple (rows 1 2 3) none.
     const auto stiffness = [&](std::uint32_t p, std::uint32_t step) {
         for (const BendingElement& element : network.bending)
             if (element.coefficient[1] == -2 && element.particle[1] == p && element.particle[0] == p - step)

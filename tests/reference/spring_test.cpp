@@ -1,4 +1,3 @@
-// The projection of one spring.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +35,7 @@ TEST(SpringTest, LeavesAloneWhatHasNoDirectionOrNoFreeEnd) {
 }
 
 TEST(SpringTest, ComplianceConvergesToTheForceBalanceOfXpbd) {
-    // Iterated, the tension is that of the extension C: the spring's own force, whatever the iteration count.
+    // The iterated tension is that of the extension C: the spring's own force, whatever the iteration count.
     const float compliance = 0.7f;
     vec3 edge{1.5f, 0, 0};
     float tension = 0;
@@ -51,7 +50,7 @@ TEST(SpringTest, ComplianceConvergesToTheForceBalanceOfXpbd) {
 }
 
 TEST(SpringTest, TheOscillatorOfTheXpbdPaperHasItsPeriod) {
-    // Two particles, one fixed: x0 = 1.5, rest 1, alpha = 1e-3, m = 1 (docs/physics.md 7): 0.198692 s.
+    // Two particles, one fixed, x0 = 1.5, rest 1, alpha = 1e-3, m = 1 (docs/physics.md 7) have the period 0.198692 s.
     const double h = 1e-5;
     const float compliance = static_cast<float>(1e-3 / (h * h));
     vec3 displacement{0, 0, 0};

@@ -1,4 +1,4 @@
-// Statics: hanging column and sheet, catenary, cantilever, modes about an equilibrium, against closed forms.
+// Statics agree with closed forms: hanging column and sheet, catenary, cantilever, modes about an equilibrium.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -12,7 +12,7 @@ namespace drape {
 namespace {
 
 TEST(StaticReferenceTest, HangingColumnHasTheTensionOfTheWeightBelow) {
-    // Two columns of a cloth, stretch only: every column link carries what hangs below it.
+    // Two columns of a cloth only stretch: every column link carries what hangs below it.
     SceneDescription scene = test::swing(2, 30, 25);
     Cloth& cloth = scene.cloths[0];
     cloth.grid = {2, 17};
@@ -42,7 +42,7 @@ TEST(StaticReferenceTest, HangingSheetCarriesItsWeightRowByRow) {
     const SpringNetwork network(test::swing(12, 30, 30), 0);
     const StaticResult result = find_equilibrium(network);
     ASSERT_TRUE(result.converged);
-    // Vertical force through the cut between rows j and j+1 = weight below it.
+    // The vertical force through the cut between rows j and j+1 is the weight below it.
     for (std::uint32_t row = 0; row < 12; ++row) {
         double through = 0, below = 0;
         for (const NetworkSpring& spring : network.springs) {
@@ -69,7 +69,7 @@ TEST(StaticReferenceTest, CornerPinnedDrapeReachesAMinimum) {
     ASSERT_TRUE(result.converged);
     ASSERT_TRUE(result.minimum);
     EXPECT_LT(result.residual, 1e-9);
-    for (unsigned seed = 1; seed <= 20; ++seed) {  // a strict minimum: every small move costs energy
+    for (unsigned seed = 1; seed <= 20; ++seed) {  // at a strict minimum every small move costs energy
         std::vector<Vec3> moved = test::shaken(result.position, 1e-4, seed);
         for (const std::size_t pinned : {0u, 16u}) moved[pinned] = result.position[pinned];
         EXPECT_GT(network.potential_energy(moved), result.energy);
@@ -77,8 +77,8 @@ TEST(StaticReferenceTest, CornerPinnedDrapeReachesAMinimum) {
 }
 
 TEST(StaticReferenceTest, SaysWhetherAnEquilibriumIsAMinimum) {
-    // Flat to the last bit and without bending: the compression beside the pins would make wrinkles, if something
-    // started them; a turned start does.
+    // The sheet is flat to the last bit and without bending: the compression beside the pins would make wrinkles, if
+    // something started them; a turned start does.
     const StaticResult flat = find_equilibrium(SpringNetwork(test::swing(16, 100, 0), 0));
     EXPECT_TRUE(flat.converged);
     EXPECT_FALSE(flat.minimum);
@@ -167,8 +167,8 @@ struct Overhang {
     std::uint32_t iterations;
 };
 
-/// H/W of a strip two particles wide whose first segment is held level. The hinge at the last held particle bends over
-/// half a segment to either side, so the clamp is that segment's middle and the length L counts from there.
+/// Returns H/W of a strip two particles wide whose first segment is held level. The hinge at the last held particle
+/// bends over half a segment to either side, so the clamp is that segment's middle and the length L counts from there.
 Overhang overhang(std::uint32_t segments, double gamma, double strain) {
     const double length = 1, spacing = length / (segments - 0.5), density = 0.2;
     SceneDescription scene = test::sheet(segments + 1, 2, spacing * segments, spacing, 1);
@@ -205,7 +205,7 @@ TEST(StaticReferenceTest, CantileverFollowsTheHeavyElastica) {
             gamma, last.drop / last.reach, exact.ratio(), ratio[0], ratio[1], ratio[2], tip[0], tip[1], tip[2],
             last.worst_strain, last.iterations);
         EXPECT_LT(ratio[2], 0.02);
-        // The tip, not H/W: at gamma = 10 the leading errors of H and W nearly cancel in their ratio.
+        // The order is the tip's: at gamma = 10 the leading errors of H and W nearly cancel in their ratio.
         EXPECT_NEAR(std::log(tip[0] / tip[2]) / std::log(4.0), 2, 0.1);
     }
 }

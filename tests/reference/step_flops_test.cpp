@@ -1,4 +1,4 @@
-// The figures of cloth/step_flops.h: the shaders' functions run on a type that counts.
+// The figures of cloth/step_flops.h are those that the shaders' functions have on a type that counts.
 #include "cloth/step_flops.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "support/sheets.h"
 
 namespace drape::counting {
@@ -80,7 +80,7 @@ constexpr int vector = 3;  // an operation on vectors
 int compensated() {
     return operations([] { compensated_add(a, b, c); });
 }
-/// The end of every prediction.
+/// Every prediction ends with these operations.
 int stepped() {
     return operations([] { dragged_increment(a, drag_loss(s, w, s)); }) + compensated();
 }

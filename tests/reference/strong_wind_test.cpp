@@ -1,5 +1,5 @@
-// No wind makes a method diverge: random scenes on the twin, whose bits are the device's. DRAPE_WINDY_SCENES=1000 runs
-// as many as the claim is about.
+// No wind makes a method diverge: random scenes run on the twin, whose bits are the device's. DRAPE_WINDY_SCENES=1000
+// runs as many as the claim is about.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-/// How far a run went, over all its frames.
+/// Extremes of a run over all its frames.
 struct Extremes {
     bool finite = true;
     double speed = 0;    ///< m/s

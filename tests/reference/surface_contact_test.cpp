@@ -1,4 +1,4 @@
-// What is drawn of a cloth stays out of every collider kind: its triangles, densely sampled in double precision.
+// The drawn surface of a cloth, densely sampled in double precision, stays out of every collider kind.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +17,9 @@ namespace {
 using Change = std::function<void(SceneDescription&)>;
 
 struct Drawn {
-    double deepest = -1e300, last = -1e300;  ///< m, of all frames looked at, of the last one
-    std::size_t points = 0;                  ///< of the frame in which most of it was near
-    double top = 0;                          ///< m, of the highest particle at the end
+    double deepest = -1e300, last = -1e300;  ///< m, over all frames looked at, and in the last one
+    std::size_t points = 0;                  ///< in the frame in which most of it was near
+    double top = 0;                          ///< m, height of the highest particle at the end
     double kinetic = 0;                      ///< J at the end
 };
 
@@ -56,7 +56,7 @@ Drawn drop(const Collider& collider, ContactOf contact, const Change& change = {
     return drawn;
 }
 
-/// `size`: the collider's.
+/// `size`: the collider's, m.
 void expect_outside(const char* what, const Collider& collider, double size, const Change& change = {}) {
     const Drawn before = drop(collider, ContactOf::particles, change);
     const Drawn after = drop(collider, ContactOf::surface, change);
@@ -107,7 +107,7 @@ TEST(SurfaceContactTest, Box) {
     expect_outside("moving box", with_path(box), 0.3);
 }
 
-/// Share of its size that a box is seen deep in any of 90 frames of 12 substeps.
+/// Returns the share of its size that a box is seen deep in any of 90 frames of 12 substeps.
 double deepest_in_any_frame(const Collider& box, double aside) {
     const auto change = [&](SceneDescription& scene) {
         scene.solver.substeps = 12;
@@ -119,8 +119,8 @@ double deepest_in_any_frame(const Collider& box, double aside) {
 }
 
 /// A corner of the box that is led off one triangle may be past its neighbour across a fold. Where the box turns that
-/// may happen in both rounds: from 48 starts micrometres apart it did in 10, up to 3.8e-3 deep (without the second
-/// round in all, up to 3.2e-3, and in all 48 at rest, too).
+/// may happen in both rounds: of 48 starts micrometres apart 10 did, up to 3.8e-3 deep (without the second round all
+/// did, up to 3.2e-3, at rest, too).
 TEST(SurfaceContactTest, CornersOfABoxUnderFoldsInEveryFrameOfFewSubsteps) {
     const Collider box{Box{{0, 0.3, 0}, {0.4, 0.3, 0.3}}, 0.3, {10, 25, 15}};
     EXPECT_LE(deepest_in_any_frame(box, 0), 1e-5);
@@ -133,7 +133,7 @@ TEST(SurfaceContactTest, CornersOfABoxUnderFoldsInEveryFrameOfFewSubsteps) {
     EXPECT_GE(kept_out, 4) << "of 8 starts";
 }
 
-/// A triangle of a cell, stretched and sheared as far as that is allowed for.
+/// Returns a triangle of a cell, stretched and sheared as far as contact allows for.
 std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     const double x = cloth.size[0] / (cloth.grid[0] - 1), y = cloth.size[1] / (cloth.grid[1] - 1);
     std::uniform_real_distribution<double> unit(-1, 1), stretch(0.9, 1 + contact_stretch), angle(0.2, 2.9);
@@ -162,8 +162,8 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     return corners;
 }
 
-/// The deepest point of triangles that are moved along a line until their corners are just outside of what contact
-/// keeps particles from, m.
+/// Returns the deepest point (m) of triangles that are moved along a line until their corners are just outside of the
+/// depth that contact keeps particles from.
 double deepest_between_corners(const Cloth& cloth, const Collider& collider, int count) {
     const ColliderShape kept = contact_shape(cloth, collider).shape;
     const auto distance = [](const ColliderShape& shape, const Vec3& at) {

@@ -1,4 +1,4 @@
-// Reference (a) against closed forms, and its order.
+// Reference (a) agrees with closed forms and has its order.
 #include "reference/symplectic_reference.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(SymplecticReferenceTest, FreeFlightIsExactAtEveryStep) {
     }
 }
 
-/// Places of a spring pendulum released from the horizontal, at quarter periods of the rigid one over two periods.
+/// Returns places of a spring pendulum released from the horizontal, at quarters of the rigid one's first two periods.
 std::vector<Vec3> pendulum_places(std::span<const double> times, double stiffness_over_weight) {
     const SpringNetwork network = test::chain(1, 1, 2, stiffness_over_weight * 9.81, {1, 0, 0});
     const ReferenceRun run = run_symplectic(network, times);
@@ -56,7 +56,7 @@ TEST(SymplecticReferenceTest, PendulumOfAStifferAndStifferSpring) {
         exact.push_back({std::sin(angle), -std::cos(angle), 0});
     }
     const std::vector<Vec3> soft = pendulum_places(times, 1e4), stiff = pendulum_places(times, 1e5);
-    for (std::size_t t = 0; t < times.size(); ++t)  // what is linear in 1/k removed
+    for (std::size_t t = 0; t < times.size(); ++t)  // removes the part linear in 1/k
         limit.push_back({(10 * stiff[t][0] - soft[t][0]) / 9, (10 * stiff[t][1] - soft[t][1]) / 9, 0});
     std::printf("[ measured ] RMS distance from the rigid pendulum: %.3e m at k = 1e4 mg/L, %.3e at 1e5, limit %.1e\n",
                 position_rms(soft, exact), position_rms(stiff, exact), position_rms(limit, exact));
@@ -72,7 +72,7 @@ TEST(SymplecticReferenceTest, FirstModeOfAHangingChainSwingsAtItsFrequency) {
         network.rest_position = find_equilibrium(at_rest).position;
         const double amplitude = 1e-5, omega = closed_forms::hanging_chain_frequency(1, 1, 9.81);
         for (Vec3& x : network.rest_position) x[2] += amplitude * closed_forms::hanging_chain_shape(1, 1, 1 + x[1]);
-        // The free end at a quarter period crosses the middle: z there, over its speed, is the error in phase.
+        // The free end crosses the middle at a quarter period: z there, over its speed, is the error in phase.
         const double quarter[] = {std::numbers::pi / 2 / omega};
         const NetworkState state = symplectic_states(network, quarter, symplectic_step(network))[0];
         links.push_back(count);
@@ -137,7 +137,7 @@ TEST(SymplecticReferenceTest, KeepsTheEnergyOfASwing) {
     std::printf("[ measured ] energy error over 2 s / kinetic energy: %.2e at cfl 0.2, %.2e at 0.1\n", drifts[0],
                 drifts[1]);
     EXPECT_LT(drifts[1], 1e-4);
-    EXPECT_GT(drifts[0] / drifts[1], 3);  // bounded, of second order
+    EXPECT_GT(drifts[0] / drifts[1], 3);  // the drift is bounded, of second order
 }
 
 TEST(SymplecticReferenceTest, PinsMoveAndLetGo) {
@@ -153,14 +153,14 @@ TEST(SymplecticReferenceTest, PinsMoveAndLetGo) {
     const std::vector<NetworkState> states = symplectic_states(network, times, 1e-3);
     for (std::size_t p = 0; p < network.particle_count(); ++p) {
         EXPECT_NEAR(states[0].position[p][0] - network.rest_position[p][0], 0.15 - 0.0375, 1e-12);  // Hermite at 1/2
-        // Released at the path's speed there, 0.6 m/s, it flies.
+        // The particle is released at the path's speed there, 0.6 m/s, and flies.
         EXPECT_NEAR(states[1].position[p][0] - network.rest_position[p][0], 0.3 + 0.6 * 0.3, 1e-8);
         EXPECT_NEAR(states[1].position[p][1] - network.rest_position[p][1], -0.5 * 9.81 * 0.09, 1e-8);
     }
 }
 
 TEST(SymplecticReferenceTest, SecondOrderInWind) {
-    // Short enough for no triangle to turn edge-on, where the lift jumps and every method is of first order.
+    // The run is too short for any triangle to turn edge-on, where the lift jumps and every method is of first order.
     SceneDescription scene = test::swing(6, 10, 0);
     scene.wind.velocity = {0.5, 0, 4};
     scene.wind.gust = {1, 0.4, 7};

@@ -1,4 +1,4 @@
-// The force of a steady wind on a flat plate, and no force on what has no area.
+// A steady wind has the right force on a flat plate, and none on a triangle without area.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +60,7 @@ TEST(WindTest, ADegenerateTriangleFeelsNothing) {
 }
 
 TEST(WindTest, AMovingPlateFeelsTheRelativeWindOnly) {
-    // Moving with the wind: no force at all, so the plate keeps its speed to rounding.
+    // A plate that moves with the wind feels no force at all, so it keeps its speed to rounding.
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 8);
     scene.gravity = {0, 0, 0};
     scene.wind.velocity = {2, 0, 3};
@@ -74,7 +74,7 @@ TEST(WindTest, AMovingPlateFeelsTheRelativeWindOnly) {
     }
 }
 
-/// Velocity (m/s) of the centre of mass after `seconds` of a free sheet, starting at rest.
+/// Returns the velocity (m/s) of the centre of mass after `seconds` of a free sheet, starting at rest.
 Vec3 velocity_after(SceneDescription scene, double seconds) {
     const SimulationModel model(scene);
     Twin twin(model);
@@ -97,7 +97,7 @@ Vec3 velocity_after(SceneDescription scene, double seconds) {
 constexpr SolverMethod every_method[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
 
 TEST(WindTest, LightClothFollowsAStrongWindAtAnySubsteps) {
-    // Blown flat on, u = W - v falls as du/dt = -k u^2: v = W k W t/(1 + k W t), k = rho Cd/(2 sigma).
+    // The sheet is blown flat on, and u = W - v falls as du/dt = -k u^2: v = W k W t/(1 + k W t), k = rho Cd/(2 sigma).
     for (const SolverMethod method : every_method)
         for (const std::uint32_t substeps : {1u, 4u, 16u}) {
             SceneDescription scene = test::sheet(9, 9, 0.4, 0.4, substeps);
@@ -115,8 +115,8 @@ TEST(WindTest, LightClothFollowsAStrongWindAtAnySubsteps) {
         }
 }
 
-/// Wind's force over weight, less 1, on a sheet folded along its middle column by `degrees` on both sides and falling
-/// at `speed` (m/s).
+/// Returns the wind's force over weight, less 1, on a sheet folded along its middle column by `degrees` on both sides
+/// and falling at `speed` (m/s).
 double net_fall(double degrees, double speed) {
     SceneDescription scene = test::sheet(5, 3, 0.4, 0.2, 1);
     scene.wind.velocity = {1e-9, 0, 0};
@@ -138,13 +138,13 @@ double net_fall(double degrees, double speed) {
 }
 
 TEST(WindTest, AFallingSheetEndsAtItsTerminalVelocityFlatOrFolded) {
-    // Cd cos(a) rho v^2/2 = sigma g.
+    // At the terminal velocity Cd cos(a) rho v^2/2 = sigma g.
     const double density = test::sheet(2, 2, 1, 1, 1).cloths[0].areal_density;
     for (const double degrees : {0.0, 30.0, 60.0}) {
         const double terminal = std::sqrt(2 * density * 9.81 / (1.2 * std::cos(degrees * M_PI / 180)));
         EXPECT_NEAR(net_fall(degrees, terminal), 0, 1e-5) << degrees;
     }
-    // And it is reached at any substeps: v = V tanh(g t/V).
+    // It is reached at any substeps: v = V tanh(g t/V).
     for (const SolverMethod method : every_method)
         for (const std::uint32_t substeps : {1u, 8u}) {
             SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, substeps);
@@ -163,9 +163,9 @@ TEST(WindTest, AFallingSheetEndsAtItsTerminalVelocityFlatOrFolded) {
 }
 
 TEST(WindTest, ClothAtRestBearsTheWholeForceAtAnySubsteps) {
-    // Bulging from a frame: how far shows what it bears. Two substeps feel 1.7 times the mass of air and cloth
-    // together. Line solves let each direction bear the load before the others have (10 % at 2 substeps, as the square
-    // of their length).
+    // The cloth bulges from a frame, as far as the force that it bears. Two substeps feel 1.7 times the mass of air and
+    // cloth together. Line solves let each direction bear the load before the others have (10 % at 2 substeps, as the
+    // square of their length).
     const auto bulge = [](SolverMethod method, std::uint32_t substeps) {
         SceneDescription scene = test::sheet(9, 9, 0.4, 0.4, substeps, 20);
         scene.solver.method = method;

@@ -1,4 +1,4 @@
-// A scene in which every key of the format occurs, none with its default value.
+// In this scene every key of the format occurs, none with its default value.
 #pragma once
 
 namespace drape::testing {

@@ -10,8 +10,8 @@ namespace drape {
 namespace {
 
 TEST(Gust, PhasesFollowThePublishedHash) {
-    // splitmix64's known first output for state 0 is e220a8397b1dcdaf: splitmix64(x) here adds the increment
-    // itself, so seed + k = 0 would give it; for seed 0, k = 1 the generator has state 1: 910a2dec89025cc1.
+    // splitmix64's known first output for state 0 is e220a8397b1dcdaf. splitmix64(x) here adds the increment itself, so
+    // seed + k = 0 would give it; for seed 0, k = 1 the generator has state 1: 910a2dec89025cc1.
     const double expected = 2 * std::numbers::pi * (static_cast<double>(0x910a2dec89025cc1u >> 11) * 0x1p-53);
     EXPECT_EQ(gust_phases(0)[0], expected);
     EXPECT_EQ(gust_phases(1)[0], gust_phases(0)[1]);  // seed + k only

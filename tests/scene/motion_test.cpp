@@ -17,7 +17,7 @@ Vec3 turned(const std::array<double, 9>& r, const Vec3& x) {
 
 double translation_x(const MotionPath& path, double time) { return motion_at(path, time).translation[0]; }
 
-// Uneven times on purpose.
+// Times are uneven on purpose.
 const MotionPath uneven{{{0.0, {0, 0, 0}, {}}, {1.0, {2, 0, 0}, {}}, {4.0, {3, 0, 0}, {}}, {5.0, {-1, 0, 0}, {}}}};
 
 TEST(Motion, EmptyPathIsExactlyTheIdentity) { EXPECT_EQ(motion_at({}, 3.0), RigidTransform{}); }
@@ -37,12 +37,12 @@ TEST(Motion, PassesExactlyThroughItsKeys) {
 }
 
 TEST(Motion, InterpolatesAsStated) {
-    // First segment: p 0 -> 2 in 1 s, slopes 0 and (3 - 0) / (4 - 0) = 0.75; cubic Hermite at s = 0.5:
-    // (0 + 2) / 2 + 1 * (0 - 0.75) / 8.
+    // The first segment has p 0 -> 2 in 1 s, slopes 0 and (3 - 0) / (4 - 0) = 0.75; cubic Hermite at s = 0.5: (0 + 2) /
+    // 2 + 1 * (0 - 0.75) / 8.
     EXPECT_DOUBLE_EQ(translation_x(uneven, 0.5), 1.0 - 0.75 / 8);
-    // Second: 2 -> 3 in 3 s, slopes 0.75 and (-1 - 2) / (5 - 1) = -0.75.
+    // The second one has 2 -> 3 in 3 s, slopes 0.75 and (-1 - 2) / (5 - 1) = -0.75.
     EXPECT_DOUBLE_EQ(translation_x(uneven, 2.5), 2.5 + 3.0 * (0.75 + 0.75) / 8);
-    // Two keys: slopes zero, so smoothstep; s = 0.25 gives 5/32.
+    // Two keys have slopes of zero, so smoothstep; s = 0.25 gives 5/32.
     const MotionPath pair{{{1.0, {0, 0, 0}, {}}, {3.0, {32, 0, 0}, {}}}};
     EXPECT_DOUBLE_EQ(translation_x(pair, 1.5), 5.0);
 }
@@ -87,7 +87,7 @@ TEST(Rotation, TurnsCounterclockwiseAboutEachAxis) {
 }
 
 TEST(Rotation, AppliesXThenYThenZ) {
-    // y -> (x turn) z -> (y turn) x -> (z turn) y; any other order ends elsewhere.
+    // The turns take y by x to z, by y to x, by z to y; any other order ends elsewhere.
     EXPECT_EQ(turned(rotation_matrix({90, 90, 90}), {0, 1, 0}), (Vec3{0, 1, 0}));
     const Vec3 step_by_step =
         turned(rotation_matrix({0, 0, 20}),

@@ -1,4 +1,4 @@
-// Cloth that starts inside a collider, or through another cloth, is noticed: which, how deep, how much of it; and
+// Cloth that starts inside a collider, or through another cloth, is noticed (which, how deep, how much of it), and
 // refused where the scene says so.
 #include "scene/overlap.h"
 
@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// 5 x 5 particles, 0.25 m apart about the y axis, 0.1 m above the origin.
+/// A sheet of 5 x 5 particles, 0.25 m apart, lies about the y axis, 0.1 m above the origin.
 SceneResult over(const std::string& colliders, const std::vector<std::string>& overrides = {}) {
     return read_scene_text(fmt::format(R"({{"name": "over",
 "cloths": [{{"name": "sheet", "grid": [5, 5], "size": [1, 1],
@@ -26,7 +26,7 @@ SceneResult over(const std::string& colliders, const std::vector<std::string>& o
                            "over.json", overrides);
 }
 
-/// The warnings of a scene that is fine otherwise.
+/// Returns the warnings of a scene that is fine otherwise.
 std::vector<std::string> warned(const std::string& colliders, const std::vector<std::string>& overrides = {}) {
     const SceneResult result = over(colliders, overrides);
     EXPECT_TRUE(result.scene) << (result.errors.empty() ? "" : result.errors[0].text());
@@ -37,7 +37,7 @@ std::vector<std::string> warned(const std::string& colliders, const std::vector<
 
 const std::string ball = R"("spheres": [{"radius": 0.3, "center": [0, 0, 0]}])";
 
-/// Depths and counts by hand.
+/// Depths and counts are worked out by hand.
 TEST(OverlapTest, EveryKindOfCollider) {
     const auto expect = [](const std::string& colliders, const std::string& text) {
         EXPECT_THAT(warned(colliders), ElementsAre(HasSubstr("cloth \"sheet\" starts up to " + text + ": contact")));
@@ -66,7 +66,7 @@ TEST(OverlapTest, AClothLeavesABoxByOneFace) {
     expect(way(middle, {"/cloths/0/placement/origin=[-0.5,-0.1,-0.5]"}), {0, -1, 0}, 3);
     expect(way(middle + R"(, "rotate": [0, 0, 90])"), {1, 0, 0}, 4);  // its own x is up
     expect(way(middle, {"/cloths/0/placement/origin=[-0.5,0.3,-0.5]"}), {0, 0, 0}, 0);
-    // An edge of the sheet is in it by 0.1 m: sideways counts three times.
+    // An edge of the sheet is in the box by 0.1 m: sideways counts three times.
     expect(way(R"("center": [0.7, -0.02, 0], "half_extents": [0.3, 0.3, 0.3])"), {0, 1, 0}, 3.6);
     expect(way(R"("center": [0.7, 0.1, 0], "half_extents": [0.3, 0.35, 0.3])"), {-1, 0, 0}, 2);
     EXPECT_EQ(ways_out(over(ball).scene->cloths[0], over(ball).scene->colliders, 0.1), std::vector<WayOut>(1));
@@ -133,7 +133,7 @@ TEST(OverlapTest, IsAnErrorWhereTheSceneRefusesIt) {
     EXPECT_THAT(outside.warnings, IsEmpty());
 }
 
-/// A sheet that lies about the origin, and one of half its size placed as told.
+/// A sheet lies about the origin, and one of half its size is placed as told.
 SceneResult crossing(const std::string& placement, const std::vector<std::string>& overrides = {}) {
     return read_scene_text(fmt::format(R"({{"name": "crossing",
 "cloths": [{{"name": "sheet", "grid": [5, 5], "size": [1, 1], "self_collision": true,
@@ -190,11 +190,11 @@ TEST(StartCrossingTest, OfAClothWithItselfIsSaid) {
     EXPECT_THAT(warned("scale=[0.01,0.01]"), IsEmpty());
     EXPECT_THAT(warned("scale=[-1,1]"), IsEmpty());
     EXPECT_THAT(warned("jitter=0.03"), IsEmpty());
-    // Looked at, and found to be apart.
+    // This start is looked at and found to be apart.
     EXPECT_THAT(warned("jitter=0.06"), IsEmpty());
 }
 
-// Contact would keep all its particles where they are, for good.
+// A gathered cloth is refused since contact would keep all its particles where they are, for good.
 TEST(StartCrossingTest, AClothThatMeetsItselfMayNotStartGathered) {
     for (const std::string scale : {"[1,0]", "[0,0]", "[0,1]", "[1e-6,1e-6]"}) {
         const std::string placement = "/cloths/0/placement/scale=" + scale;

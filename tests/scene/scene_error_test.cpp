@@ -1,4 +1,4 @@
-// Golden messages of malformed scenes: place, pointer and words are what users and editors rely on.
+// These are golden messages of malformed scenes: users and editors rely on place, pointer and words.
 #include <gtest/gtest.h>
 
 #include "drape/scene_reader.h"
@@ -9,13 +9,13 @@ namespace {
 struct Malformed {
     const char* name;
     std::string text;
-    std::vector<std::string> errors;  ///< all of them, in order, without the file's name
+    std::vector<std::string> errors;  ///< all errors, in order, without the file's name
 };
 
-// What the test runner prints of a case.
+// The test runner prints this of a case.
 void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
 
-// The members of a scene beside its cloths, or of its only cloth; they begin at line 2, column 1.
+// Members of a scene beside its cloths, or of its only cloth, begin at line 2, column 1.
 std::string scene(const std::string& members) { return "{\"cloths\": [{}],\n" + members + "}"; }
 std::string cloth(const std::string& members) { return "{\"cloths\": [{\n" + members + "}]}"; }
 
@@ -75,7 +75,7 @@ const Malformed syntax_cases[] = {
     {"TextAfterTheEnd", "{\"cloths\": [{}]} x", {"1:18: Extra non-whitespace after JSON value"}},
     {"TwoDocuments", "{\"cloths\": [{}]}\n{}", {"2:1: Extra non-whitespace after JSON value"}},
     {"DuplicateKey", "{\"cloths\": [{}],\r\n \"cloths\": [{}]}", {"2:2: Duplicate key: 'cloths'"}},
-    // A key is what its escapes say: by that its place is found.
+    // A key is the text that its escapes stand for, and is found by it.
     {"DuplicateKeyOnceEscaped",
      "{\"cloths\": [{}],\n \"\xc3\xa9\": 1, \"\\u00e9\": 2}",
      {"2:11: Duplicate key: '\xc3\xa9'"}},
@@ -367,7 +367,7 @@ const Malformed collider_cases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Colliders, SceneErrors, ::testing::ValuesIn(collider_cases), name_of);
 
-/// Method auto counts with its most substeps, 4096.
+/// Method auto is judged with its most substeps, 4096.
 const Malformed fall_cases[] = {
     {"Gravity",
      scene("\"gravity\": [0, -3e38, 0]"),

@@ -1,4 +1,4 @@
-// Random damage to a valid scene: never a crash, and always either a scene or an error.
+// Random damage to a valid scene never crashes the reader, and always gives either a scene or an error.
 #include <gtest/gtest.h>
 
 #include <random>

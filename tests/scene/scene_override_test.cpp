@@ -1,4 +1,4 @@
-// --set /json/pointer=value
+// --set /json/pointer=value changes a value of a scene.
 #include <gtest/gtest.h>
 
 #include "drape/scene_reader.h"

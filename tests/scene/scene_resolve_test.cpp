@@ -1,5 +1,5 @@
-// A scene with its defaults written out: the same scene, whatever it left out.
-// (Lights are given here: the default direction becomes a unit vector when it is read.)
+// A scene with its defaults written out is the same scene, whatever it left out. (Lights are given here, since the
+// default direction becomes a unit vector when it is read.)
 #include <gtest/gtest.h>
 
 #include "drape/scene_reader.h"
@@ -29,7 +29,7 @@ TEST(ResolvedScene, KeepsWhatTheSceneSaysAndItsOverrides) {
     EXPECT_EQ(described(resolved_scene(testing::full_scene, overrides)), described(testing::full_scene, overrides));
 }
 
-// A default that contradicts what is there is left out: a capsule has one radius or two.
+// A default that contradicts a given value is left out: a capsule has one radius or two.
 TEST(ResolvedScene, HasNoDefaultBesideItsAlternative) {
     const std::string text = R"({"cloths": [{"grid": [3, 2], "size": [1, 1]}], "lights": [],
         "colliders": {"capsules": [{"radii": [0.1, 0.2]}, {}]}})";

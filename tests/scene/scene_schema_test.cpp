@@ -1,5 +1,5 @@
-// What is published of the format is what the reader does: same keys, same defaults, same limits. Both come from one
-// table; these tests hold the published text against the reader's behaviour.
+// The published schema agrees with the reader: same keys, same defaults, same limits. Both come from one table; these
+// tests hold the published text against the reader's behaviour.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -54,7 +54,7 @@ const Json::Value& object_schema(std::string_view name) {
     return name == "scene" ? schema() : schema()["definitions"][std::string(name)];
 }
 
-// One place of full_scene for each kind of object.
+// Each kind of object has one place in full_scene.
 const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"time", ".time"},
                                                      {"wind", ".wind"},
@@ -88,7 +88,7 @@ std::string pointer_of(std::string path) {
     return pointer;
 }
 
-// The pointers of the errors of full_scene with one value replaced.
+// Returns the pointers of the errors of full_scene with one value replaced.
 std::set<std::string> error_pointers(std::string_view object, const std::string& path, const Json::Value& replacement) {
     Json::Value scene = parsed(testing::full_scene);
     Json::Path(places.at(object) + path).make(scene) = replacement;
@@ -116,11 +116,11 @@ TEST(SceneFormat, DocumentHasEveryKeyAndItsDefault) {
         ASSERT_NE(begin, std::string::npos) << object->name;
         const std::string section = document.substr(begin, document.find("\n## ", begin + 1) - begin);
         for (const KeyText& key : object->keys) {
-            const std::size_t row = section.find(fmt::format("\n| `{}` | ", key.name));
+            const std::size_t row = section.find(fmt::format("\n- `{}`: ", key.name));
             ASSERT_NE(row, std::string::npos) << key.name;
-            const std::string line = section.substr(row + 1, section.find('\n', row + 1) - row - 1);
-            const std::string value = key.default_value.empty() ? "" : "| `" + key.default_value + "` |";
-            EXPECT_NE(line.find(value), std::string::npos) << line;
+            const std::string item = section.substr(row + 1, section.find("\n- ", row + 1) - row - 1);
+            EXPECT_NE(item.find(key.default_value.empty() ? "" : "`" + key.default_value + "`"), std::string::npos)
+                << item;
         }
     }
 }
@@ -181,7 +181,7 @@ TEST(SceneReader, ReadsEveryKeyOfTheFormat) {
     }
 }
 
-// An object of a kind with every default of the schema written out.
+// Returns an object of a kind with every default of the schema written out.
 Json::Value written_defaults(std::string_view object) {
     Json::Value result(Json::objectValue);
     const Json::Value& properties = object_schema(object)["properties"];
@@ -269,7 +269,7 @@ std::vector<Probe> probes_of(const Json::Value& property) {
     }
     if (property.isMember("exclusiveMinimum")) {
         probes.push_back({property["exclusiveMinimum"], false});
-        // Not closer: a thousandth of a frame per second is another error, of cloth that falls too far in a frame.
+        // A closer one, a thousandth of a frame per second, is another error: cloth falls too far in a frame.
         probes.push_back({property["exclusiveMinimum"].asDouble() + 1, true});
     }
     for (const Json::Value& choice : property["enum"]) probes.push_back({choice, true});
@@ -286,7 +286,7 @@ TEST(SceneSchema, StatesTheLimitsOfTheReader) {
             const bool is_array = properties[key].isMember("items");
             const std::string path = "." + key + (is_array ? "[1]" : "");
             for (const Probe& probe : probes_of(is_array ? properties[key]["items"] : properties[key])) {
-                // How thick layers may be depends on the grid.
+                // The allowed thickness of layers depends on the grid.
                 if (probe.is_allowed && path == ".thickness" && object->name == "self_collision") continue;
                 const bool is_reported = error_pointers(object->name, path, probe.value)
                                              .contains(pointer_of(places.at(object->name) + path));

@@ -1,4 +1,4 @@
-// What a well-formed scene becomes.
+// A well-formed scene becomes the right values.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -168,7 +168,7 @@ TEST(SceneWarnings, ClothsSetToTouch) {
     EXPECT_TRUE(warnings_of(R"({"cloths": [{}, {"placement": {"origin": [1.1, 0, 0]}}]})").empty());
 }
 
-// 0.6 m over 12 edges are a little less than 0.05 m: who writes that means one edge.
+// 0.6 m over 12 edges are a little less than 0.05 m; a scene that says 0.05 means one edge.
 TEST(SceneValues, AThicknessOfOneEdgeIsOneThoughItIsRounded) {
     for (const char* thickness : {"0.05", "0.005"}) {
         const std::string text = fmt::format(
@@ -242,7 +242,7 @@ TEST(SceneFile, RefusesMoreThanItsLimit) {
     EXPECT_EQ(read_scene_text(padded, "s").errors.size(), 1u);
 }
 
-/// However many cells they take in all, one is left in the lower right.
+/// Holes may take any number of cells in all as long as one is left, here in the lower right.
 TEST(SceneValues, HolesMayLieOnEachOther) {
     const SceneResult result = read_scene_text(
         R"({"cloths": [{"grid": [3, 3], "holes": [[[0, 0], [2, 1]], [[0, 0], [2, 1]], [[0, 0], [1, 2]]]}]})", "holes");

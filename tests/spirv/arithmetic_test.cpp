@@ -1,5 +1,5 @@
-// The simulation's modules use one arithmetic: + - * / sqrt, never contracted, nothing that a driver may round
-// its own way. This is what makes the C++ twin an exact oracle and results repeatable.
+// The simulation's modules use one arithmetic: + - * / sqrt, never contracted, nothing that a driver may round its own
+// way. This makes the C++ twin an exact oracle and results repeatable.
 #include <gtest/gtest.h>
 #include <spirv-tools/libspirv.h>
 #include <spirv_cross/GLSL.std.450.h>
@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-/// What a module computes with.
+/// Arithmetic of a module.
 struct Arithmetic {
     std::set<std::uint32_t> exact;                                 ///< ids decorated NoContraction
     std::vector<std::pair<std::uint32_t, std::uint32_t>> rounded;  ///< id, opcode of + - * on floats
@@ -31,7 +31,7 @@ bool is_driver_rounded(std::uint32_t opcode) {
            opcode == SpvOpVectorTimesMatrix || opcode == SpvOpMatrixTimesMatrix || opcode == SpvOpOuterProduct;
 }
 
-/// Of GLSL.std.450: IEEE roots and signs, and functions of integers.
+/// Functions of GLSL.std.450 are exact if they are IEEE roots and signs, or functions of integers.
 bool is_exact(std::uint32_t function) {
     constexpr GLSLstd450 exact[] = {GLSLstd450Sqrt, GLSLstd450FAbs, GLSLstd450UMin,    GLSLstd450SMin,
                                     GLSLstd450UMax, GLSLstd450SMax, GLSLstd450FindILsb};
@@ -62,7 +62,7 @@ Arithmetic arithmetic_of(const SpirvModule& module) {
     return found;
 }
 
-/// Compute modules are the simulation; vertex and fragment modules only draw, and so does what encodes pictures.
+/// Compute modules are the simulation; vertex and fragment modules only draw, and so does the one that encodes.
 bool simulates(const SpirvModule& module) {
     return module.name.ends_with(".comp") && !module.name.starts_with("encode");
 }

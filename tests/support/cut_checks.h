@@ -46,9 +46,9 @@ inline Vec3 evaluate(const glsl::CutVertex& vertex, const std::vector<glsl::vec4
     return result;
 }
 
-/// No index out of range; no drawn triangle spans a cut: the particles that a drawn triangle hangs on are one piece,
-/// and a whole triangle has at most one cut edge (a slit's end); no spring's share is negative; a cut spring has
-/// share 0; the corners of a cell that the mesh has let go are joined by no diagonal.
+/// Expects that no index is out of range; that no drawn triangle spans a cut: the particles that it hangs on are one
+/// piece, and a whole triangle has at most one cut edge (a slit's end); that no spring's share is negative; that a cut
+/// spring has share 0; that no diagonal joins the corners of a cell that the mesh has let go.
 inline void expect_consistent(const CutTopology& topology) {
     const std::vector<std::size_t> piece = topology.pieces();
     const std::size_t particle_count = topology.cloth().grid.particle_count();

@@ -1,5 +1,5 @@
-// How deep what is drawn of a cloth is in colliders: points all over its triangles, in double precision, from
-// positions alone.
+// Measures how deep the drawn surface of a cloth is in colliders, at points all over its triangles, in double
+// precision, from positions alone.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace drape::test {
 
 struct DrawnDepth {
     double deepest = -1e300;  ///< m; below zero: outside
-    std::size_t points = 0;   ///< looked at
+    std::size_t points = 0;   ///< number of points looked at
 };
 
-/// Points of a triangle that has `parts` parts along each edge: corners, points on edges, points inside.
+/// Visits points of a triangle that has `parts` parts along each edge: corners, points on edges, points inside.
 template <class Visit>
 void for_points_of(const std::array<Vec3, 3>& corners, int parts, const Visit& visit) {
     for (int i = 0; i <= parts; ++i)
@@ -28,8 +28,8 @@ void for_points_of(const std::array<Vec3, 3>& corners, int parts, const Visit& v
         }
 }
 
-/// Of a cloth whose particles are at `positions`, in a collider at a time (s). Triangles that are too far away to reach
-/// it are left out.
+/// Depth of a cloth whose particles are at `positions` in a collider at a time (s). Triangles too far away to reach it
+/// are left out.
 inline DrawnDepth drawn_depth(const Grid& grid, const std::vector<Vec3>& positions, const Collider& collider,
                               double time, int parts = 8) {
     const ColliderPose pose = collider_pose(collider, time);

@@ -1,4 +1,4 @@
-// The constants that a method plans, by their type.
+// Finds the constants that a method plans by their type.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace drape::test {
 
-/// Calls visit(push) for every step of a plan whose constants are `Push`; a const plan's cannot be changed.
+/// Calls visit(push) for every step of a plan whose constants are `Push`; those of a const plan cannot be changed.
 template <class Push, class Plan, class Visit>
 void for_pushes(Plan& plan, const Visit& visit) {
     for (auto* steps : {&plan.prediction, &plan.once, &plan.iterated})

@@ -1,4 +1,4 @@
-// Small scenes in which cloths meet themselves and each other.
+// In these small scenes cloths meet themselves and each other.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace drape::test {
 
-/// A sheet of n x n particles over 1 m, a little out of the vertical, let fall on its lower edge, so that it folds to
-/// and fro on the ground. `thickness`: in edges.
+/// A sheet of n x n particles over 1 m, a little out of the vertical, falls on its lower edge, so that it folds to and
+/// fro on the ground. `thickness`: in edges.
 inline SceneDescription fold(std::uint32_t n, double thickness, SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = sheet(n, n, 1, 1, substeps);
     scene.solver.method = method;
@@ -29,7 +29,7 @@ inline SceneDescription fold(std::uint32_t n, double thickness, SolverMethod met
     return scene;
 }
 
-/// A sheet between two bars, which turn against each other by `turns` in `seconds` and come nearer meanwhile.
+/// A sheet hangs between two bars, which turn against each other by `turns` in `seconds` and come nearer meanwhile.
 inline SceneDescription twist(std::uint32_t n, double thickness, SolverMethod method, std::uint32_t substeps,
                               double turns, double seconds) {
     SceneDescription scene = sheet(n, n, 1, 1, substeps);
@@ -49,8 +49,8 @@ inline SceneDescription twist(std::uint32_t n, double thickness, SolverMethod me
     return scene;
 }
 
-/// Three sheets above each other over a ball, of different grids, weights and thicknesses: the lowest, which falls on
-/// the ball, meets itself; the next one, turned, is small and has a hole; the last one is coarse and comes fast.
+/// Three sheets lie above each other over a ball, of different grids, weights and thicknesses: the lowest, which falls
+/// on the ball, meets itself; the next one, turned, is small and has a hole; the last one is coarse and comes fast.
 inline SceneDescription layers(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = sheet(15, 13, 0.84, 0.72, substeps);
     scene.solver.method = method;
@@ -86,8 +86,7 @@ inline SceneDescription layers(SolverMethod method, std::uint32_t substeps) {
     return scene;
 }
 
-/// A sheet that lies, and a smaller, lighter one that stands through it, its upper third above: both free, in no
-/// gravity.
+/// A sheet lies, and a smaller, lighter one stands through it, its upper third above; both are free, without gravity.
 inline SceneDescription crossed(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = sheet(13, 11, 0.6, 0.5, substeps);
     scene.solver.method = method;
@@ -107,7 +106,7 @@ inline SceneDescription crossed(SolverMethod method, std::uint32_t substeps) {
     return scene;
 }
 
-/// Sheets of n x n particles, each turned against the one below, that fall onto a ball and each other.
+/// Sheets of n x n particles, each turned against the one below, fall onto a ball and each other.
 inline SceneDescription stack(std::uint32_t count, std::uint32_t n, SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = sheet(n, n, 0.7, 0.7, substeps);
     scene.solver.method = method;
@@ -130,7 +129,7 @@ inline SceneDescription stack(std::uint32_t count, std::uint32_t n, SolverMethod
     return scene;
 }
 
-/// Pairs of triangles that cross, of cloths that meet.
+/// Counts the pairs of triangles that cross, of cloths that meet.
 inline std::size_t crossings(const SimulationModel& model, const Twin& twin) {
     std::vector<TriangleCrossings::Mesh> meshes;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {

@@ -1,4 +1,4 @@
-// Double-precision measures of a twin's cloth: positions with what rounding kept, energies, momentum.
+// Measures a twin's cloth in double precision: positions with the part that rounding kept, energies, momentum.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ void for_springs(const ClothModel& model, const Visit& visit) {
             }
 }
 
-/// kg; 0 for a particle without a cell.
+/// Mass of a particle, kg; 0 without a cell.
 inline double mass_of(const ClothModel& model, std::size_t i) {
     const float w = model.free_weight[i];
     return w > 0 ? model.inner_mass / static_cast<double>(w) : 0.0;
@@ -68,7 +68,7 @@ void for_bends(const ClothModel& model, const Visit& visit) {
             }
 }
 
-/// Calls visit(corners 00 10 01 11) for every cell that twists: a whole one.
+/// Calls visit(corners 00 10 01 11) for every whole cell, since only those twist.
 template <class Visit>
 void for_twists(const ClothModel& model, const Visit& visit) {
     const glsl::ivec2 size = model.grid.size();
@@ -87,7 +87,7 @@ struct Energy {
     double total() const { return kinetic + gravity + elastic + bending; }
 };
 
-/// J, with the stiffness that the solver uses. The velocity is the last substep's mean, half a substep early.
+/// Energy in J, with the stiffness that the solver uses. The velocity is the last substep's mean, half a substep early.
 inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const TwinCloth& state) {
     const ClothModel& model = scene.cloths[cloth];
     Energy energy;

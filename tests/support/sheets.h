@@ -1,4 +1,4 @@
-// Scenes that tests build in code: one sheet of given size, no camera.
+// Tests build these scenes in code: one sheet of given size, no camera.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ using model_scenes::pin_box;
 using model_scenes::pin_top;
 using model_scenes::sheet;
 
-/// A sheet in the xy plane rolled without stretch about an axis in that plane through the origin: curvature (1/m) of
-/// the direction `angle` (radians from x).
+/// Rolls a sheet in the xy plane without stretch about an axis in that plane through the origin, with a curvature (1/m)
+/// along the direction `angle` (radians from x).
 inline std::vector<Vec3> rolled(std::vector<Vec3> flat, double angle, double curvature) {
     for (Vec3& at : flat) {
         const double along = at[0] * std::cos(angle) + at[1] * std::sin(angle);

@@ -1,4 +1,4 @@
-// What of a run is compared with the twin's, field by field.
+// A run is compared with the twin's field by field.
 #pragma once
 
 #include <cstddef>

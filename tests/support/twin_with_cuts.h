@@ -7,11 +7,11 @@
 
 namespace drape::test {
 
-/// The whole chain again on the CPU: simulate, search, cut.
+/// Runs the whole chain again on the CPU: simulate, search, cut.
 class TwinWithCuts {
   public:
     explicit TwinWithCuts(const SceneDescription& scene) : model_(scene), twin_(model_) {}
-    /// Frame 0 simulates nothing: cutters may be active in it.
+    /// Frame 0 simulates nothing, but cutters may be active in it.
     CutCounts run_frame(std::uint32_t frame) {
         if (frame > 0) twin_.run_frame(frame);
         const double fps = model_.scene.time.fps, start = frame == 0 ? 0 : (frame - 1) / fps, end = frame / fps;

@@ -1,4 +1,4 @@
-// Random scenes in winds from a breeze to 200 m/s, for what no wind may do.
+// Random scenes in winds from a breeze to 200 m/s test what no wind may do.
 #pragma once
 
 #include <random>
@@ -7,12 +7,12 @@
 
 namespace drape::test {
 
-/// A number of the seeded generator: the same on every platform, which std's distributions do not promise.
+/// The seeded generator's numbers are the same on every platform, which std's distributions do not promise.
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : engine_(seed) {}
     double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Evenly over the orders of magnitude.
+    /// Draws evenly over the orders of magnitude.
     double over_orders(double low, double high) { return low * std::pow(high / low, unit()); }
     std::uint32_t count(std::uint32_t low, std::uint32_t high) {
         return low + static_cast<std::uint32_t>(unit() * (high - low + 1));
@@ -49,7 +49,7 @@ inline std::vector<Pin> some_pins(Dice& dice, const Cloth& cloth) {
     }
 }
 
-/// Scene `seed` of the kind: one cloth of 8 to 32 particles a side and 0.01 to 1 kg/m^2, 30 to 120 frames, 1 to 20
+/// Returns scene `seed`: one cloth of 8 to 32 particles a side and 0.01 to 1 kg/m^2, 30 to 120 frames, 1 to 20
 /// substeps, gusts in half of them, a collider in every fifth; methods take turns, `auto` included.
 inline SceneDescription windy_scene(std::uint64_t seed) {
     Dice dice(seed);

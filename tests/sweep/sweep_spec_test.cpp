@@ -1,4 +1,4 @@
-// The specification of a sweep: what it says about run I, and every error at its place.
+// The specification of a sweep tells the values of run I, and every error with its place.
 #include "sweep/sweep_spec.h"
 
 #include <gmock/gmock.h>

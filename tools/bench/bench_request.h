@@ -11,7 +11,7 @@
 namespace drape::bench {
 
 struct BenchRequest {
-    std::string device;     ///< selector; empty: the best there is
+    std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation
     bool quiet = false;
     std::function<void(const std::string&)> message;  ///< progress, one line each

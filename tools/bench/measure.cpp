@@ -10,12 +10,12 @@
 #include <numeric>
 
 #include "cloth/frame_inputs.h"
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 #include "drape/simulation.h"
 #include "output/manifest.h"
 #include "run/run.h"
 #include "solver/cloth_solver.h"
-#include "solver/device_schedule.h"
+#include "solver/kernel_choice.h"
 #include "spirv_modules.h"
 
 namespace drape::bench {
@@ -58,7 +58,8 @@ double passes_of(const SimulationModel& model) {
             case StepKind::release:
             case StepKind::pin:
             case StepKind::control:
-            case StepKind::check:
+            case StepKind::residual:
+            case StepKind::decide:
             case StepKind::nested:
             case StepKind::advance:
                 break;

@@ -19,9 +19,9 @@ namespace {
 
 std::vector<SpeedCase> chosen(const SpeedRequest& request) {
     const CaseFilter filter(request.filter);
-    std::vector<SpeedCase> cases = request.tune ? schedule_cases(request.is_short) : speed_cases(request.is_short);
+    std::vector<SpeedCase> cases = request.tune ? kernel_cases(request.is_short) : speed_cases(request.is_short);
     std::erase_if(cases, [&](const SpeedCase& each) { return !filter.accepts(each.name); });
-    if (cases.empty()) filter.refuse(request.tune ? "schedule/line/256" : "line/256");
+    if (cases.empty()) filter.refuse(request.tune ? "kernels/line/256" : "line/256");
     return cases;
 }
 
@@ -78,8 +78,8 @@ class SpeedRun {
             case SpeedKind::picture:
                 results_.push_back(measure_picture(devices_, each, effort_, request_));
                 return true;
-            case SpeedKind::schedule:
-                results_.push_back(measure_schedules(devices_, each, effort_, request_));
+            case SpeedKind::kernels:
+                results_.push_back(measure_kernels(devices_, each, effort_, request_));
                 return true;
             case SpeedKind::skip:
                 return measure_skip_of(each);

@@ -10,7 +10,7 @@
 namespace drape::bench {
 
 struct SpeedRequest : SelectedCases {
-    bool tune = false;              ///< the cases of schedules instead of all others
+    bool tune = false;              ///< the cases of kernels instead of all others
     std::string scenes = "scenes";  ///< folder of the shipped scenes; what needs one that is not there is left out
 };
 

@@ -114,14 +114,14 @@ std::vector<SpeedCase> speed_cases(bool is_short) {
     return cases;
 }
 
-std::vector<SpeedCase> schedule_cases(bool is_short) {
+std::vector<SpeedCase> kernel_cases(bool is_short) {
     std::vector<SpeedCase> cases;
     add_sizes(short_sizes, cases);
     if (!is_short) add_sizes(long_sizes, cases);
     add_cloths(cases);
     for (SpeedCase& each : cases) {
-        each.kind = SpeedKind::schedule;
-        each.name.insert(0, "schedule/");
+        each.kind = SpeedKind::kernels;
+        each.name.insert(0, "kernels/");
     }
     return cases;
 }

@@ -10,7 +10,7 @@
 
 namespace drape::bench {
 
-enum class SpeedKind { solve, picture, skip, start, schedule };
+enum class SpeedKind { solve, picture, skip, start, kernels };
 
 struct SpeedCase {
     std::string name{};  ///< "line/256": what --filter is matched with
@@ -34,13 +34,13 @@ struct SpeedCase {
 /// In order of importance. `is_short`: small cloths alone.
 std::vector<SpeedCase> speed_cases(bool is_short);
 
-/// Those of --tune: "schedule/METHOD/N", "schedule/METHOD/32/COUNT cloths".
-std::vector<SpeedCase> schedule_cases(bool is_short);
+/// Those of --tune: "kernels/METHOD/N", "kernels/METHOD/32/COUNT cloths".
+std::vector<SpeedCase> kernel_cases(bool is_short);
 
 /// Sheets of 1 m held by an edge, swinging from level; spheres above them, which they do not touch.
 SceneDescription scene_of(const SpeedCase& speed_case);
 
-/// An exact or adaptive skip (README, --no-skip): a shipped scene with and without it.
+/// An exact or adaptive skip (--no-skip): a shipped scene with and without it.
 struct SkipCase {
     std::string name, scene;  ///< "skip/pictures"; "flag.json"
     std::string saved;        ///< what is skipped

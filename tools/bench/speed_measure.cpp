@@ -10,7 +10,7 @@
 #include "bench/measure.h"
 #include "native/native_run.h"
 #include "solver/cloth_solver.h"
-#include "solver/device_schedule.h"
+#include "solver/kernel_choice.h"
 
 namespace drape::bench {
 
@@ -181,25 +181,26 @@ SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, 
     return result;
 }
 
-SpeedResult measure_schedules(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
-                              const BenchRequest& request) {
+SpeedResult measure_kernels(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                            const BenchRequest& request) {
     const SceneDescription scene = scene_of(speed_case);
     std::vector<std::pair<std::string, std::unique_ptr<DeviceSide>>> sides;
-    for (const Spelling<Schedule>& each : schedule_spellings) {
-        const bool is_chosen = each.value == Schedule::automatic;
-        if (!is_chosen && !concerns(each.value, speed_case.method)) continue;
-        SimulationOptions options = plain_options(false);
-        options.schedule = each.value;
+    SimulationOptions options = plain_options(false);
+    const auto add = [&](std::string_view name) {
+        sides.emplace_back(name, std::make_unique<DeviceSide>(devices.of(scene, false), scene, options, request));
+    };
+    add("frame");
+    for (const KernelSet& set : all_kernel_sets) {
+        if (!concerns(set, speed_case.method)) continue;
+        options.kernels = set.kernels;
         try {
-            sides.emplace_back(is_chosen ? "frame" : each.name,
-                               std::make_unique<DeviceSide>(devices.of(scene, false), scene, options, request));
-        } catch (const DeviceError&) {  // it has not what that schedule needs
-            if (is_chosen) throw;
+            add(set.name);
+        } catch (const DeviceError&) {  // the device has not what these kernels need
         }
     }
     for (int round = 0; round < effort.rounds; ++round)
         for (const auto& [name, side] : sides) side->round(effort);
-    SpeedResult result{speed_case, sides[0].second->simulation().facts().schedule};
+    SpeedResult result{speed_case, sides[0].second->simulation().facts().kernels};
     for (const auto& [name, side] : sides) put(result, {name, side->means()[0].milliseconds});
     return result;
 }
@@ -230,7 +231,7 @@ SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, con
 
 double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort) {
     constexpr double particle_step = 5e-7;  // s
-    const double sides = speed_case.kind == SpeedKind::solve || speed_case.kind == SpeedKind::schedule ? 4 : 2;
+    const double sides = speed_case.kind == SpeedKind::solve || speed_case.kind == SpeedKind::kernels ? 4 : 2;
     const double least = 3 * speed_case.particles() * speed_case.substeps() * particle_step;
     return 1 + effort.rounds * std::max(sides * effort.seconds, least);
 }

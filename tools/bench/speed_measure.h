@@ -37,10 +37,10 @@ SpeedResult measure_solver(SpeedDevices& devices, const SpeedCase& speed_case, c
                            const BenchRequest& request);
 SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
                             const BenchRequest& request);
-/// Every schedule that the device can run, by its name, and "frame", the one that it takes unasked, whose name is the
-/// note.
-SpeedResult measure_schedules(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
-                              const BenchRequest& request);
+/// Times every set of kernels that the device can run, by its name, and "frame", what it takes unasked, which the note
+/// names.
+SpeedResult measure_kernels(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                            const BenchRequest& request);
 /// `scene`: the shipped one.
 SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, const SkipCase& skip,
                          const SceneDescription& scene, const SpeedEffort& effort, const BenchRequest& request);

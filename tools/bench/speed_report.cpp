@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "output/json_text.h"
+#include "solver/kernel_choice.h"
 
 namespace drape::bench {
 
@@ -97,22 +98,20 @@ const SpeedTime& fastest(const SpeedResult& result) {
                                      [](const SpeedTime& time) { return time.statistics.median; });
 }
 
-std::string schedule_table(const SpeedReport& report) {
+std::string kernel_table(const SpeedReport& report) {
     std::string text;
     for (const SpeedResult& r : report.results) {
-        if (r.about.kind != SpeedKind::schedule) continue;
+        if (r.about.kind != SpeedKind::kernels) continue;
         text += fmt::format("{:<32}", r.about.name);
-        for (const Spelling<Schedule>& each : schedule_spellings)
-            if (each.value != Schedule::automatic)
-                text += number(per_substep(r, std::string(each.name).c_str()), 10, 4);
-        text += fmt::format("  {:<10}{:<10}{:>6.2f}{}\n", r.note, fastest(r).name, r.ratio("frame", fastest(r).name),
-                            mark(r));
+        for (const KernelSet& set : all_kernel_sets)
+            text += number(per_substep(r, std::string(set.name).c_str()), 14, 4);
+        text += fmt::format("  {:<14}{:>6.2f}{}  {}\n", fastest(r).name, r.ratio("frame", fastest(r).name), mark(r),
+                            r.note);
     }
     if (text.empty()) return text;
-    std::string head = fmt::format("\nSchedules, ms per substep (medians); taken: by `auto`\n{:<32}", "case");
-    for (const Spelling<Schedule>& each : schedule_spellings)
-        if (each.value != Schedule::automatic) head += fmt::format("{:>10}", each.name);
-    return head + fmt::format("  {:<10}{:<10}{:>6}\n", "taken", "fastest", "ratio") + text;
+    std::string head = fmt::format("\nKernels, ms per substep (medians); taken: by `auto`\n{:<32}", "case");
+    for (const KernelSet& set : all_kernel_sets) head += fmt::format("{:>14}", set.name);
+    return head + fmt::format("  {:<14}{:>6}  {}\n", "fastest", "ratio", "taken") + text;
 }
 
 std::string fit_table(const SpeedReport& report) {
@@ -124,7 +123,7 @@ std::string fit_table(const SpeedReport& report) {
 }
 
 const char* kind_name(SpeedKind kind) {
-    constexpr const char* names[] = {"solve", "picture", "skip", "start", "schedule"};
+    constexpr const char* names[] = {"solve", "picture", "skip", "start", "kernels"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -133,7 +132,7 @@ Json::Value json_of(const SpeedResult& result) {
     const SpeedCase& about = result.about;
     value["case"] = about.name;
     value["kind"] = kind_name(about.kind);
-    if (!result.note.empty()) value[about.kind == SpeedKind::schedule ? "taken" : "skipped"] = result.note;
+    if (!result.note.empty()) value[about.kind == SpeedKind::kernels ? "taken" : "skipped"] = result.note;
     if (about.kind != SpeedKind::skip) {
         value["method"] = std::string(named(about.method).name);
         value["particles"] = about.particles();
@@ -200,7 +199,7 @@ std::string speed_text(const SpeedReport& report) {
                                    report.driver, report.cores, report.created);
     if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
     if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
-    return text + solver_table(report) + schedule_table(report) + fit_table(report) +
+    return text + solver_table(report) + kernel_table(report) + fit_table(report) +
            parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
            skip_table(report) + parts_table(report, SpeedKind::start, "Starts");
 }

@@ -13,7 +13,7 @@ namespace drape::bench {
 /// Times of a case by name, ms per frame but for starts, statistics of the means of rounds. Cases of a solver: "frame"
 /// (from one frame's end to the next), "device" (of those, the device's own time, where it has timestamps), "native"
 /// (the same arithmetic in C++ on all cores), "native, one core", "native, scalar" (on one core, compiled without
-/// vectors). Pictures: "frame" and the device's stages. Skips: "frame", "without". Schedules: "frame", as `auto` runs
+/// vectors). Pictures: "frame" and the device's stages. Skips: "frame", "without". Kernels: "frame", as `auto` runs
 /// it, and each by its name. Starts, cold and warm: their parts.
 struct SpeedTime {
     std::string name;
@@ -24,7 +24,7 @@ struct SpeedTime {
 
 struct SpeedResult {
     SpeedCase about;
-    std::string note{};  ///< what is skipped; the schedule that was taken
+    std::string note{};  ///< what is skipped; the kernels that were taken
     std::vector<SpeedTime> times{};
     double bytes = 0, flops = 0;  ///< of a frame, by what its passes declare; 0: not known
 

@@ -6,7 +6,7 @@
 
 #include "bench/wild_scenes.h"
 #include "scene/random.h"
-#include "solver/device_schedule.h"
+#include "solver/kernel_choice.h"
 
 namespace drape::bench {
 
@@ -145,11 +145,11 @@ void add_singles(const StabilityPlan& plan, std::vector<StabilityCase>& cases) {
         for (const SolverMethodName& method : solver_method_names) {
             cases.push_back(case_of("single", {index}, method.method));
             if (plan.is_short || table[index].tier == Tier::refused) continue;
-            for (const auto& [name, schedule] : schedule_spellings) {
-                if (!concerns(schedule, method.method)) continue;
+            for (const KernelSet& set : all_kernel_sets) {
+                if (method.method == SolverMethod::automatic || !concerns(set, method.method)) continue;
                 cases.push_back(case_of("single", {index}, method.method));
-                cases.back().name += fmt::format("/{}", name);
-                cases.back().schedule = schedule;
+                cases.back().name += fmt::format("/{}", set.name);
+                cases.back().kernels = set.kernels;
             }
         }
 }

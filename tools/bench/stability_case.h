@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "drape/kernels.h"
 #include "drape/scene_reader.h"
-#include "drape/schedule.h"
 
 namespace drape::bench {
 
@@ -40,7 +40,7 @@ struct StabilityCase {
     Tier tier = Tier::bounded;  ///< the worst of its extremes; of several together never accurate
     std::vector<std::size_t> extremes;              ///< into extremes()
     SolverMethod method = SolverMethod::automatic;  ///< of a random scene: its own
-    Schedule schedule = Schedule::automatic;
+    Kernels kernels = Kernels::automatic();
     std::uint32_t frames = 0;                  ///< that are run at least
     std::uint32_t recovery = recovery_frames;  ///< how many more may pass until it has recovered
     std::uint32_t seed = 0, index = 0;
@@ -56,8 +56,8 @@ struct StabilityPlan {
     std::uint32_t mixes = 0, randoms = 0;  ///< how many of each
 };
 
-/// Every extreme alone by every method (and every schedule, unless short), all pairs of different axes by every method
-/// (unless short), mixes of 3 to 6, random scenes, and a soak by every method.
+/// Every extreme alone by every method (and every set of kernels, unless short), all pairs of different axes by every
+/// method (unless short), mixes of 3 to 6, random scenes, and a soak by every method.
 std::vector<StabilityCase> stability_cases(const StabilityPlan& plan);
 
 /// The scene of a case; errors where it is refused.

@@ -60,7 +60,7 @@ std::string stability_map(const StabilityReport& report, SolverMethod method) {
     for (std::size_t k = 0; k < report.results.size(); ++k) {
         const StabilityCase& each = report.cases[k];
         const bool is_alone = each.name.starts_with("single/"), is_pair = each.name.starts_with("pair/");
-        if (each.method != method || each.schedule != Schedule::automatic || !(is_alone || is_pair)) continue;
+        if (each.method != method || !each.kernels.is_automatic() || !(is_alone || is_pair)) continue;
         const auto x = place.find(each.extremes.front()), y = place.find(each.extremes.back());
         if (x == place.end() || y == place.end()) continue;
         const StabilityResult& result = report.results[k];

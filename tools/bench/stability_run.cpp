@@ -40,7 +40,7 @@ void simulate(const Device& device, const StabilityCase& each, const SceneDescri
     const SimulationModel model(scene);
     StabilityJudge judge_of_run(model);
     SimulationOptions options;
-    options.schedule = each.schedule;
+    options.kernels = each.kernels;
     options.timings = Timings::none;
     Simulation simulation(scene, options, device);
     result.method = simulation.facts().method;

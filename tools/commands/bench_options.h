@@ -1,4 +1,3 @@
-// The options that benchmarks share.
 #pragma once
 
 #include "bench/bench_request.h"
@@ -6,16 +5,16 @@
 
 namespace drape::cli {
 
-/// --device, --validate, -q
+/// Adds --device, --validate, -q.
 void add_bench_options(CLI::App& command, bench::BenchRequest& request);
 
-/// What a benchmark's help says of its cases; lines of at most 80 columns.
+/// Words on a benchmark's cases for its help; lines of at most 80 columns.
 struct CaseWords {
-    const char *names,  ///< of --filter: what case names are like
-        *is_short,      ///< of --short
+    const char *names,  ///< help of --filter: how case names look
+        *is_short,      ///< help of --short
         *json, *csv, *svg;
 };
-/// Those and --filter, --short, --budget, --json, --csv, --svg.
+/// Adds the options of add_bench_options and --filter, --short, --budget, --json, --csv, --svg.
 void add_case_options(CLI::App& command, const CaseWords& words, bench::SelectedCases& request);
 
 }  // namespace drape::cli

@@ -45,15 +45,16 @@ Examples:
   drape bench speed --budget 20 --json out/speed.json --csv out/speed.csv
 )text",
                                     [=] { return measure(*request); });
-    add_flag(command, "--tune",
-             "Measure instead every schedule (--schedule of render and simulate) that\nthe device can run, by method, "
-             "size and number of cloths, beside the one\nthat `auto` takes",
-             request->tune);
+    add_flag(
+        command, "--tune",
+        "Measure instead every set of kernels (--kernels of render and simulate) that\nthe device can run, by method, "
+        "size and number of cloths, beside the one\nthat `auto` takes",
+        request->tune);
     add_option(command, "--scenes", "DIR", "Where the shipped scenes are, for skips; default:\nscenes",
                request->scenes);
     add_case_options(command,
                      {"METHOD/N, METHOD/N/COUNT cloths or colliders, picture/..., skip/..., start/..., with --tune "
-                      "schedule/METHOD/...; default: all",
+                      "kernels/METHOD/...; default: all",
                       "Sheets of at most 256x256 and shorter rounds: under 2 minutes on an idle machine",
                       "Write times, ratios and scaling as JSON", "Write a row per case and time",
                       "Write plots of time against particles, cloths and colliders"},

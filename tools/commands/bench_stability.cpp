@@ -34,7 +34,7 @@ void add_bench_stability(Program& program) {
     const auto request = std::make_shared<bench::StabilityRequest>();
     CLI::App& command = program.add("bench stability",
                                     "Where every method holds, bends, refuses: extremes, pairs, random scenes", R"text(
-Puts extremes on a small sheet: every one alone by every method and schedule,
+Puts extremes on a small sheet: every one alone by every method and set of kernels,
 all pairs, drawn mixes of three to six; then random scenes and a long run. A
 judge that shares nothing with the program's own watch sees all frames: finite,
 pins where they are held, distance, energy, mass, free flight, stretch and
@@ -68,9 +68,9 @@ Examples:
     add_option(command, "-o,--folder", "DIR", "Where finished cases are kept; default: bench_stability",
                request->folder);
     add_case_options(command,
-                     {"single/EXTREME/METHOD, single/EXTREME/METHOD/SCHEDULE, pair/ONE + OTHER/METHOD, mix/..., "
+                     {"single/EXTREME/METHOD, single/EXTREME/METHOD/KERNELS, pair/ONE + OTHER/METHOD, mix/..., "
                       "random/..., soak/METHOD; default: all",
-                      "No pairs, one schedule, few mixes and random scenes: under 4 minutes on an idle machine",
+                      "No pairs, the kernels of auto, few mixes and random scenes: under 4 minutes on an idle machine",
                       "Write verdicts, numbers and overrides as JSON", "Write a row per case",
                       "Write a map of extremes by extremes per method"},
                      *request);

@@ -25,13 +25,13 @@ Json::Value json_error(const SceneError& error) {
     return value;
 }
 
-/// What a good scene's method follows only in part. What `auto` chooses depends on the device.
+/// Returns what a good scene's method follows only in part. The choice of `auto` depends on the device, so it has none.
 std::vector<Compromise> known_compromises(const SceneResult& result) {
     if (!result.scene || result.scene->solver.method == SolverMethod::automatic) return {};
     return SimulationModel(*result.scene).compromises();
 }
 
-/// Every error of every file on stderr, or as JSON on stdout.
+/// Prints every error of every file on stderr, or as JSON on stdout.
 ExitCode check(const CheckOptions& options) {
     ExitCode code = ExitCode::ok;
     Json::Value report(Json::arrayValue);

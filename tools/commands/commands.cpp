@@ -1,5 +1,5 @@
-// The table of commands. Everything about one stands in one file of this folder (found by glob): its words, options,
-// examples and what it does. A new one: its file, and its name here.
+// The table of commands. A file of this folder (found by glob) has everything about one: words, options, examples and
+// action. A new command takes its file, and its name here.
 #include "program.h"
 
 namespace drape::cli {

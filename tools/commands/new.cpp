@@ -1,4 +1,4 @@
-// `drape new`: a first scene to change. The scenes stand in scene_templates.cpp.
+// `drape new` writes a first scene to change, one of scene_templates.cpp.
 #include <fmt/format.h>
 
 #include <cerrno>

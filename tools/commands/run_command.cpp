@@ -11,7 +11,7 @@ namespace drape::cli {
 
 namespace {
 
-/// Video instead of files: of the formats only one that can be a stream.
+/// Streams video instead of writing files; of the formats only one can be a stream.
 void stream_to_stdout(RunRequest& request) {
     const bool drawn = request.draws();
     std::erase(request.formats, "png");

@@ -1,4 +1,4 @@
-// What `render` and `simulate` share: a run into a folder.
+// `render` and `simulate` share this: a run into a folder.
 #pragma once
 
 #include "run/run.h"

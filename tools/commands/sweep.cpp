@@ -1,4 +1,4 @@
-// `drape sweep`: many runs of a scene, each with values of its own.
+// `drape sweep` makes many runs of a scene, each with values of its own.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -25,7 +25,7 @@ struct SweepOptions {
     bool dataset = false, resume = false, collect = false, list = false, count = false, quiet = false;
 };
 
-/// "7", "0-99", "1,5,9-12": the runs of a job.
+/// Parses the runs of a job: "7", "0-99", "1,5,9-12".
 std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t count) {
     std::vector<std::uint32_t> indices;
     const auto wrong = [&] {
@@ -67,7 +67,7 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     return request;
 }
 
-/// One run, here. Nothing when it was stopped.
+/// Makes one run here; returns nothing when it was stopped.
 std::optional<ExitCode> run_one(const SweepOptions& options, const sweep::SweepSpec& spec,
                                 const sweep::SweepFolder& folder, std::uint32_t index) {
     const auto begun = std::chrono::steady_clock::now();
@@ -88,7 +88,7 @@ std::optional<ExitCode> run_one(const SweepOptions& options, const sweep::SweepS
     return static_cast<ExitCode>(record.exit_code);
 }
 
-/// The runs of --index, one after the other.
+/// Makes the runs of --index, one after the other.
 ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
     ExitCode worst = ExitCode::ok;
     for (const std::uint32_t index : parse_indices(options.indices, spec.count)) {

@@ -51,7 +51,7 @@ OutputError unreadable(const std::string& where, const std::string& why) {
     return OutputError(fmt::format("cannot read '{}': {}", where, why));
 }
 
-/// "61, 65, 3" of a header.
+/// Parses the shape "61, 65, 3" of a header.
 std::vector<std::uint64_t> shape_of(const std::string& text, const std::string& where) {
     std::vector<std::uint64_t> shape;
     std::uint64_t product = 1;
@@ -67,7 +67,7 @@ std::vector<std::uint64_t> shape_of(const std::string& text, const std::string& 
     return shape;
 }
 
-/// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+/// Parses an array as https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html describes it.
 Array parsed(std::string_view file, const std::string& where) {
     const std::size_t preamble = file.size() > 6 && file[6] == 1 ? 10 : 12;
     if (!file.starts_with("\x93NUMPY") || file.size() < preamble) throw unreadable(where, "it is no NumPy array");

@@ -1,4 +1,4 @@
-// NumPy's files, read back.
+// Reads NumPy's files back.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@ struct Array {
     std::vector<std::uint64_t> shape;
     std::vector<std::byte> bytes;  ///< C order
 
-    /// Whether its values are numbers that `value` knows.
+    /// Returns whether its values are numbers that `value` knows.
     bool has_numbers() const;
     std::size_t count() const;
     double value(std::size_t index) const;
-    /// "float32 (61, 65, 65, 3)"
+    /// Returns "float32 (61, 65, 65, 3)".
     std::string text() const;
-    /// "(3, 0, 1)": where the value of this index is.
+    /// Returns the place of the value with this index, "(3, 0, 1)".
     std::string place(std::size_t index) const;
 };
 
-/// The one array of an NPY file, those of an NPZ archive by name. Throws OutputError naming the file.
+/// Returns the one array of an NPY file, or those of an NPZ archive by name. Throws OutputError naming the file.
 std::vector<Array> load_arrays(const std::filesystem::path& path);
 
 }  // namespace drape::compare

@@ -36,7 +36,7 @@ Picture picture_in(const fs::path& path) {
     }
 }
 
-/// Largest and RMS difference, and where the largest is. What is NaN on one side alone is infinitely far away.
+/// Largest and RMS difference, and the place of the largest. A NaN on one side alone is infinitely far away.
 class Differences {
   public:
     void see(double a, double b, std::size_t index) {

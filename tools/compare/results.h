@@ -1,4 +1,4 @@
-// Two runs' results by their numbers: arrays, pictures, folders of both.
+// Compares two runs' results by their numbers: arrays, pictures, folders of both.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +8,20 @@
 
 namespace drape::compare {
 
-/// What may differ. Arrays are judged by what is given of the first two, and must be equal where neither is; pictures
-/// likewise by the last two.
+/// Limits of the differences. Arrays are judged by those given of the first two, and must be equal where neither is;
+/// pictures by the last two in the same way.
 struct Limits {
-    std::optional<double> largest, rms;   ///< of the differences of an array's values
+    std::optional<double> largest, rms;   ///< on the differences of an array's values
     std::optional<double> psnr, channel;  ///< dB, at least; largest difference of a channel, of 255
 };
 
-/// One thing that both have, or only one.
+/// An array, picture or file that both have, or only one.
 struct Row {
     std::string name;
     std::string text;   ///< how it differs
-    bool over = false;  ///< a limit
-    /// Where they are known: largest and RMS difference of an array or of a picture's channels; PSNR in dB, nothing for
-    /// equal pictures.
+    bool over = false;  ///< over a limit
+    /// Largest and RMS difference of an array or of a picture's channels, and PSNR in dB, where they are known; equal
+    /// pictures have no PSNR.
     std::optional<double> largest, rms, psnr;
 };
 
@@ -31,8 +31,8 @@ bool is_result_file(const std::filesystem::path& path);
 /// Throws OutputError naming the file that cannot be read.
 std::vector<Row> compare_files(const std::filesystem::path& a, const std::filesystem::path& b, const Limits& limits);
 
-/// File by file, by name: other files must have equal bytes, the manifests are left out. A file that only one has is
-/// over the limit. Throws OutputError.
+/// Compares file by file, by name: other files must have equal bytes, the manifests are left out. A file that only one
+/// has is over the limit. Throws OutputError.
 std::vector<Row> compare_folders(const std::filesystem::path& a, const std::filesystem::path& b, const Limits& limits);
 
 std::string rows_text(const std::vector<Row>& rows);

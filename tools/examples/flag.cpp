@@ -1,4 +1,4 @@
-// A flag in the wind, built in code and stepped through; its last frame becomes flag.ppm.
+// Builds a flag in the wind in code and steps through it; its last frame becomes flag.ppm.
 #include <drape/simulation.h>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Entry points that return a VkResult and that a layer is asked for: those of Vulkan 1.0 to 1.3 on instances, devices,
-// queues and command buffers, and the debug messenger's. What the loader answers itself (layers, extensions and the
-// version of an instance) no explicit layer sees.
+// queues and command buffers, and the debug messenger's. No explicit layer sees those that the loader answers itself
+// (layers, extensions and the version of an instance).
 #pragma once
 
 // clang-format off

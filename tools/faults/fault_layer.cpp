@@ -1,11 +1,9 @@
-// A Vulkan layer, VK_LAYER_DRAPE_faults, that makes calls fail. Environment:
-//   DRAPE_FAULT=ENTRY_POINT:N:RESULT[:on]   the N-th call (from 1) of that entry point returns RESULT, a number,
-//   without
-//                                           being made, and leaves garbage where a handle would be; `on`: later ones
-//                                           too
+// A Vulkan layer, VK_LAYER_DRAPE_faults, that makes calls fail. It stands above the validation layer, which then tells
+// what is left over. Its environment:
+//   DRAPE_FAULT=ENTRY_POINT:N:RESULT[:on]   the N-th call (from 1) of that entry point is not made, returns RESULT
+//                                           (a number), and leaves garbage for a handle; `on`: later ones too
 //   DRAPE_FAULT_LOG=FILE                    gets a line `ENTRY_POINT COUNT` per entry point that was called, when the
 //                                           process ends, and a line `fault` when a call was failed
-// Above the validation layer, which then says what is left over.
 #include <dlfcn.h>
 #include <link.h>
 #include <vulkan/vk_layer.h>
@@ -54,7 +52,7 @@ struct Fault {
     bool on = false;
 };
 
-/// What is not understood ends the process: a test that fails nothing would prove nothing.
+/// A wish that is not understood ends the process: a test that fails nothing would prove nothing.
 Fault wanted_fault() {
     const std::string text = environment("DRAPE_FAULT");
     if (text.empty()) return {};
@@ -76,7 +74,7 @@ Fault wanted_fault() {
     std::_Exit(99);
 }
 
-/// Calls of this process, and what is failed of them.
+/// Counts the calls of this process, and fails the wanted ones.
 class Faults {
   public:
     ~Faults() {
@@ -103,8 +101,8 @@ class Faults {
 };
 Faults faults;
 
-/// The next layer's functions, by what the loader puts first into each dispatchable object. Looked up when it is
-/// created: later the loader may answer with the first layer's, and the chain would be a ring.
+/// The next layer's functions, by the pointer that the loader puts first into each dispatchable object. They are looked
+/// up when it is created: later the loader may answer with the first layer's, and the chain would be a ring.
 struct Next {
     PFN_vkGetInstanceProcAddr instance_function = nullptr;
     PFN_vkGetDeviceProcAddr device_function = nullptr;
@@ -139,7 +137,7 @@ void keep(Handle handle, const Next& next) {
     nexts[key_of(handle)] = next;
 }
 
-/// Where a function returns a handle through its last argument.
+/// Leaves garbage where a function returns a handle through its last argument.
 template <class Last>
 void leave_garbage(Last last) {
     if constexpr (std::is_pointer_v<Last>) {
@@ -157,7 +155,7 @@ struct Intercepted<entry_point, VkResult(VKAPI_PTR*)(First, Rest...)> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(First first, Rest... rest) {
         if (const std::optional<VkResult> result = faults.next(entry_point)) {
             const std::tuple<First, Rest...> all(first, rest...);
-            // VK_TIMEOUT and the like are successes: what they return is valid.
+            // VK_TIMEOUT and the like are successes, whose outputs are valid.
             if (*result < 0) leave_garbage(std::get<sizeof...(Rest)>(all));
             return *result;
         }
@@ -166,7 +164,7 @@ struct Intercepted<entry_point, VkResult(VKAPI_PTR*)(First, Rest...)> {
     }
 };
 
-/// The chain element that says what is next, moved on by one.
+/// Returns the chain element that names the next layer, moved on by one.
 template <class Link, class Create>
 Link* link_of(const Create* info, VkStructureType type) {
     for (auto* link = static_cast<const Link*>(info->pNext); link; link = static_cast<const Link*>(link->pNext))
@@ -174,8 +172,8 @@ Link* link_of(const Create* info, VkStructureType type) {
     return nullptr;
 }
 
-/// The loader unloads a driver with its last instance. What the driver keeps for the life of the process, which is
-/// reachable only from its own data, would then look like a leak of this program to a sanitizer.
+/// The loader unloads a driver with its last instance. Memory that the driver keeps for the life of the process, which
+/// is reachable only from its own data, would then look like a leak of this program to a sanitizer.
 void keep_libraries_loaded() {
     const auto pin = [](dl_phdr_info* library, std::size_t, void*) {
         if (*library->dlpi_name) dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "cloth/schedule.h"
+#include "cloth/frame_steps.h"
 
 namespace drape::native {
 

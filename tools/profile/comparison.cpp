@@ -80,7 +80,7 @@ Comparison compare(const std::string& before, const std::string& before_name, co
                    const std::string& after_name) {
     const Parsed a = parsed(before, before_name), b = parsed(after, after_name);
     Comparison comparison;
-    for (const char* key : {"scene", "device", "driver", "solver", "schedule", "draws", "by", "executable"})
+    for (const char* key : {"scene", "device", "driver", "solver", "kernels", "draws", "by", "executable"})
         if (a.context[key] != b.context[key])
             comparison.differences.push_back(
                 fmt::format("{}: {} before, {} after", key, a.context[key].asString(), b.context[key].asString()));

@@ -34,7 +34,7 @@ void describe(const ProfileRequest& request, const Simulation& simulation, const
     profile.device = device.info().name;
     profile.driver = device.info().driver + " " + device.info().driver_version;
     profile.solver = facts.method;
-    profile.schedule = facts.schedule;
+    profile.kernels = facts.kernels;
     profile.created = utc_timestamp();
     profile.draw = request.draw;
     profile.passes = request.passes;
@@ -56,7 +56,7 @@ Profile run_profile(const ProfileRequest& request) {
     options.draw = request.draw;
     options.positions = !request.draw;
     options.skip = request.scene.skip;
-    options.schedule = request.scene.schedule;
+    options.kernels = request.scene.kernels;
     options.keep_promises = false;
     options.timings = request.passes ? Timings::passes : Timings::stages;
     Simulation simulation(scene, options, device);

@@ -28,7 +28,7 @@ struct ProfiledFrame {
 
 struct Profile {
     // All of them text: what two profiles must share to be compared.
-    std::string program_version, scene, device, driver, solver, schedule, created;
+    std::string program_version, scene, device, driver, solver, kernels, created;
     bool draw = true, passes = false;
     bool substeps_vary = false;  ///< the work is of the substeps that the scene begins with
     std::vector<ProfiledFrame> frames;

@@ -71,7 +71,7 @@ Json::Value context(const Profile& profile) {
     value["device"] = profile.device;
     value["driver"] = profile.driver;
     value["solver"] = profile.solver;
-    value["schedule"] = profile.schedule;
+    value["kernels"] = profile.kernels;
     value["draws"] = profile.draw;
     value["by"] = profile.passes ? "passes" : "stages";
     value["memory_bytes"] = Json::UInt64(profile.memory_used);
@@ -143,9 +143,9 @@ Json::Value track_name(int track, const char* name) {
 }  // namespace
 
 std::string profile_text(const Profile& profile) {
-    std::string text = fmt::format("drape {} on {} ({}), {}, method {}, schedule {}, {} frames\n",
+    std::string text = fmt::format("drape {} on {} ({}), {}, method {}, kernels {}, {} frames\n",
                                    profile.program_version, profile.device, profile.driver, profile.scene,
-                                   profile.solver, profile.schedule, profile.frames.size());
+                                   profile.solver, profile.kernels, profile.frames.size());
     if (profile.frames.empty()) return text;
     const std::vector<Row> rows = rows_of(profile);
     std::size_t width = 8;

@@ -1,5 +1,5 @@
-// The library as a Python module: `import drape`. Scenes from files, text or dicts; simulations stepped with the GIL
-// released; positions, velocities, normals and pictures as NumPy arrays on the library's own memory.
+// The library as a Python module, `import drape`: scenes come from files, text or dicts, simulations step with the GIL
+// released, and positions, velocities, normals and pictures are NumPy arrays on the library's own memory.
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -16,14 +16,14 @@ namespace drape::python {
 
 namespace {
 
-/// A scene, and what it says with every default.
+/// A scene, and its JSON with every default.
 struct Scene {
     SceneDescription description;
     std::string json;
     std::vector<std::string> warnings;
 };
 
-/// {"/solver/substeps": 40} as `--set` has it.
+/// Returns {"/solver/substeps": 40} as `--set` has it.
 std::vector<std::string> override_texts(const py::dict& overrides) {
     const py::object dumps = py::module_::import("json").attr("dumps");
     std::vector<std::string> texts;
@@ -53,7 +53,7 @@ Scene load(const py::object& path, const py::dict& overrides) {
     return scene_of(read_scene(py::cast<std::string>(py::module_::import("os").attr("fspath")(path)), texts), texts);
 }
 
-/// A Scene as it is; a dict is parsed, a path is loaded.
+/// Takes a Scene as it is, parses a dict, and loads a path.
 Scene any_scene(const py::object& source) {
     if (py::isinstance<Scene>(source)) return py::cast<Scene>(source);
     return py::isinstance<py::dict>(source) ? parse(source, {}) : load(source, {});
@@ -112,7 +112,7 @@ class PySimulation {
     bool draws() const { return draws_; }
     bool has_normals() const { return has_normals_; }
 
-    /// By number or by name.
+    /// Finds a cloth by number or by name.
     std::size_t cloth(const py::object& which) const {
         const std::vector<Cloth>& cloths = scene().cloths;
         if (py::isinstance<py::str>(which)) {
@@ -131,7 +131,7 @@ class PySimulation {
     std::optional<Simulation> simulation_;
 };
 
-/// A read-only view of the library's memory, which lives as long as `owner`.
+/// Returns a read-only view of the library's memory, which lives as long as `owner`.
 template <class T>
 py::array view(const T* data, const std::vector<py::ssize_t>& shape, const std::vector<py::ssize_t>& strides,
                const py::object& owner) {
@@ -142,7 +142,7 @@ py::array view(const T* data, const std::vector<py::ssize_t>& shape, const std::
 
 using Arrays = std::vector<std::span<const float>>;
 
-/// x y z of each particle: float32 [row, column, 3].
+/// Returns x y z of each particle, float32 [row, column, 3].
 py::array vectors(const py::object& owner, const py::object& which, Arrays FinishedFrame::*what) {
     const auto& self = py::cast<const PySimulation&>(owner);
     if (what == &FinishedFrame::normals && !self.has_normals())
@@ -194,7 +194,7 @@ void restore(Simulation& simulation, const std::map<std::string, std::string>& p
     simulation.restore(state);
 }
 
-/// drape.Error and one class below it for each way to fail, with `exit_code` as the command line has it.
+/// Makes drape.Error and one class below it for each way to fail, with `exit_code` as the command line has it.
 class Errors {
   public:
     explicit Errors(py::module_& module) {
@@ -303,10 +303,10 @@ void define_simulation(py::module_& module) {
              py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
              py::arg("size") = py::none(), py::arg("normals") = false, py::arg("validate") = false,
              py::arg("keep_failed") = false,
-             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is the best there "
-             "is. draw: pictures, of size (width, height), showing view (shaded, stretch, warp, weft, wire, normals; "
-             "view_range: strain at the end of the colours). normals: normals() are wanted. validate: Vulkan's "
-             "validation layer, messages on stderr. "
+             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is what the "
+             "environment variable DRAPE_DEVICE says, else the best there is. draw: pictures, of size (width, height), "
+             "showing view (shaded, stretch, warp, weft, wire, normals; view_range: strain at the end of the colours). "
+             "normals: normals() are wanted. validate: Vulkan's validation layer, messages on stderr. "
              "keep_failed: go on after a frame that is no result.")
         .def("step", &PySimulation::step,
              "Computes the next frame, the first time frame 0, the start; False after the last. Other Python threads "

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the shapes of a trajectory follow from; -1: not the same in all runs.
+/// The shapes of a trajectory follow from these; -1: not the same in all runs.
 struct Shape {
     std::int64_t frames = 0, nodes = 0, cells = 0;
     double dt = 0;
@@ -45,7 +45,7 @@ Shape common_shape(const SweepSpec& spec) {
         if (shape->cells != common->cells) common->cells = -1;
         if (shape->dt != common->dt) common->dt = -1;
     }
-    if (common && common->cells < 0) common->cells = -1;  // holes: only the run itself knows
+    if (common && common->cells < 0) common->cells = -1;  // only the run itself knows its holes
     return common.value_or(Shape{-1, -1, -1, -1});
 }
 

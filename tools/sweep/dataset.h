@@ -8,7 +8,7 @@
 
 namespace drape::sweep {
 
-/// The same file under another name, without another copy where the file system can. Throws OutputError.
+/// Gives a file another name, without another copy where the file system can. Throws OutputError.
 void give_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes meta.json: field names, and type, shape and dtype of each, -1 where trajectories differ; dt, s.

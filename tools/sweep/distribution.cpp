@@ -1,5 +1,6 @@
 #include "sweep/distribution.h"
 
+#include <Random123/philox.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,13 +8,12 @@
 #include <stdexcept>
 
 #include "output/atomic_file.h"
-#include "sweep/philox.h"
 
 namespace drape::sweep {
 
 namespace {
 
-/// The numbers of one parameter in one run.
+/// Draws the numbers of one parameter in one run.
 class Numbers {
   public:
     Numbers(std::uint64_t seed, std::uint32_t index, const std::string& pointer)
@@ -23,9 +23,10 @@ class Numbers {
             pointer_[i] = static_cast<std::uint32_t>(std::stoull(hash.substr(8 * i, 8), nullptr, 16));
     }
 
-    /// Two numbers in [0, 1), of 53 bits each.
+    /// Returns two numbers in [0, 1), of 53 bits each.
     std::array<double, 2> pair() {
-        const std::array<std::uint32_t, 4> words = philox({index_, attempt_++, pointer_[0], pointer_[1]}, key_);
+        const r123::Philox4x32::ctr_type words =
+            r123::Philox4x32{}({{index_, attempt_++, pointer_[0], pointer_[1]}}, {{key_[0], key_[1]}});
         return {fraction(words[0], words[1]), fraction(words[2], words[3])};
     }
 
@@ -38,10 +39,10 @@ class Numbers {
     std::uint32_t index_, attempt_ = 0;
 };
 
-/// The fewest digits that read back as the same number.
+/// Writes the fewest digits that read back as the same number.
 std::string written(double value) { return fmt::format("{}", value); }
 
-/// By G. Box and M. Muller, 1958.
+/// Draws a normal number by G. Box and M. Muller, 1958.
 double normal_number(const Normal& normal, Numbers& numbers) {
     for (int attempt = 0; attempt < 10'000; ++attempt) {
         const auto [a, b] = numbers.pair();

@@ -1,4 +1,4 @@
-// What a value of the scene may become from run to run.
+// A value of the scene follows one of these distributions over the runs.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +32,9 @@ struct GridValues {
 
 using Distribution = std::variant<Uniform, LogUniform, Normal, WholeNumber, Choice, GridValues>;
 
-/// The value of a random parameter in one run, as JSON: a pure function of the arguments, by Philox with the seed as
-/// key and (index, attempt, hash of the pointer) as counter, so that other parameters and other runs do not matter.
-/// Throws std::runtime_error when a normal distribution's limits are so far out that 10,000 draws miss them.
+/// Returns the value of a random parameter in one run, as JSON. It is a pure function of the arguments, by Philox with
+/// the seed as key and (index, attempt, hash of the pointer) as counter, so that other parameters and other runs do not
+/// matter. Throws std::runtime_error when a normal distribution's limits are so far out that 10,000 draws miss them.
 std::string drawn(const Distribution& distribution, std::uint64_t seed, std::uint32_t index,
                   const std::string& pointer);
 

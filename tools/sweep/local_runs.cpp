@@ -21,7 +21,7 @@ namespace drape::sweep {
 
 namespace {
 
-/// Its messages go to the run's log.
+/// Starts a process, whose messages go to the run's log.
 pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log) {
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -51,7 +51,7 @@ class Pool {
   public:
     Pool(const LocalRuns& runs, const SweepFolder& folder) : runs_(runs), folder_(folder) {}
     ~Pool() {
-        // Only after a failure of our own: nobody would wait for them.
+        // Processes are left only after a failure of this program: nobody would wait for them.
         for (const auto& [child, index] : running_) kill(child, SIGKILL);
         for (const auto& [child, index] : running_) waitpid(child, nullptr, 0);
     }
@@ -84,7 +84,7 @@ class Pool {
     }
 
   private:
-    /// Why a run that could not read or write a file ended, by its log; where that has no room either, it is the one.
+    /// Returns why a run that could not read or write a file ended, by its log; fills that in where it is empty.
     std::string file_failure(std::uint32_t index, std::string said) const {
         constexpr std::string_view program = "drape: ";
         if (said.starts_with(program)) said.erase(0, program.size());
@@ -92,7 +92,7 @@ class Pool {
         return fmt::format("run {}: {}", index, said);
     }
 
-    /// Whether the run has a record now.
+    /// Returns whether the run has a record now.
     bool ended(std::uint32_t index, int status) {
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
         auto record = folder_.record(index);
@@ -121,7 +121,7 @@ class Pool {
     const SweepFolder& folder_;
     std::map<pid_t, std::uint32_t> running_;
     std::uint32_t failed_ = 0;
-    std::string unwritten_;  ///< what ends the sweep: a file that the first such run could not read or write
+    std::string unwritten_;  ///< first file that a run could not read or write, which ends the sweep
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ void make_folder(const fs::path& path) {
     if (error) throw OutputError(fmt::format("cannot make '{}': {}", path.string(), error.message()));
 }
 
-/// Statistics that a table of runs has: the largest of any frame and cloth.
+/// The table of runs has these statistics, the largest of any frame and cloth.
 constexpr std::string_view worst_values[] = {"stretch_max",   "stretch_rms",   "stretch_error_rms",
                                              "penetration_m", "speed_max_m_s", "motion_error_m_s"};
 
@@ -69,7 +69,7 @@ std::map<std::string, double> manifest_values(const Json::Value& manifest) {
     return values;
 }
 
-/// By RFC 4180.
+/// Quotes a field by RFC 4180.
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     std::string field = "\"";
@@ -77,7 +77,7 @@ std::string csv_field(const std::string& text) {
     return field + "\"";
 }
 
-/// A value as a table has it: words without the quotes of JSON.
+/// Returns a value as a table has it: words without the quotes of JSON.
 std::string plain(const std::string& json) { return json.starts_with('"') ? parsed(json, "a value").asString() : json; }
 
 }  // namespace
@@ -117,7 +117,7 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh
         throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
     if (!there && fs::exists(path_) && !fs::is_empty(path_) && !fs::exists(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
-    // First what says whose folder it is: where there is no room for the rest, the sweep can still go on.
+    // The file that says whose folder it is comes first: without room for the rest the sweep can still go on.
     make_folder(path_);
     if (!there) write_file(file, text);
     for (const char* name : {"runs", "jobs"}) make_folder(path_ / name);

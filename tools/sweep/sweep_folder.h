@@ -1,4 +1,4 @@
-// What a sweep leaves: a folder and a record per run, and what is made of all records.
+// A sweep leaves a folder and a record per run, and files made of all records.
 //
 //   sweep.json            the specification and the version it belongs to: another sweep is refused
 //   runs/0012/            the run's own folder, as `drape simulate` makes it
@@ -20,13 +20,13 @@ namespace drape::sweep {
 
 struct JobRecord {
     std::uint32_t index = 0;
-    int exit_code = 0;                       ///< of the run; 128 + the signal's number when one ended it
-    std::string message;                     ///< why it failed
-    double seconds = 0;                      ///< of wall-clock time
-    std::map<std::string, double> values{};  ///< of the run's manifest: worst and last statistics, bytes
+    int exit_code = 0;                       ///< the run's exit code; 128 + the signal's number when one ended it
+    std::string message;                     ///< reason why it failed
+    double seconds = 0;                      ///< wall-clock time, s
+    std::map<std::string, double> values{};  ///< from the run's manifest: worst and last statistics, bytes
 
     bool done() const { return exit_code == 0; }
-    /// "done", or the name of the exit code.
+    /// Returns "done", or the name of the exit code.
     std::string status() const;
 };
 
@@ -34,10 +34,10 @@ struct Tally {
     std::uint32_t done = 0;
     std::vector<JobRecord> failed;
     std::vector<std::uint32_t> missing;
-    std::uint64_t bytes = 0;  ///< of the files of all runs
+    std::uint64_t bytes = 0;  ///< bytes of the files of all runs
 
     bool complete() const { return failed.empty() && missing.empty(); }
-    /// "996 done, 3 failed, 1 missing", and a line per failure, at most 20 of them.
+    /// Returns "996 done, 3 failed, 1 missing", and a line per failure, at most 20 of them.
     std::string text() const;
 };
 
@@ -55,7 +55,7 @@ class SweepFolder {
     /// Adds the numbers of the run's manifest, and with `dataset` gives the data set its trajectory.
     void write(JobRecord record, bool dataset) const;
 
-    /// Writes results.csv, and with `dataset` dataset/meta.json, of the records that are there.
+    /// Writes results.csv, and with `dataset` dataset/meta.json, from the records that are there.
     Tally collect(bool dataset) const;
 
   private:

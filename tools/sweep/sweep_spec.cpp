@@ -70,7 +70,7 @@ bool read_list(const SceneNode& node, Distribution& distribution) {
     return fits;
 }
 
-/// The keys of a distribution; what they hold is read by the functions above.
+/// The keys of a distribution, whose values the functions above read.
 const Definition& distribution_keys() {
     static const Definition keys = [] {
         Definition definition;
@@ -117,7 +117,7 @@ bool read_distribution(const SceneNode& node, Distribution& distribution) {
     return fits;
 }
 
-/// The members of an object whose keys are JSON pointers.
+/// Reads the members of an object whose keys are JSON pointers.
 template <class Take>
 bool read_pointers(const SceneNode& node, const Take& take) {
     if (!node) return true;

@@ -1,4 +1,4 @@
-// A sweep: a scene, and which of its values change from run to run.
+// A sweep is a scene, and a list of its values that change from run to run.
 #pragma once
 
 #include <map>
@@ -18,11 +18,11 @@ struct SweepSpec {
     std::uint32_t count = 0;                         ///< runs 0 .. count-1
     std::vector<std::string> set;                    ///< "/pointer=value", in every run, before the others
     std::map<std::string, Distribution> parameters;  ///< by JSON pointer
-    std::string text;                                ///< of the file
+    std::string text;                                ///< the file's text
 
-    /// Values of the parameters of a run, by pointer, as JSON. A pure function of the specification and the index.
+    /// Returns a run's parameters, by pointer, as JSON: a pure function of the specification and the index.
     std::map<std::string, std::string> parameters_of(std::uint32_t index) const;
-    /// All "/pointer=value" of a run, as --set takes them.
+    /// Returns all "/pointer=value" of a run, as --set takes them.
     std::vector<std::string> overrides_of(std::uint32_t index) const;
 };
 

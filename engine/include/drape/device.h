@@ -28,8 +28,8 @@ struct SceneDescription;
 /// An opened device that cloth is simulated on; copies share it.
 class Device {
   public:
-    /// `selector` is empty (the best device there is), an INDEX, a UUID, a unique part of the NAME, or "cpu". Throws a
-    /// DeviceError that lists the devices.
+    /// `selector`: INDEX, UUID, a unique part of the NAME, or "cpu"; empty: that of the environment variable
+    /// DRAPE_DEVICE, without it the best there is. Throws DeviceError that lists the devices.
     explicit Device(const std::string& selector = {}, Validation validation = Validation::off);
 
     /// Opens the device so that it runs a scene soonest: lavapipe without worker threads where prefers_calling_thread

@@ -16,8 +16,8 @@
 #include "drape/device.h"
 #include "drape/error.h"
 #include "drape/frame.h"
+#include "drape/kernels.h"
 #include "drape/scene_reader.h"
-#include "drape/schedule.h"
 #include "drape/view.h"
 
 namespace drape {
@@ -36,7 +36,7 @@ struct SimulationOptions {
     bool keep_promises = true;
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
     Timings timings = Timings::stages;
-    Schedule schedule = Schedule::automatic;  ///< DeviceError where the device has not what it needs
+    Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
 };
 
@@ -46,7 +46,7 @@ struct SimulationFacts {
         std::string what, reason;
     };
     std::string method;         ///< the method in use
-    std::string schedule;       ///< in use
+    std::string kernels;        ///< those in use, beside the plain ones
     std::string asked_method;   ///< the method that the scene asks for
     std::string choice_reason;  ///< the reason for that method, if it was chosen
     double tolerance = 0;       ///< RMS stretch error that no frame may miss; 0: none

@@ -1,4 +1,4 @@
-// One descriptor of every kind that Drape uses, one that is declared and never used, and push constants.
+// Has one descriptor of every kind that Drape uses, one that is declared and never used, and push constants.
 #version 460
 layout(local_size_x = 8, local_size_y = 4) in;
 

@@ -1,4 +1,4 @@
-// What Drape does not use: a uniform buffer, another set, an array of descriptors, a block that is no array.
+// Declares what Drape does not use: a uniform buffer, another set, an array of descriptors, a block that is no array.
 #version 460
 layout(local_size_x = 1) in;
 layout(set = 0, binding = 0) uniform Settings { vec4 settings; };

@@ -1,4 +1,4 @@
-// Corners are fetched from an image, as the cloth's are.
+// Fetches corners from an image, as the cloth's are.
 #version 460
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D corners;
 

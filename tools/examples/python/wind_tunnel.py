@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far a flag lifts in winds of several speeds: a scene built as a dict, positions as NumPy arrays.
+"""Measures how far a flag lifts in winds of several speeds: a scene built as a dict, positions as NumPy arrays.
 
     PYTHONPATH=build/python python3 tools/examples/python/wind_tunnel.py [FRAMES]
 """
@@ -33,7 +33,7 @@ for speed in (2, 4, 8):
     simulation = drape.Simulation(flag(speed))
     lifts = []
     for step in simulation:
-        # A view on the library's memory: it holds the frame until the next step.
+        # This is a view on the library's memory, which holds the frame until the next step.
         free_edge = step.positions("flag")[:, -1]
         lifts.append(free_edge[:, 0].mean())
     errors = simulation.statistics["flag/stretch_error_rms"]

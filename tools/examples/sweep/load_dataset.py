@@ -18,7 +18,7 @@ HANDLE = 3
 
 
 def trajectories(folder):
-    """(name, arrays by field) of every trajectory, in order."""
+    """Yields (name, arrays by field) of every trajectory, in order."""
     for path in sorted(glob.glob(os.path.join(folder, "trajectory_*.npz"))):
         with numpy.load(path) as archive:
             yield os.path.basename(path), {field: archive[field] for field in archive.files}

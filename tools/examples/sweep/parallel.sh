@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sweep by GNU parallel (Debian: apt-get install parallel), on this machine or, with --sshlogin, on several that share
-# the folder: every run is a job of its own.
+# Runs a sweep by GNU parallel (Debian: apt-get install parallel), on this machine or, with --sshlogin, on several that
+# share the folder: every run is a job of its own.
 #
 #     tools/examples/sweep/parallel.sh SPEC DIR [drape sweep's options]
 set -euo pipefail
@@ -8,6 +8,6 @@ spec=$1 folder=$2
 shift 2
 drape=${DRAPE:-build/drape}
 last=$(($("$drape" sweep "$spec" --count) - 1))
-# A failed run is in its record, and in what --collect says.
+# A failed run is in its record, and --collect counts it.
 seq 0 "$last" | parallel --will-cite "$drape" sweep "$spec" -o "$folder" --resume "$@" --index {} || true
 "$drape" sweep "$spec" -o "$folder" "$@" --collect

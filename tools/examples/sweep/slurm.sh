@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sweep as a Slurm job array (Debian: slurm-wlm): one task per run, and one at the end that collects. DIR is on a file
-# system that all nodes share.
+# Runs a sweep as a Slurm job array (Debian: slurm-wlm): one task per run, and one at the end that collects. DIR is on a
+# file system that all nodes share.
 #
 #     tools/examples/sweep/slurm.sh SPEC DIR [drape sweep's options]
 set -euo pipefail

@@ -1,0 +1,86 @@
+#include "cloth/contact_state.h"
+
+namespace drape {
+
+namespace contact_rows {
+namespace {
+
+using glsl::layout_of;
+using Context = const ContactContext&;
+
+bool always(Context) { return true; }
+bool crossed(Context c) { return !c.contact.to_part.empty(); }
+
+FieldExtent one(Context) { return {1}; }
+FieldExtent sheet(Context c) {
+    const glsl::ivec2 grid = c.contact.push.grid;
+    return {static_cast<std::uint64_t>(grid.x), static_cast<std::uint64_t>(grid.y)};
+}
+FieldExtent places(Context c) { return {c.contact.place_count()}; }
+FieldExtent cloths(Context c) { return {c.contact.cloths.size()}; }
+FieldExtent crossed_list(Context c) { return {c.contact.to_part.size()}; }
+FieldExtent cell_list(Context c) { return {c.capacity.cells}; }
+
+std::vector<ContactRow> rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    using enum ContactField;
+    const auto &vector = layout_of<glsl::vec4>(), &pair = layout_of<glsl::ivec2>(), &integer = layout_of<glsl::uint>(),
+               &box = layout_of<glsl::SelfBox>();
+    return {
+        {owners, "owners", buffer, layout_of<int>(), constant, always, places,
+         [](Context c) { return bytes_of_list(c.contact.owners()); }},
+        {ContactField::cloths, "cloths", buffer, layout_of<glsl::SelfCloth>(), constant, always, contact_rows::cloths,
+         [](Context c) { return bytes_of_list(c.contact.cloths); }},
+        {meetings, "meetings", buffer, integer, constant, always,
+         [](Context c) { return FieldExtent{c.contact.meetings.size()}; },
+         [](Context c) { return bytes_of_list(c.contact.meetings); }},
+        {ContactField::crossed, "crossed", buffer, layout_of<glsl::SelfCrossed>(), constant, contact_rows::crossed,
+         crossed_list, [](Context c) { return bytes_of_list(c.contact.to_part); }},
+        {crossings, "crossings", buffer, layout_of<glsl::SelfCrossings>(), device, contact_rows::crossed, crossed_list},
+        {led, "led", buffer, vector, device, contact_rows::crossed, contact_rows::cloths},
+        {positions, "positions", image_and_buffer, vector, device, always, sheet},
+        {displacements, "displacements", image_and_buffer, vector, device, always, sheet},
+        {boxes, "boxes", texel_buffer, box, device, always, places},
+        {kept, "kept", texel_buffer, box, device, always,
+         [](Context c) { return FieldExtent{self_tree_boxes(c.contact.push.grid)}; }},
+        {candidates, "candidates", buffer, pair, device, always, cell_list},
+        {cells, "cells", buffer, pair, device, always, cell_list},
+        {near, "near", buffer, integer, device, always, [](Context c) { return FieldExtent{c.capacity.near}; }},
+        {pairs, "pairs", buffer, layout_of<glsl::uvec4>(), device, always,
+         [](Context c) { return FieldExtent{c.capacity.pairs}; }},
+        {corrections, "corrections", texel_buffer, layout_of<glsl::ivec4>(), device, always, places},
+        {before, "before", texel_buffer, vector, device, always, places},
+        {shares, "shares", buffer, integer, device, always,
+         [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_rounds}; }},
+        {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always, one},
+        {sizes, "sizes", buffer, layout_of<glsl::uvec4>(), device, always,
+         [](Context) { return FieldExtent{glsl::self_size_count}; }},
+    };
+}
+
+}  // namespace
+}  // namespace contact_rows
+
+std::span<const ContactRow> contact_fields() {
+    static const std::vector<ContactRow> table = contact_rows::rows();
+    return table;
+}
+
+std::optional<ContactField> contact_field_called(std::string_view variable) {
+    static const auto fields = fields_by_variable(contact_fields());
+    return found_in(fields, variable);
+}
+
+std::string resource_name(const ContactRow& row) { return "contact " + std::string(row.name); }
+
+ContactCapacity limited(const ContactCapacity& capacity, std::uint64_t most_bytes) {
+    const auto least = [most_bytes](std::uint32_t entries, ContactField list) {
+        const std::uint64_t fitting = most_bytes / contact_fields()[static_cast<std::size_t>(list)].element.size;
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, fitting, most_contact_entries}));
+    };
+    return {least(capacity.pairs, ContactField::pairs), least(capacity.near, ContactField::near),
+            least(capacity.cells, ContactField::cells)};
+}
+
+}  // namespace drape

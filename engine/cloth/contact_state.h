@@ -1,0 +1,49 @@
+// The state that contact between the cloths has of its own (docs/physics.md 5): what its passes hand each other, by
+// place on the sheet on which all cloths lie side by side. Pure.
+#pragma once
+
+#include "cloth/self_contact.h"
+#include "cloth/state_row.h"
+
+namespace drape {
+
+enum class ContactField : std::uint8_t {
+    owners,         ///< by place on the sheet: its cloth, or -1
+    cloths,         ///< where the cloths lie on the sheet (shared/self_contact_types.h)
+    meetings,       ///< by cloth and cloth: self_meets and those beside it
+    crossed,        ///< pairs of cloths that started through each other
+    crossings,      ///< what the substep found of them
+    led,            ///< by cloth: what it is led by to come apart from others, m
+    positions,      ///< by place: position at the start of the substep, m; w: relative inverse mass
+    displacements,  ///< by place: motion within the substep, m; w: bits of the triangles and edges that it owns
+    boxes,          ///< by place: what its cell is in in this substep (shaders/include/self_contact.h)
+    kept,           ///< tree of boxes in which cells were looked for, the lowest level first
+    candidates,     ///< pairs of cells that may come near each other until the next search
+    cells,          ///< those that are near in this substep
+    near,           ///< pairs of primitives whose boxes are near each other
+    pairs,          ///< corners of those that may meet
+    corrections,    ///< sums of integers, by place
+    before,         ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
+    shares,         ///< bits of the share of its motion that a particle may make, by round
+    record,         ///< what contact was in the frame
+    sizes,          ///< of the dispatches that go through lists
+};
+inline constexpr std::size_t contact_field_count = static_cast<std::size_t>(ContactField::sizes) + 1;
+
+struct ContactContext {
+    const SelfContact& contact;
+    ContactCapacity capacity;
+};
+
+using ContactRow = StateRow<ContactField, ContactContext>;
+
+/// By ContactField.
+std::span<const ContactRow> contact_fields();
+/// The field that shaders call by this name, if there is one.
+std::optional<ContactField> contact_field_called(std::string_view variable);
+/// "contact <name>": the resource, which no cloth's is, since those have a stroke in their names.
+std::string resource_name(const ContactRow& row);
+/// As far as a buffer of so many bytes can hold each of the lists.
+ContactCapacity limited(const ContactCapacity& capacity, std::uint64_t most_bytes);
+
+}  // namespace drape

@@ -1,0 +1,139 @@
+#include "cloth/frame_steps.h"
+
+namespace drape {
+
+namespace {
+
+/// Adds the steps of one cloth's substep to a frame.
+class Substep {
+  public:
+    Substep(const SimulationModel& model, std::size_t cloth, std::uint32_t substep, std::vector<Step>& steps)
+        : model_(model), cloth_(model.cloths[cloth]), index_(cloth), substep_(substep), steps_(steps) {}
+
+    void add() {
+        if (cloth_.has_release) add(StepKind::release);
+        if (model_.windy) add(StepKind::wind);
+        add(cloth_.plan.prediction);
+        if (cloth_.has_motion) add(StepKind::pin);
+        // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
+        add(cloth_.plan.once);
+        add_iterations();
+        add_tethers();
+    }
+
+  private:
+    Step& add(StepKind kind, std::uint32_t iteration = 0) {
+        return steps_.emplace_back(Step{kind, index_, substep_, iteration});
+    }
+    void add(const std::vector<MethodStep>& planned) {
+        for (const MethodStep& step : planned) {
+            Step& added = add(step.kind);
+            added.constants = step.constants;
+            added.last = substep_ + 1 == model_.scene.solver.substeps;
+        }
+    }
+    void add_iterations() {
+        const SolverSettings& solver = model_.scene.solver;
+        const std::uint32_t count = model_.method().iterates() ? solver.iterations : 1;
+        for (std::uint32_t iteration = 0; iteration < count; ++iteration) {
+            const bool last = iteration + 1 == count, conditional = model_.adaptive() && iteration > 0;
+            for (const MethodStep& step : cloth_.plan.iterated)
+                steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
+                                  last && substep_ + 1 == solver.substeps, 1, conditional});
+            const bool per_iteration = solver.collide == CollideWhen::iteration;
+            if (!model_.scene.colliders.empty() && (per_iteration || last))
+                collide(iteration, last && !collides_again()).conditional = conditional && per_iteration;
+            if (model_.adaptive() && !last)
+                for (const StepKind kind : {StepKind::residual, StepKind::decide})
+                    add(kind, iteration).conditional = conditional;
+        }
+    }
+    /// Ends a substep: tethers, and once more the contacts that they may have pulled particles into.
+    void add_tethers() {
+        if (!cloth_.tethers.empty()) add(StepKind::tether);
+        if (!model_.scene.colliders.empty() && collides_again()) collide(model_.scene.solver.iterations, true);
+    }
+    /// After the iterations: behind tethers, and where the device may skip the last iteration, in which the edges of
+    /// boxes would be met.
+    bool collides_again() const { return !cloth_.tethers.empty() || (cloth_.edge_reach > 0 && model_.adaptive()); }
+    /// `ends`: nothing moves the particles any more in this substep.
+    Step& collide(std::uint32_t iteration, bool ends) {
+        const bool edges = ends && cloth_.edge_reach > 0;
+        if (edges) add(StepKind::box_edges, iteration);
+        // Led off one triangle, a corner may be past its neighbour.
+        if (edges) add(StepKind::box_edges, iteration).after_edges = true;
+        Step& step = add(StepKind::collide, iteration);
+        step.after_edges = edges;
+        return step;
+    }
+
+    const SimulationModel& model_;
+    const ClothModel& cloth_;
+    std::size_t index_;
+    std::uint32_t substep_;
+    std::vector<Step>& steps_;
+};
+
+/// Adds the steps of contact between the cloths to a substep's, last of all, so that nothing moves a particle after its
+/// motion was found to cross nothing.
+class ContactSteps {
+  public:
+    ContactSteps(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
+        : model_(model), contact_(*model.self_contact), substep_(substep), steps_(steps) {}
+
+    void add() {
+        glsl::SelfContactPush push = contact_.push;
+        push.first = substep_ == 0 ? 1 : 0;
+        const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
+        add_for_cloths(StepKind::self_gather);
+        add_one(StepKind::self_common);
+        for (const StepKind kind : {StepKind::self_boxes, StepKind::self_search, StepKind::self_kept}) add_one(kind);
+        for (push.level = 1; push.level <= push.top; push.level = push.last + 1) {
+            push.last = last_level(push, push.level);
+            add_one(StepKind::self_levels);
+        }
+        for (const StepKind kind :
+             {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_bent})
+            add_one(kind);
+        if (!contact_.to_part.empty())
+            for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
+        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);
+        for (push.round = 0; push.round < glsl::self_iterations; ++push.round)
+            for (const StepKind kind : {StepKind::self_contact, StepKind::self_push}) add_one(kind);
+        if (!model_.scene.colliders.empty()) collide();
+        for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_limit);
+        add_one(StepKind::self_move);
+        add_for_cloths(StepKind::self_return);
+    }
+
+  private:
+    void add_for_cloths(StepKind kind) {
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth)});
+    }
+    void collide() {
+        add_for_cloths(StepKind::self_return);
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            steps_.push_back({StepKind::collide, cloth, substep_, model_.scene.solver.iterations + 1});
+        add_for_cloths(StepKind::self_gather_again);
+    }
+
+    const SimulationModel& model_;
+    const SelfContact& contact_;
+    std::uint32_t substep_;
+    std::vector<Step>& steps_;
+};
+
+}  // namespace
+
+std::vector<Step> frame_steps(const SimulationModel& model) {
+    std::vector<Step> steps;
+    for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) Substep(model, cloth, substep, steps).add();
+        if (model.self_contact) ContactSteps(model, substep, steps).add();
+    }
+    steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
+    return steps;
+}
+
+}  // namespace drape

@@ -1,0 +1,219 @@
+#include "cloth/kernel_steps.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "cloth/cyclic_lines.h"
+#include "cloth/frame_steps.h"
+#include "shared/stream_types.h"
+#include "shared/tile_types.h"
+
+namespace drape {
+
+namespace {
+
+/// A frame's first step stays alone, since it finds other positions (Step::substep).
+bool can_join(const Step& step) {
+    return step.kind == StepKind::explicit_step && step.substep > 0 && !step.last &&
+           step.push<glsl::ExplicitPush>().twist == 0;
+}
+
+/// Where the steps of a cloth from `first` on are, as long as nothing else happens to it between them and they are no
+/// more than may be; nothing where they are too few.
+std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, const FlightSize& size) {
+    std::vector<std::size_t> places;
+    for (std::size_t k = first; k < steps.size() && places.size() < size.most; ++k) {
+        if (steps[k].cloth != steps[first].cloth && steps[k].cloth != all_cloths) continue;
+        if (!can_join(steps[k])) break;
+        places.push_back(k);
+    }
+    return places.size() >= size.least ? places : std::vector<std::size_t>{};
+}
+
+/// Finds the plain steps that make up one of all springs.
+class SpringJoiner {
+  public:
+    SpringJoiner(const SimulationModel& model, Kernel kernel, const std::vector<Step>& steps)
+        : model_(model), kernel_(kernel), steps_(steps) {}
+
+    /// How many steps from `first` on are all springs of an iteration that can be one; 0: none.
+    std::size_t length_at(std::size_t first) const {
+        const Step& step = steps_[first];
+        if (step.kind != StepKind::spring || step.conditional) return 0;
+        const PerDirection<bool>& carries = model_.cloths[step.cloth].plan.carries_tension;
+        if (std::ranges::any_of(carries, std::identity()) && !std::ranges::all_of(carries, std::identity())) return 0;
+        std::size_t end = first;
+        while (end < steps_.size() && same_iteration(steps_[end], step)) ++end;
+        return end - first;
+    }
+
+    Step made_of(std::size_t first, std::size_t length) const {
+        Step joined = steps_[first];
+        joined.kind = StepKind::all_springs;
+        joined.kernel = kernel_;
+        glsl::AllSpringsPush push{};
+        for (std::size_t k = first; k < first + length; ++k) {
+            const auto& spring = steps_[k].push<glsl::SpringPush>();
+            push.grid = spring.grid;
+            push.compression = spring.compression;
+            put(push.rest_length, spring.channel, spring.rest_length);
+            put(push.compliance, spring.channel, spring.compliance);
+        }
+        joined.constants = push;
+        return joined;
+    }
+
+  private:
+    static void put(glsl::vec4& values, int channel, float value) {
+        float* const places[] = {&values.x, &values.y, &values.z, &values.w};
+        *places[channel] = value;
+    }
+    static bool same_iteration(const Step& one, const Step& other) {
+        return one.kind == other.kind && one.cloth == other.cloth && one.substep == other.substep &&
+               one.iteration == other.iteration;
+    }
+    const SimulationModel& model_;
+    Kernel kernel_;
+    const std::vector<Step>& steps_;
+};
+
+/// Steps of which some are joined ones, which write the spare displacement: so a prediction does too before an odd
+/// number of them. Those of all springs write the spare tensions as well, so that a substep's last one writes the
+/// tension where it is looked for.
+class JoinedSteps {
+  public:
+    void add(const Step& step) {
+        if (step.kind == StepKind::force || step.kind == StepKind::predict) substeps_[step.cloth] = {steps_.size(), {}};
+        steps_.push_back(step);
+    }
+    void add_joined(const Step& step) {
+        Substep& substep = substeps_.at(step.cloth);
+        steps_[substep.prediction].turns ^= true;
+        if (step.kind == StepKind::all_springs) {
+            for (const std::size_t place : substep.springs) steps_[place].turns ^= true;
+            substep.springs.push_back(steps_.size());
+        }
+        steps_.push_back(step);
+    }
+    const std::vector<Step>& steps() const { return steps_; }
+
+  private:
+    /// Places of steps.
+    struct Substep {
+        std::size_t prediction = 0;
+        std::vector<std::size_t> springs;
+    };
+    std::vector<Step> steps_;
+    std::map<std::size_t, Substep> substeps_;  ///< the last one, by cloth
+};
+
+/// The size of the joined explicit steps of a tile, which are more where it holds the whole cloth.
+FlightSize tile_flight(const Grid& grid) {
+    const bool is_whole = tile_halo_of(grid, glsl::tile_halo) == 0;
+    return {2, static_cast<std::uint32_t>(is_whole ? glsl::tile_most_steps : glsl::tile_halo)};
+}
+
+/// Explicit steps that stay alone stream too, unless wind blows or the cloth bends.
+void stream_single_steps(const SimulationModel& model, std::vector<Step>& steps) {
+    for (Step& step : steps)
+        if (step.kind == StepKind::explicit_step && !model.windy && step.push<glsl::ExplicitPush>().twist == 0)
+            step.kernel = Kernel::explicit_stream;
+}
+
+void reduce_lines(const SimulationModel& model, const Kernels& kernels, std::vector<Step>& steps) {
+    for (Step& step : steps) {
+        if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) && can_reduce(step.push<glsl::LinePush>()))
+            step.kernel = Kernel::line_cyclic;
+        if (step.kind == StepKind::nested && kernels.has(Kernel::nested_cyclic) &&
+            can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].plan))
+            step.kernel = Kernel::nested_cyclic;
+    }
+}
+
+}  // namespace
+
+std::vector<Step> explicit_steps_together(const std::vector<Step>& steps, Kernel kernel,
+                                          const std::function<FlightSize(std::size_t cloth)>& size) {
+    std::vector<bool> taken(steps.size());
+    std::vector<Step> merged;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (taken[k]) continue;
+        merged.push_back(steps[k]);
+        if (steps[k].kind != StepKind::explicit_step) continue;
+        const std::vector<std::size_t> together = run_of(steps, k, size(steps[k].cloth));
+        if (together.empty()) continue;
+        merged.back().count = static_cast<std::uint32_t>(together.size());
+        merged.back().kernel = kernel;
+        for (const std::size_t place : together) taken[place] = true;
+    }
+    return merged;
+}
+
+std::vector<Step> springs_together(const SimulationModel& model, Kernel kernel, const std::vector<Step>& steps) {
+    const SpringJoiner joiner(model, kernel, steps);
+    JoinedSteps joined;
+    for (std::size_t k = 0; k < steps.size();) {
+        const std::size_t length = joiner.length_at(k);
+        if (length > 0)
+            joined.add_joined(joiner.made_of(k, length));
+        else
+            joined.add(steps[k]);
+        k += std::max<std::size_t>(length, 1);
+    }
+    return joined.steps();
+}
+
+std::vector<Step> twists_together(const std::vector<Step>& steps) {
+    JoinedSteps joined;
+    for (const Step& step : steps) {
+        const auto is_same = [&step](const Step& other) {
+            return other.kind == StepKind::all_twist && other.cloth == step.cloth && other.substep == step.substep;
+        };
+        if (step.kind != StepKind::twist) {
+            joined.add(step);
+        } else if (!is_same(joined.steps().back())) {
+            const auto& push = step.push<glsl::TwistPush>();
+            Step all = step;
+            all.kind = StepKind::all_twist;
+            all.kernel = Kernel::twist_stream;
+            all.constants = glsl::AllTwistPush{push.grid, push.compliance, push.compliance_bdf2};
+            joined.add_joined(all);
+        }
+    }
+    return joined.steps();
+}
+
+bool has_direction(const glsl::AllSpringsPush& push, int direction) {
+    const float lengths[] = {push.rest_length.x, push.rest_length.y, push.rest_length.z, push.rest_length.w};
+    return lengths[direction] > 0;
+}
+
+std::uint32_t tile_halo_of(const Grid& grid, int halo) {
+    const bool is_whole = grid.columns() <= glsl::tile_width && grid.rows() <= glsl::tile_width;
+    return is_whole ? 0 : static_cast<std::uint32_t>(halo);
+}
+
+std::uint32_t tile_invocations(std::uint32_t particles, std::uint32_t halo) {
+    const std::uint32_t own = glsl::tile_width - 2 * halo;
+    return (particles + own - 1) / own * glsl::tile_width;
+}
+
+std::vector<Step> kernel_steps(const SimulationModel& model, const Kernels& kernels) {
+    std::vector<Step> steps = frame_steps(model);
+    if (kernels.has(Kernel::explicit_stream)) {
+        const auto size = [](std::size_t) { return FlightSize{glsl::stream_steps, glsl::stream_steps}; };
+        steps = explicit_steps_together(steps, Kernel::explicit_stream, size);
+        stream_single_steps(model, steps);
+    } else if (kernels.has(Kernel::explicit_tile)) {
+        const auto size = [&](std::size_t cloth) { return tile_flight(model.cloths[cloth].grid); };
+        steps = explicit_steps_together(steps, Kernel::explicit_tile, size);
+    }
+    for (const Kernel kernel : {Kernel::spring_stream, Kernel::spring_tile})
+        if (kernels.has(kernel)) steps = springs_together(model, kernel, steps);
+    if (kernels.has(Kernel::twist_stream)) steps = twists_together(steps);
+    reduce_lines(model, kernels, steps);
+    return steps;
+}
+
+}  // namespace drape

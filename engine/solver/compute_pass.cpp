@@ -1,0 +1,63 @@
+#include "solver/compute_pass.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace drape {
+
+namespace {
+
+using graph::Access;
+
+void declare(graph::PassSetup& setup, const vulkan::ComputePipeline& pipeline, PassResources& resources) {
+    // All reads come first: what a pass writes may be the spare of what it reads.
+    for (const vulkan::ReflectedDescriptor& each : pipeline.descriptors())
+        if (each.readable)
+            setup.read(resources.find(resource_of(each.name), false), Access::compute_read,
+                       each.writable ? std::string() : each.name);
+    for (const vulkan::ReflectedDescriptor& each : pipeline.descriptors()) {
+        if (!each.writable) continue;
+        graph::Handle& handle = resources.find(resource_of(each.name), true);
+        handle = setup.write(handle, Access::compute_write, each.name);
+    }
+}
+
+}  // namespace
+
+std::string_view resource_of(std::string_view variable) {
+    for (const std::string_view end : {"_in", "_out"})
+        if (variable.ends_with(end)) return variable.substr(0, variable.size() - end.size());
+    return variable;
+}
+
+graph::Handle& PassResources::find(std::string_view variable, bool written) {
+    const std::string name = alias ? alias(variable, written) : std::string(variable);
+    for (const auto& [own_name, handle] : own)
+        if (own_name == name) return *handle;
+    if (cloth)
+        if (const auto field = field_called(name)) return (*cloth)[*field];
+    if (contact)
+        if (const auto field = contact_field_called(name)) return (*contact)[*field];
+    if (name == "wind") return inputs.wind;
+    if (name == "attempt") return inputs.attempt;
+    if (name == "colliders" || name == "collider_texels") return inputs.colliders;
+    throw std::logic_error("a shader names '" + name + "', which its pass has not");
+}
+
+void add_compute_pass(graph::Graph& graph, const graph::PassName& name, const vulkan::ComputePipeline& pipeline,
+                      const graph::PushConstants& push, const DispatchSize& size, PassResources resources) {
+    graph.add_pass(
+        name,
+        [&](graph::PassSetup& setup) {
+            if (size.sizes.valid()) setup.read(size.sizes, Access::indirect_read);
+            declare(setup, pipeline, resources);
+        },
+        [&pipeline, push, size](graph::PassContext& context) {
+            if (size.sizes.valid())
+                context.dispatch_indirect(pipeline, push, size.sizes, size.slot * sizeof(glsl::uvec4));
+            else
+                context.dispatch(pipeline, push, size.width, size.height, size.depth);
+        });
+}
+
+}  // namespace drape

@@ -1,0 +1,115 @@
+#include <algorithm>
+
+#include "solver/step_row.h"
+#include "solver/step_size.h"
+
+namespace drape {
+
+namespace contact_rows {
+namespace {
+
+using Place = const StepPlace&;
+using glsl::SelfContactPush;
+
+bool masked(Place p) { return p.cloth->masked(); }
+bool buffered(Place p) { return p.cloth->buffered; }
+bool sheet_is_buffered(Place p) { return p.contact->buffered; }
+bool second_order(Place p) { return p.cloth->model->plan.second_order; }
+bool wide_atomics(Place p) { return p.device.wide_atomics(); }
+/// Returns whether some cloths started through each other.
+bool crossed(Place p) { return p.step.push<SelfContactPush>().crossed_count > 0; }
+
+/// Returns the push constants of a step of all cloths, with the capacity of the lists.
+graph::PushConstants contact_push(Place p) {
+    SelfContactPush push = p.step.push<SelfContactPush>();
+    push.pair_capacity = static_cast<int>(p.contact->capacity.pairs);
+    push.near_capacity = static_cast<int>(p.contact->capacity.near);
+    push.cell_capacity = static_cast<int>(p.contact->capacity.cells);
+    return push;
+}
+
+using vulkan::ComputePipeline;
+DispatchSize over_sheet(Place p, const ComputePipeline&) {
+    constexpr std::size_t most = std::size_t{1} << 21;  // beyond it invocations take several places each
+    const glsl::ivec2 grid = p.step.push<SelfContactPush>().grid;
+    const std::size_t each = p.device.entries_each();
+    return {static_cast<std::uint32_t>(std::min((std::size_t(grid.x) * std::size_t(grid.y) + each - 1) / each, most))};
+}
+DispatchSize over_cloths(Place p, const ComputePipeline&) {
+    return {static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
+}
+DispatchSize over_parts(Place p, const ComputePipeline&) {
+    const auto [across, down] = p.device.over_parts(p.model.self_contact->largest);
+    return {across, down, static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
+}
+/// The size that the passes before wrote: as far as they found something to do.
+DispatchSize of_slot(Place p, int slot) {
+    return {.sizes = (*p.contact)[ContactField::sizes], .slot = static_cast<std::size_t>(slot)};
+}
+template <int slot>
+DispatchSize found(Place p, const ComputePipeline&) {
+    return of_slot(p, slot);
+}
+template <int first_slot>
+DispatchSize found_in_round(Place p, const ComputePipeline&) {
+    return of_slot(p, first_slot + p.step.push<SelfContactPush>().round);
+}
+DispatchSize found_at_level(Place p, const ComputePipeline&) {
+    return of_slot(p, glsl::self_size_levels + p.step.push<SelfContactPush>().level - 1);
+}
+
+/// Shaders that search in the tree call the boxes of the last search boxes; they put blocks into the list that will
+/// hold cells.
+std::string tree_alias(Place, std::string_view name, bool) {
+    return name == "boxes" ? "kept" : name == "blocks" ? "cells" : "";
+}
+
+}  // namespace
+}  // namespace contact_rows
+
+std::vector<StepRow> contact_step_rows() {
+    using namespace contact_rows;
+    using enum Kernel;
+    const std::vector<VariantRow> if_crossed{{"crossed", crossed}}, if_wide{{"wide", wide_atomics}};
+    // A step between a cloth's fields and the sheet takes its own push constants.
+    const auto of_cloth = [](StepKind kind, const char* label, const char* shader, std::vector<VariantRow> variants) {
+        variants.push_back({"buffered", buffered});
+        return StepRow{kind, label, {{plain, shader, std::move(variants), over_strips}}};
+    };
+    const auto of_all = [](StepKind kind, const char* label, const char* shader, auto size,
+                           std::vector<VariantRow> variants = {}) {
+        return StepRow{kind, label, {{plain, shader, std::move(variants), size}}, contact_push};
+    };
+    const auto in_tree = [&](StepKind kind, const char* label, const char* shader, auto size) {
+        StepRow row = of_all(kind, label, shader, size);
+        row.alias = tree_alias;
+        return row;
+    };
+    using enum StepKind;
+    return {
+        of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}}),
+        of_cloth(self_gather_again, "self gather again", "self_gather_again.comp", {}),
+        of_all(self_common, "self common", "self_common.comp", one_invocation, if_crossed),
+        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
+        of_all(self_search, "self search", "self_search.comp", found<glsl::self_size_search>),
+        of_all(self_kept, "self kept", "self_kept.comp", found<glsl::self_size_kept>),
+        in_tree(self_levels, "self levels", "self_levels.comp", found_at_level),
+        in_tree(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
+        in_tree(self_cells, "self cells", "self_cells.comp", found<glsl::self_size_cells>),
+        of_all(self_near, "self near", "self_near.comp", found<glsl::self_size_near>),
+        of_all(self_bent, "self bent", "self_bent.comp", over_parts),
+        of_all(self_crossings, "self crossings", "self_crossings.comp", found<glsl::self_size_primitives>),
+        of_all(self_apart, "self apart", "self_apart.comp", over_cloths),
+        of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>,
+               if_crossed),
+        of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>),
+        of_all(self_contact, "self contact", "self_contact.comp", found_in_round<glsl::self_size_contact>, if_wide),
+        of_all(self_push, "self push", "self_push.comp", found_in_round<glsl::self_size_push>,
+               {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
+        of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
+        of_all(self_move, "self move", "self_move.comp", over_sheet, {{"buffered", sheet_is_buffered}}),
+        of_cloth(self_return, "self return", "self_return.comp", {{"history", second_order}}),
+    };
+}
+
+}  // namespace drape

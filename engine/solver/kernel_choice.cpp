@@ -1,0 +1,168 @@
+#include "solver/kernel_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cloth/cloth_state.h"
+#include "cloth/cyclic_lines.h"
+#include "cloth/kernel_steps.h"
+#include "graph/executor.h"
+#include "shared/cyclic_types.h"
+#include "shared/stream_types.h"
+#include "vulkan/error.h"
+
+namespace drape {
+
+namespace {
+
+using Obstacle = std::string (*)(const vulkan::Device&, const SimulationModel&);
+
+std::string sheet_obstacle(const vulkan::Device& device, glsl::ivec2 size) {
+    constexpr std::uint32_t step = glsl::state_row_alignment / 16;
+    const auto columns = static_cast<std::uint32_t>(size.x);
+    return graph::buffer_view_obstacle(device,
+                                       {.name = "the cloths' sheet",
+                                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                        .width = columns,
+                                        .height = static_cast<std::uint32_t>(size.y)},
+                                       (columns + step - 1) / step * step);
+}
+
+/// Why the state cannot be stored through buffer views.
+std::string store_obstacle(const vulkan::Device& device, const SimulationModel& model) {
+    for (const ClothModel& cloth : model.cloths)
+        if (const std::string obstacle = buffer_store_obstacle(device, cloth.grid); !obstacle.empty())
+            return fmt::format("cloth '{}': {}", cloth.name, obstacle);
+    return model.self_contact ? sheet_obstacle(device, model.self_contact->push.grid) : std::string();
+}
+
+/// Why no subgroup can hand on what its lanes keep in registers.
+std::string shuffle_obstacle(const vulkan::Device& device, const SimulationModel&) {
+    constexpr auto lanes = static_cast<std::uint32_t>(glsl::stream_lanes);
+    return device.shuffles(lanes) ? std::string()
+                                  : fmt::format("the device has no subgroups of {} that shuffle", lanes);
+}
+
+/// Why no workgroup can hold a tile of a cloth or its longest line.
+std::string large_group_obstacle(const vulkan::Device& device, const SimulationModel&) {
+    constexpr std::uint32_t most = glsl::cyclic_most_particles;
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    if (limits.maxComputeWorkGroupInvocations < most || limits.maxComputeWorkGroupSize[0] < most)
+        return fmt::format("the device has no workgroups of {} invocations", most);
+    if (limits.maxComputeSharedMemorySize < cyclic_shared_bytes(most))
+        return fmt::format("the device's workgroups share less than {} bytes", cyclic_shared_bytes(most));
+    return {};
+}
+
+/// A kernel, the kind of device that it is the fastest on (`drape bench speed --tune` measures it), the kernel that it
+/// needs as well, what the device must have, and why it is fast. On GPUs only the order of magnitude was measured.
+struct KernelRule {
+    Kernel kernel;
+    DeviceKind best_on;
+    Kernel needs;
+    Obstacle obstacle;
+    std::string_view why;
+};
+constexpr KernelRule rules[] = {
+    {Kernel::buffer_store, DeviceKind::cpu, Kernel::plain, store_obstacle,
+     "a CPU stores to buffers in .6 to .8 of the time that it takes to store to images"},
+    {Kernel::explicit_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
+     "a particle is loaded and stored once for four steps, and every spring is evaluated once"},
+    {Kernel::explicit_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+     "shared memory holds the particles for several steps"},
+    {Kernel::spring_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
+     "a particle is loaded and stored once instead of up to eight times"},
+    {Kernel::spring_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+     "shared memory holds the particles for all eight passes"},
+    {Kernel::twist_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
+     "a particle is loaded and stored once instead of four times"},
+    {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+     "a line waits for memory some log n times instead of 3 n times"},
+    {Kernel::nested_cyclic, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+     "a line waits for memory some log n times instead of 3 n times"},
+};
+
+const KernelRule& rule_of(Kernel kernel) { return *std::ranges::find(rules, kernel, &KernelRule::kernel); }
+
+/// Why a kernel cannot run; empty where it can.
+std::string obstacle_of(const vulkan::Device& device, const SimulationModel& model, const KernelRule& rule) {
+    if (rule.needs != Kernel::plain)
+        if (std::string obstacle = obstacle_of(device, model, rule_of(rule.needs)); !obstacle.empty()) return obstacle;
+    return rule.obstacle(device, model);
+}
+
+}  // namespace
+
+DeviceKind device_kind(const vulkan::DeviceInfo& device) {
+    return device.type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
+}
+
+std::string buffer_store_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
+    if (!device.wide_integers()) return "the device's shaders have no integers of 64 bits";
+    const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
+    std::vector<std::pair<VkFormat, FieldExtent>> images = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
+                                                            {VK_FORMAT_R32_SFLOAT, {width, height}},
+                                                            {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid)}};
+    // Cells, line controls: integers, which no pass writes through a buffer view of a single cloth's.
+    if (count > 1) images.push_back({VK_FORMAT_R32_UINT, {width, height}});
+    std::vector<std::string> slices;
+    for (std::uint32_t k = 0; k < count && count > 1; ++k) slices.push_back(fmt::format("state {}", k));
+    for (const auto& [format, extent] : images) {
+        const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(format);
+        const auto columns = static_cast<std::uint32_t>(extent.width), rows = static_cast<std::uint32_t>(extent.height);
+        std::string why = graph::buffer_view_obstacle(
+            device, {.name = "state", .format = format, .width = columns, .height = rows * count, .slices = slices},
+            (columns + step - 1) / step * step);
+        if (!why.empty()) return why;
+    }
+    return {};
+}
+
+Kernels possible_kernels(const vulkan::Device& device, const SimulationModel& model, const Kernels& asked) {
+    Kernels kernels;
+    for (const KernelRule& rule : rules) {
+        if (asked.is_automatic() ? rule.best_on != device_kind(device.info()) : !asked.has(rule.kernel)) continue;
+        const std::string obstacle = obstacle_of(device, model, rule);
+        if (obstacle.empty()) {
+            kernels.add(rule.kernel);
+            kernels.add(rule.needs);
+        } else if (!asked.is_automatic()) {
+            throw vulkan::VulkanError(fmt::format("kernel '{}', {}", name_of(rule.kernel), obstacle));
+        }
+    }
+    return kernels;
+}
+
+Kernels used_kernels(const SimulationModel& model, const Kernels& kernels) {
+    Kernels used;
+    for (const Step& step : kernel_steps(model, kernels)) used.add(step.kernel);
+    if (kernels.has(Kernel::buffer_store)) used.add(Kernel::buffer_store);
+    return used;
+}
+
+bool concerns(const KernelSet& set, SolverMethod method) {
+    const bool is_line = method == SolverMethod::line;
+    return set.name == "tile" ? !is_line : set.name != "cyclic" || is_line;
+}
+
+std::vector<KernelVerdict> kernel_verdicts(const vulkan::Device& device, const SimulationModel& model,
+                                           const Kernels& asked) {
+    const Kernels taken = possible_kernels(device, model, asked), used = used_kernels(model, taken);
+    std::vector<KernelVerdict> verdicts;
+    for (const KernelRule& rule : rules) {
+        std::string reason(rule.why);
+        if (!used.has(rule.kernel)) {
+            const std::string obstacle = obstacle_of(device, model, rule);
+            reason = taken.has(rule.kernel)            ? "no step of this scene is its"
+                     : !obstacle.empty()               ? obstacle
+                     : !asked.is_automatic()           ? "not asked for"
+                     : rule.best_on == DeviceKind::cpu ? "best on a CPU"
+                                                       : "best on a GPU";
+        }
+        verdicts.push_back({rule.kernel, used.has(rule.kernel), reason});
+    }
+    return verdicts;
+}
+
+}  // namespace drape

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "solver/step_row.h"
+
+namespace drape {
+
+namespace {
+
+std::string module_of(const KernelRow& kernel, const StepPlace& place) {
+    ShaderVariants variants;
+    for (const VariantRow& row : kernel.variants) variants.emplace_back(row.name, row.is_taken(place));
+    return vulkan::variant_name(kernel.shader, variants);
+}
+
+graph::PushConstants push_of(const StepConstants& constants) {
+    return std::visit(
+        []<class Push>(const Push& push) {
+            if constexpr (std::is_same_v<Push, std::monostate>)
+                return graph::PushConstants();
+            else
+                return graph::PushConstants(push);
+        },
+        constants);
+}
+
+graph::PassName name_of(const StepRow& row, const StepPlace& place) {
+    const std::string label = row.label(place);
+    if (place.cloth) return place.cloth->step_name(label, place.step);
+    return {fmt::format("{} (substep {})", label, place.step.substep), "simulate", label};
+}
+
+/// The place of a size in the list that the device chooses from, at which it is put when it is new.
+std::size_t slot_of(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size) {
+    const auto same = [&](const glsl::uvec4& other) { return other.x == size.x && other.y == size.y; };
+    const auto found = std::ranges::find_if(sizes, same);
+    if (found != sizes.end()) return static_cast<std::size_t>(found - sizes.begin());
+    if (sizes.size() == glsl::iteration_size_count)
+        throw std::logic_error("too many sizes of dispatches in an iteration");
+    sizes.push_back(size);
+    return sizes.size() - 1;
+}
+
+/// In iterations that the device may skip, the dispatch has the size that the decision before it wrote.
+DispatchSize size_of(const KernelRow& kernel, const StepPlace& place, const vulkan::ComputePipeline& pipeline) {
+    DispatchSize size = kernel.size(place, pipeline);
+    if (!place.step.conditional) return size;
+    const auto [x, y, z] = pipeline.local_size();
+    size.sizes = (*place.cloth)[Field::iterations];
+    size.slot = slot_of(*place.cloth->iteration_sizes, {(size.width + x - 1) / x, (size.height + y - 1) / y, 1, 0});
+    return size;
+}
+
+void turn(ClothState& cloth, Turn turned) {
+    if (turned == Turn::state) cloth.turn();
+    if (turned == Turn::displacement) cloth.turn_displacement();
+}
+
+/// Names of resources that a step takes for others: the spare images where it writes those, and the row's own.
+std::string alias_of(const StepRow& row, const StepPlace& place, Turn turned, std::string_view name, bool written) {
+    if (row.alias)
+        if (std::string other = row.alias(place, name, written); !other.empty()) return other;
+    for (const auto& [field, spare] : spare_fields)
+        if (written && name == row_of(field).variable() &&
+            (turned == Turn::state || (turned == Turn::displacement && field == Field::displacement)))
+            return row_of(spare).variable();
+    return std::string(name);
+}
+
+}  // namespace
+
+void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth, ContactHandles* contact,
+                   const SceneInputs& inputs, const SimulationModel& model, const Step& step) {
+    const StepRow& row = step_rows()[static_cast<std::size_t>(step.kind)];
+    const auto kernel = std::ranges::find(row.kernels, step.kernel, &KernelRow::kernel);
+    if (kernel == row.kernels.end()) throw std::logic_error("a step has a kernel that its row has not");
+    const StepPlace place{step, cloth, contact, model, pipelines};
+    const vulkan::ComputePipeline& pipeline =
+        pipelines.get(module_of(*kernel, place), [&](std::string_view name) { return step_constant(place, name); });
+    const Turn turned = row.turn ? row.turn(place) : Turn::nothing;
+    PassResources resources{cloth, contact, inputs};
+    resources.alias = [&](std::string_view name, bool written) { return alias_of(row, place, turned, name, written); };
+    add_compute_pass(graph, name_of(row, place), pipeline, row.push ? row.push(place) : push_of(step.constants),
+                     size_of(*kernel, place, pipeline), std::move(resources));
+    if (cloth) turn(*cloth, turned);
+}
+
+}  // namespace drape

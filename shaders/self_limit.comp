@@ -1,0 +1,82 @@
+// This pass finds, for every listed pair, the share of its motion that each corner may make and still be on its side of
+// the plane between the two. A particle keeps the least share of all its pairs; positive floats order as their bits do.
+// In the first round nobody moves yet. Each next round begins with the motions that the round before found to cross
+// nothing: then the planes have moved too, and layers that move together do not hold each other back. It runs only
+// where the round before cut a motion short.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/simulation_types.h"
+#include "include/every.h"
+#include "include/push.h"
+#include "include/self_contact.h"
+
+layout(local_size_x = workgroup_width) in;
+PUSH_CONSTANTS(SelfContactPush)
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
+layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_lists.h"
+
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
+bool cuts_short = false;
+
+struct Corner {
+    int place;
+    vec3 x;
+    bool held;
+    float along, share;  // its motion along the normal, m, and the share of it that it makes already
+};
+
+vec3 motion(Corner corner, uint which, float thickness) {
+    vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
+    if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, carried, thickness);
+    return self_relative_motion(moved, carried);
+}
+
+Corner corner_of(uint which) {
+    ivec2 texel = self_texel(which);
+    int place = place_of(texel);
+    vec4 x = imageLoad(positions, texel);
+    int before = (push.round - 1) * push.grid.x * push.grid.y + place;
+    float share = push.round > 0 ? uintBitsToFloat(shares[max(before, 0)]) : 0.0f;
+    return Corner(place, x.xyz, !(x.w > 0.0f), 0.0f, share);
+}
+
+void bound(SelfGap gap, Corner corner, float middle, float end, float side) {
+    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, push.least);
+    if (share < 1.0f) {
+        atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
+        cuts_short = true;
+    }
+}
+
+void bound_pair(bool edges, uvec4 pair) {
+    Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
+    SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
+    SelfGap gap = self_gap_squared(edges, SelfCorners(a.x, b.x, c.x, d.x));
+    if (push.round == 0 && self_touch(gap)) atomicAdd(record[0].unproved, 1u);
+    a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
+    b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
+    c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
+    d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
+    vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
+    float middle = self_middle(edges, end);
+    bound(gap, a, middle, end.x, 1.0f);
+    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f);
+    bound(gap, c, middle, end.z, -1.0f);
+    bound(gap, d, middle, end.w, -1.0f);
+}
+
+void main() {
+    carried = record[0].carried.xyz;
+    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_capacity);
+    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_capacity);
+    FOR_EVERY(i, points, bound_pair(false, pairs[i]))
+    FOR_EVERY(i, edges, bound_pair(true, pairs[push.pair_capacity - 1 - i]))
+    if (push.round + 1 < self_rounds)
+        dispatch(self_size_limit + push.round + 1, cuts_short ? uint(max(points, edges)) : 0u);
+}

@@ -1,0 +1,162 @@
+// This stream is a step of all springs, to the bits of the eight passes of spring.comp. Each subgroup goes down the
+// rows of a strip of columns, two rows at a time, and keeps in registers the rows that have passes left. With rows 2k
+// and 2k + 1 loaded, every pass takes the rows whose turn it is:
+//
+//   row          2k-5   2k-4   2k-3   2k-2   2k-1    2k    2k+1
+//   along                                            *      *
+//   column                                           e------e    even pairs, then
+//                                             o------o           odd ones
+//   down-right                         e------e
+//                               o------o
+//   down-left           e-------e
+//                o------o
+//
+// Then the first two rows are done. A ghost beside an invocation's columns is the first column of the invocation on the
+// right; its displacement goes back there by shuffle. MASKED takes the spring shares from an image. TENSION stores the
+// tension of the stretch springs, for the stretch error, and starts it from zero. CARRIED stores that of all springs,
+// for the next iteration or the release of a pin, and starts from the tension that the iteration before left in other
+// images.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#pragma variants MASKED TENSION|CARRIED
+#define BUFFERED
+#include "shared/simulation_types.h"
+#include "shared/stream_types.h"
+#include "include/push.h"
+#include "include/spring.h"
+#include "include/verlet.h"
+PUSH_CONSTANTS(AllSpringsPush)
+#define TOGETHER
+#include "include/state_store.h"
+
+layout(local_size_x = stream_lanes) in;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
+VECTOR_OUT(2, DisplacementOut, displacement_out);
+#ifdef MASKED
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
+#endif
+
+#include "include/iteration_tension.h"
+
+layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
+
+const int columns = spring_stream_columns, strip_width = spring_stream_width, strip_halo = spring_stream_halo, kept_rows = 5,
+          window = kept_rows + 2, lead = 6;  // rows above a band that what moves in it depends on
+
+#include "include/strip_rows.h"
+
+RowBand band;
+
+float share_of(ivec2 owner, ivec2 offset, int channel) {
+#ifdef MASKED
+    return LOAD(spring_shares, ivec2(owner.x < push.grid.x ? owner.x : push.grid.x - 1,
+                                          owner.y < 0 ? 0 : owner.y < push.grid.y ? owner.y : push.grid.y - 1))[channel];
+#else
+    return border_share(owner, offset, push.grid);
+#endif
+}
+
+bool exists(ivec2 owner, ivec2 offset) {
+    return owner.y >= 0 && owner.y + offset.y < push.grid.y && owner.x < push.grid.x &&
+           owner.x + offset.x < push.grid.x;
+}
+
+/// Relaxes the spring whose first particle is `owner`. Where the grid has none, nothing moves, not even a zero's sign.
+/// Takes and returns the spring's tension.
+float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel, float tension) {
+    vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
+    precise float weight_sum = first.weight + second.weight;
+    SpringResult result =
+        project_spring(edge, weight_sum, push.rest_length[channel], share_of(owner, offset, channel), push.compression,
+                       push.compliance[channel], tension);
+    vec3 moved_first = moved_by(first.displacement, result.correction, -first.weight);
+    vec3 moved_second = moved_by(second.displacement, result.correction, second.weight);
+    bool is_there = exists(owner, offset);
+    first.displacement = is_there ? moved_first : first.displacement;
+    second.displacement = is_there ? moved_second : second.displacement;
+    return result.tension;
+}
+
+#define STORE_OWN(store, c, owner, offset, value) \
+    if (is_own(c) && is_of(band, (owner).y) && exists(owner, offset)) store(owner, value)
+
+void relax_along(inout Particle row[columns + 1], int y) {
+    const ivec2 offset = ivec2(1, 0);
+    float tension[columns];
+    for (int c = 0; c < columns; c += 2) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+    }
+    fetch_ghost(row);
+    for (int c = 1; c < columns; c += 2) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+    }
+    return_ghost(row);
+    for (int c = 0; c < columns; ++c)
+        STORE_OWN(STORE_TENSION_ROW, c, ivec2(first_column() + c, y), offset, tension[c]);
+}
+
+void relax_columns(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(0, 1);
+    for (int c = 0; c < columns; ++c) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        float tension = relax(upper[c], lower[c], owner, offset, 1, TENSION_COLUMN(owner));
+        STORE_OWN(STORE_TENSION_COLUMN, c, owner, offset, tension);
+    }
+}
+
+void relax_down_right(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(1, 1);
+    fetch_ghost(lower);
+    for (int c = 0; c < columns; ++c) {
+        ivec2 owner = ivec2(first_column() + c, y);
+        float tension = relax(upper[c], lower[c + 1], owner, offset, 2, TENSION_DOWN_RIGHT(owner));
+        STORE_OWN(STORE_TENSION_DOWN_RIGHT, c, owner, offset, tension);
+    }
+    return_ghost(lower);
+}
+
+void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
+    const ivec2 offset = ivec2(-1, 1);
+    fetch_ghost(upper);
+    for (int c = 0; c < columns; ++c) {
+        ivec2 owner = ivec2(first_column() + c + 1, y);
+        float tension = relax(upper[c + 1], lower[c], owner, offset, 3, TENSION_DOWN_LEFT(owner));
+        STORE_OWN(STORE_TENSION_DOWN_LEFT, c + 1, owner, offset, tension);
+    }
+    return_ghost(upper);
+}
+
+void main() {
+    Particle rows[window][columns + 1];  // rows of the figure above, from the left
+    for (int r = 0; r < window; ++r)
+        for (int c = 0; c <= columns; ++c) rows[r][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+    band = row_band();
+    for (int y = lead_in(band, lead); y < band.end + kept_rows; y += 2) {
+        load_row(y, rows[5]);
+        load_row(y + 1, rows[6]);
+        if ((directions & 1) != 0) {
+            relax_along(rows[5], y);
+            relax_along(rows[6], y + 1);
+        }
+        if ((directions & 2) != 0) {
+            relax_columns(rows[5], rows[6], y);
+            relax_columns(rows[4], rows[5], y - 1);
+        }
+        if ((directions & 4) != 0) {
+            relax_down_right(rows[3], rows[4], y - 2);
+            relax_down_right(rows[2], rows[3], y - 3);
+        }
+        if ((directions & 8) != 0) {
+            relax_down_left(rows[1], rows[2], y - 4);
+            relax_down_left(rows[0], rows[1], y - 5);
+        }
+        store_row(band, y - 5, rows[0]);
+        store_row(band, y - 4, rows[1]);
+        for (int r = 0; r < kept_rows; ++r) rows[r] = rows[r + 2];
+    }
+}
