@@ -15,16 +15,16 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
       collides(!scene.colliders.empty()),
-      plan(row_of(scene.solver.method)
-               .plan(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, scene.gravity,
-                             scene.solver.strain_damping, !scene.colliders.empty(), options.skip})) {
+      scheme(row_of(scene.solver.method)
+                 .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, scene.gravity,
+                                 scene.solver.strain_damping, !scene.colliders.empty(), options.skip})) {
     set_constants(scene, scene.cloths[cloth_index]);
 }
 
 std::vector<glsl::vec4> ClothModel::start_displacement() const {
     std::vector<glsl::vec4> texels;
     texels.reserve(position.size());
-    for (const glsl::vec4& at : position) texels.push_back(at.w > 0 ? plan.start : glsl::vec4{});
+    for (const glsl::vec4& at : position) texels.push_back(at.w > 0 ? scheme.start : glsl::vec4{});
     return texels;
 }
 
@@ -32,7 +32,7 @@ std::vector<glsl::vec4> ClothModel::start_excess() const {
     const auto excess = [this](std::size_t k, float displacement) {
         return static_cast<float>(velocity[k] * substep_length - displacement);
     };
-    const glsl::vec4 start{excess(0, plan.start.x), excess(1, plan.start.y), excess(2, plan.start.z), 0};
+    const glsl::vec4 start{excess(0, scheme.start.x), excess(1, scheme.start.y), excess(2, scheme.start.z), 0};
     std::vector<glsl::vec4> texels;
     texels.reserve(position.size());
     for (const glsl::vec4& at : position) texels.push_back(at.w > 0 ? start : glsl::vec4{});

@@ -33,7 +33,7 @@ struct ClothModel : ClothGeometry {
     /// scene has no box, the cloth's contact is of particles, or its thickness keeps everything clear.
     float edge_reach = 0;
     std::size_t collider_list = 0;  ///< its particles are kept from this list of SimulationModel::kept_colliders
-    MethodPlan plan;
+    MethodScheme scheme;
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
     glsl::ResidualPush residual;    ///< constants of the check between iterations

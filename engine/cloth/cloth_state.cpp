@@ -21,26 +21,26 @@ bool always(Context) { return true; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool adaptive(Context c) { return c.model.adaptive(); }
-bool gathers(Context c) { return c.cloth.plan.spare_state; }
-bool turns(Context c) { return gathers(c) || c.cloth.plan.spare_displacement; }
-bool second_order(Context c) { return c.cloth.plan.second_order; }
-bool line_solved(Context c) { return c.cloth.plan.line_scratch; }
+bool gathers(Context c) { return c.cloth.scheme.spare_state; }
+bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; }
+bool second_order(Context c) { return c.cloth.scheme.second_order; }
+bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
-bool nested(Context c) { return !c.cloth.plan.nested_table.empty(); }
+bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
     const bool stretch_error = direction < stretch_direction_count && (judged(c) || c.model.adaptive());
-    return c.cloth.plan.carries_tension[direction] || stretch_error;
+    return c.cloth.scheme.carries_tension[direction] || stretch_error;
 }
-bool spares_tension(Context c) { return c.cloth.plan.spare_tension; }
+bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
-FieldExtent nested_list(Context c) { return {c.cloth.plan.nested_table.size()}; }
+FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
@@ -86,7 +86,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
         {Field::nested_boxes, "nested boxes", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,
-         [](Context c) { return bytes_of_list(c.cloth.plan.nested_table); }},
+         [](Context c) { return bytes_of_list(c.cloth.scheme.nested_table); }},
         {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
         {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},

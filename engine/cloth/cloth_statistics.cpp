@@ -23,7 +23,7 @@ std::optional<std::uint32_t> particle_of(glsl::uint place) {
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth) {
     glsl::StatisticsPush push{};
     for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
-        const double stiffness = cloth.plan.used_stiffness[direction];
+        const double stiffness = cloth.scheme.used_stiffness[direction];
         if (stiffness == 0) continue;
         component(push.rest_length, direction) = static_cast<float>(cloth.stiffness_constant.rest_length[direction]);
         component(push.half_stiffness, direction) =

@@ -13,10 +13,10 @@ class Substep {
     void add() {
         if (cloth_.has_release) add(StepKind::release);
         if (model_.windy) add(StepKind::wind);
-        add(cloth_.plan.prediction);
+        add(cloth_.scheme.prediction);
         if (cloth_.has_motion) add(StepKind::pin);
-        // Once per substep: without a multiplier a second sweep would bend a second time as stiffly.
-        add(cloth_.plan.once);
+        // Once per substep: without a multiplier a second pass would bend a second time as stiffly.
+        add(cloth_.scheme.once);
         add_iterations();
         add_tethers();
     }
@@ -37,7 +37,7 @@ class Substep {
         const std::uint32_t count = model_.method().iterates() ? solver.iterations : 1;
         for (std::uint32_t iteration = 0; iteration < count; ++iteration) {
             const bool last = iteration + 1 == count, conditional = model_.adaptive() && iteration > 0;
-            for (const MethodStep& step : cloth_.plan.iterated)
+            for (const MethodStep& step : cloth_.scheme.iterated)
                 steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
                                   last && substep_ + 1 == solver.substeps, 1, conditional});
             const bool per_iteration = solver.collide == CollideWhen::iteration;

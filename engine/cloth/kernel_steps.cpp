@@ -41,7 +41,7 @@ class SpringJoiner {
     std::size_t length_at(std::size_t first) const {
         const Step& step = steps_[first];
         if (step.kind != StepKind::spring || step.conditional) return 0;
-        const PerDirection<bool>& carries = model_.cloths[step.cloth].plan.carries_tension;
+        const PerDirection<bool>& carries = model_.cloths[step.cloth].scheme.carries_tension;
         if (std::ranges::any_of(carries, std::identity()) && !std::ranges::all_of(carries, std::identity())) return 0;
         std::size_t end = first;
         while (end < steps_.size() && same_iteration(steps_[end], step)) ++end;
@@ -126,7 +126,7 @@ void reduce_lines(const SimulationModel& model, const Kernels& kernels, std::vec
         if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) && can_reduce(step.push<glsl::LinePush>()))
             step.kernel = Kernel::line_cyclic;
         if (step.kind == StepKind::nested && kernels.has(Kernel::nested_cyclic) &&
-            can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].plan))
+            can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].scheme))
             step.kernel = Kernel::nested_cyclic;
     }
 }

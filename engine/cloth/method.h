@@ -25,7 +25,7 @@ struct MethodSettings {
 };
 
 /// A method does this with one cloth at one number of substeps.
-struct MethodPlan {
+struct MethodScheme {
     // These are the steps of a substep. Those that no method changes (release, wind, pin motion, collision, check,
     // tethers) are put between them by the schedule.
     std::vector<MethodStep> prediction;  ///< before pin motion
@@ -65,7 +65,7 @@ struct MethodSweep {
 
 struct Method {
     SolverMethod method;
-    MethodPlan (*plan)(const ClothGeometry& cloth, const MethodSettings& settings);
+    MethodScheme (*scheme)(const ClothGeometry& cloth, const MethodSettings& settings);
 
     // `auto` needs the law of the stretch error, substeps per frame (a real number) that keep a tolerance, and what a
     // substep costs (cloth/solver_choice.cpp).
@@ -92,8 +92,8 @@ const Method& row_of(SolverMethod method);
 /// Returns a number of substeps rounded up, 1e9 at most: more than any run takes, and what an integer holds.
 std::uint32_t whole_substeps(double substeps);
 
-/// Returns every number of a plan, in a fixed order: two plans that do the same have these in common.
-std::vector<std::byte> bytes_of(const MethodPlan& plan);
+/// Returns every number of a scheme, in a fixed order: two plans that do the same have these in common.
+std::vector<std::byte> bytes_of(const MethodScheme& scheme);
 
 /// Returns phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
 double damping_mean(double damping, double substep_length);
@@ -103,11 +103,11 @@ glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settin
 /// Notes that the cloth follows less of its `what` ("stiffness") than it was given; `followed` says how much. Without
 /// `enough_substeps` no number of substeps would be enough.
 void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,
-                     const std::string& followed, double enough_substeps, MethodPlan& plan);
+                     const std::string& followed, double enough_substeps, MethodScheme& scheme);
 /// Stores every direction's tension where a pin is released and springs act after the prediction: there their last pull
 /// is asked for.
-void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan);
+void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 /// Notes why no tension goes from iteration to iteration, if so.
-void note_tension(const ClothGeometry& cloth, MethodPlan& plan);
+void note_tension(const ClothGeometry& cloth, MethodScheme& scheme);
 
 }  // namespace drape

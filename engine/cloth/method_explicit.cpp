@@ -40,36 +40,36 @@ glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettin
 }
 
 void note_softening(const ClothGeometry& cloth, const MethodSettings& settings, double full_substeps_factor,
-                    MethodPlan& plan) {
+                    MethodScheme& scheme) {
     note_compromise(
         cloth, settings, "stiffness",
         fmt::format("explicit steps follow {:.3g} N/m along columns, {:.3g} along rows, {:.3g} on diagonals and "
                     "{:.3g} N m of bending",
-                    plan.used_stiffness[0], plan.used_stiffness[1], plan.used_stiffness[2], plan.used_bend),
-        cloth.rigid ? 0 : std::ceil(full_substeps_factor * settings.substeps), plan);
+                    scheme.used_stiffness[0], scheme.used_stiffness[1], scheme.used_stiffness[2], scheme.used_bend),
+        cloth.rigid ? 0 : std::ceil(full_substeps_factor * settings.substeps), scheme);
 }
 
 }  // namespace
 
-MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& settings) {
+MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& settings) {
     const RelativeStiffness used = stiffness_of(cloth, settings);
     const StiffnessConstants& wanted = cloth.stiffness_constant;
-    MethodPlan plan;
-    plan.prediction = {{StepKind::explicit_step, step_constants(cloth, settings, used)}};
-    plan.start = verlet_start(cloth, settings);
-    plan.spare_state = true;
-    plan.gathered_tension = {cloth.grid.size(),
-                             {static_cast<float>(wanted.rest_length[0]), static_cast<float>(wanted.rest_length[1])},
-                             {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
-                             static_cast<float>(settings.strain_damping),
-                             cloth.compression};
-    plan.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
-                           used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
-    plan.used_bend = used.bend_share * cloth.bend;
-    plan.following_substeps = whole_substeps(settings.substeps * used.full_substeps_factor);
-    if (wanted.spring[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
-    if (used.softened()) note_softening(cloth, settings, used.full_substeps_factor, plan);
-    return plan;
+    MethodScheme scheme;
+    scheme.prediction = {{StepKind::explicit_step, step_constants(cloth, settings, used)}};
+    scheme.start = verlet_start(cloth, settings);
+    scheme.spare_state = true;
+    scheme.gathered_tension = {cloth.grid.size(),
+                               {static_cast<float>(wanted.rest_length[0]), static_cast<float>(wanted.rest_length[1])},
+                               {static_cast<float>(used.columns_share), static_cast<float>(used.rows_share)},
+                               static_cast<float>(settings.strain_damping),
+                               cloth.compression};
+    scheme.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
+                             used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
+    scheme.used_bend = used.bend_share * cloth.bend;
+    scheme.following_substeps = whole_substeps(settings.substeps * used.full_substeps_factor);
+    if (wanted.spring[2] == 0) scheme.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
+    if (used.softened()) note_softening(cloth, settings, used.full_substeps_factor, scheme);
+    return scheme;
 }
 
 double explicit_substeps(const Hang& hang, double frame, double tolerance) {

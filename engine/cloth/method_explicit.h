@@ -24,7 +24,7 @@ struct RelativeStiffness {
 RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
                                      double substep_length, double strain_damping);
 
-MethodPlan plan_explicit(const ClothGeometry& cloth, const MethodSettings& settings);
+MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& settings);
 
 /// Clamped springs have strain g L/c_s^2 at the top, 1/sqrt 6 of it RMS over rows and columns, c_s^2 = K l^2/h^2 with
 /// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (docs/solvers.md, "Explicit micro-step").

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/bend_sweep.h"
+#include "cloth/bend_relaxation.h"
 #include "cloth/nested_boxes.h"
 #include "cloth/solver_choice.h"
 #include "cloth/texels.h"
@@ -124,48 +124,48 @@ glsl::LineControlPush control_constants(const ClothGeometry& cloth) {
     return {static_cast<std::uint32_t>(most_wrong_share * lines)};
 }
 
-void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
-    plan.second_order = true;
+void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
+    scheme.second_order = true;
     const double h = settings.substep_length;
     const Vec3& v = cloth.velocity;
     // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
-    plan.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
-    plan.prediction = {{StepKind::control, control_constants(cloth)},
-                       {StepKind::predict, predict_constants(cloth, settings)}};
+    scheme.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
+    scheme.prediction = {{StepKind::control, control_constants(cloth)},
+                         {StepKind::predict, predict_constants(cloth, settings)}};
 }
 
-void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
+void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     // Diagonals come first: they disturb rows and columns, which carry the load and have the last word.
     for (const SpringFamily family : {SpringFamily::shear, SpringFamily::stretch})
         for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
             const bool pulls = cloth.stiffness_constant.spring[direction] > 0, bends = line_bend(direction, cloth) > 0;
             if (spring_directions[direction].family != family || (!pulls && !bends)) continue;
             const glsl::LinePush push = line_constants(direction, cloth, settings);
-            plan.iterated.push_back({StepKind::line, push});
-            plan.carries_tension[direction] = plan.line_scratch = true;
+            scheme.iterated.push_back({StepKind::line, push});
+            scheme.carries_tension[direction] = scheme.line_scratch = true;
         }
-    carry_tension_to_release(cloth, settings, plan);
+    carry_tension_to_release(cloth, settings, scheme);
 }
 
 }  // namespace
 
-MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings) {
-    MethodPlan plan;
-    add_prediction(cloth, settings, plan);
-    add_twist_sweep(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, plan);
-    add_lines(cloth, settings, plan);
-    add_nested_boxes(cloth, plan);
+MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& settings) {
+    MethodScheme scheme;
+    add_prediction(cloth, settings, scheme);
+    add_twist_relaxation(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, scheme);
+    add_lines(cloth, settings, scheme);
+    add_nested_boxes(cloth, scheme);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
-    if (wanted[2] == 0) plan.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
+    if (wanted[2] == 0) scheme.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)
-        plan.used_stiffness[direction] = line_stiffness(wanted[direction], cloth, settings);
-    if (plan.used_stiffness != wanted)
+        scheme.used_stiffness[direction] = line_stiffness(wanted[direction], cloth, settings);
+    if (scheme.used_stiffness != wanted)
         note_compromise(
             cloth, settings, "stiffness",
             fmt::format("line solves follow {:.3g} N/m along columns, {:.3g} along rows and {:.3g} on diagonals",
-                        plan.used_stiffness[0], plan.used_stiffness[1], plan.used_stiffness[2]),
-            cloth.rigid ? 0 : enough_substeps(cloth, settings), plan);
-    return plan;
+                        scheme.used_stiffness[0], scheme.used_stiffness[1], scheme.used_stiffness[2]),
+            cloth.rigid ? 0 : enough_substeps(cloth, settings), scheme);
+    return scheme;
 }
 
 double line_substeps(const Hang& hang, double frame, double tolerance) {

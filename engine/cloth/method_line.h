@@ -13,7 +13,7 @@ namespace drape {
 /// and at 1e-6. A sheet of 256 rows hanging on 20 substeps at 60 Hz is stretched by 2e-6 at its top.
 inline constexpr double least_line_compliance = 1e-5;
 
-MethodPlan plan_line(const ClothGeometry& cloth, const MethodSettings& settings);
+MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& settings);
 
 /// Returns substeps from h sqrt(a L)/l, a with the wind's share: 3.3 for a cloth held by an edge, whose lines carry it
 /// alone, and 0.35 where crossing directions fight (two corners, a ball), a little less from 64 links on. There the RMS

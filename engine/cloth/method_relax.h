@@ -5,7 +5,7 @@
 
 namespace drape {
 
-MethodPlan plan_relax(const ClothGeometry& cloth, const MethodSettings& settings);
+MethodScheme relax_scheme(const ClothGeometry& cloth, const MethodSettings& settings);
 
 /// Returns substeps by the relaxation's law, RMS over rows and columns: 0.83/sqrt 2 of N^2 g h^2/(2 L) = n g h^2/(2 l)
 /// (docs/physics.md 2).

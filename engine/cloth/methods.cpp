@@ -22,7 +22,7 @@ constexpr double relax_sweep[] = {1, 2, 5, 10, 20, 40, 80, 160, 320}, relax_quic
 
 constexpr Method rows[] = {
     {SolverMethod::line,
-     plan_line,
+     line_scheme,
      line_substeps,
      10,
      200,
@@ -33,7 +33,7 @@ constexpr Method rows[] = {
      16,
      {false, line_sweep, line_quick}},
     {SolverMethod::explicit_steps,
-     plan_explicit,
+     explicit_scheme,
      explicit_substeps,
      1,
      60,
@@ -44,7 +44,7 @@ constexpr Method rows[] = {
      0,
      {true, explicit_sweep, explicit_quick}},
     {SolverMethod::relax,
-     plan_relax,
+     relax_scheme,
      relax_substeps,
      11,
      140,
@@ -91,11 +91,11 @@ struct ByteList {
 
 std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t>(std::min(std::ceil(substeps), 1e9)); }
 
-std::vector<std::byte> bytes_of(const MethodPlan& plan) {
+std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
     // A binding names every member: one that is added does not compile until it is added here.
     const auto& [prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order,
                  line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension, used_stiffness,
-                 used_bend, following_substeps, skipped, compromises] = plan;
+                 used_bend, following_substeps, skipped, compromises] = scheme;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
     add(prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order, line_scratch,
@@ -132,29 +132,29 @@ glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settin
 }
 
 void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,
-                     const std::string& followed, double enough_substeps, MethodPlan& plan) {
+                     const std::string& followed, double enough_substeps, MethodScheme& scheme) {
     const std::string remedy = enough_substeps > 0
                                    ? fmt::format("{:.0f} substeps would follow all of it", enough_substeps)
                                    : "rigid springs are as stiff as the substeps allow";
-    plan.compromises.push_back({cloth.name + "/" + what,
-                                fmt::format("{} at {} substeps; {}", followed, settings.substeps, remedy),
-                                static_cast<std::uint32_t>(std::min(enough_substeps, 4294967295.0))});
+    scheme.compromises.push_back({cloth.name + "/" + what,
+                                  fmt::format("{} at {} substeps; {}", followed, settings.substeps, remedy),
+                                  static_cast<std::uint32_t>(std::min(enough_substeps, 4294967295.0))});
 }
 
-void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan) {
+void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     if (!cloth.has_release || cloth.stiffness_constant.spring[0] == 0) return;
-    plan.carries_tension.fill(true);
+    scheme.carries_tension.fill(true);
     const double scale = damping_mean(cloth.damping, settings.substep_length) * settings.substep_length *
                          settings.substep_length / cloth.inner_mass;
     PerDirection<double> scaled = cloth.stiffness_constant.spring;
     for (double& value : scaled) value *= scale;
-    plan.release_stiffness = texel(scaled);
+    scheme.release_stiffness = texel(scaled);
 }
 
-void note_tension(const ClothGeometry& cloth, MethodPlan& plan) {
-    if (std::ranges::none_of(plan.carries_tension, std::identity()))
-        plan.skipped.push_back({cloth.name + "/tension between iterations",
-                                cloth.rigid ? "rigid springs need none" : "one iteration per substep needs none"});
+void note_tension(const ClothGeometry& cloth, MethodScheme& scheme) {
+    if (std::ranges::none_of(scheme.carries_tension, std::identity()))
+        scheme.skipped.push_back({cloth.name + "/tension between iterations",
+                                  cloth.rigid ? "rigid springs need none" : "one iteration per substep needs none"});
 }
 
 }  // namespace drape

@@ -102,11 +102,11 @@ std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const 
 }
 
 /// Returns the lines' constants by direction.
-glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodPlan& plan) {
+glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodScheme& scheme) {
     glsl::NestedPush push{};
     push.grid = cloth.grid.size();
     push.compression = cloth.compression;
-    for (const MethodStep& step : plan.iterated) {
+    for (const MethodStep& step : scheme.iterated) {
         const auto* line = std::get_if<glsl::LinePush>(&step.constants);
         if (!line || cloth.stiffness_constant.spring[static_cast<std::size_t>(line->channel)] == 0) continue;
         const auto set = [&](glsl::vec4& vector, float value) {
@@ -126,11 +126,11 @@ glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodPlan& 
 
 }  // namespace
 
-void add_nested_boxes(const ClothGeometry& cloth, MethodPlan& plan) {
-    const auto skip = [&](const char* reason) { plan.skipped.push_back({cloth.name + "/nested boxes", reason}); };
+void add_nested_boxes(const ClothGeometry& cloth, MethodScheme& scheme) {
+    const auto skip = [&](const char* reason) { scheme.skipped.push_back({cloth.name + "/nested boxes", reason}); };
     const std::vector<ivec2> pins = lone_pins(cloth);
     if (pins.empty()) return skip("no particle is held alone");
-    glsl::NestedPush push = nested_constants(cloth, plan);
+    glsl::NestedPush push = nested_constants(cloth, scheme);
     if (!(push.rest_length.x > 0)) return skip("zero stiffness");
     const std::vector<NestedBlock> blocks = nested_blocks(cloth.grid);
     if (blocks.empty()) return skip("fewer than 48 links: more substeps are cheaper");
@@ -138,19 +138,19 @@ void add_nested_boxes(const ClothGeometry& cloth, MethodPlan& plan) {
     for (const ivec2 pin : pins) sum += visits(cloth.grid, pin, blocks);
     if (sum > most_visits * static_cast<double>(cloth.grid.particle_count()))
         return skip("so many lone pins: more substeps are cheaper");
-    for (const auto& [radius, sweeps] : blocks) plan.nested_table.push_back({radius.x, radius.y, sweeps, 0});
+    for (const auto& [radius, sweeps] : blocks) scheme.nested_table.push_back({radius.x, radius.y, sweeps, 0});
     push.block_count = static_cast<int>(blocks.size());
     for (const std::vector<ivec2>& round : rounds_of(pins, blocks)) {
-        push.first_pin = static_cast<int>(plan.nested_table.size());
-        for (const ivec2 pin : round) plan.nested_table.push_back({pin.x, pin.y, static_cast<int>(round.size()), 0});
-        plan.iterated.push_back({StepKind::nested, push});
+        push.first_pin = static_cast<int>(scheme.nested_table.size());
+        for (const ivec2 pin : round) scheme.nested_table.push_back({pin.x, pin.y, static_cast<int>(round.size()), 0});
+        scheme.iterated.push_back({StepKind::nested, push});
     }
 }
 
-std::uint64_t nested_rounds(const MethodPlan& plan, const glsl::NestedPush& push, ivec2 pin, int width) {
+std::uint64_t nested_rounds(const MethodScheme& scheme, const glsl::NestedPush& push, ivec2 pin, int width) {
     std::uint64_t rounds = 0;
     for (int block = 0; block < push.block_count; ++block) {
-        const glsl::ivec4& entry = plan.nested_table[static_cast<std::size_t>(block)];
+        const glsl::ivec4& entry = scheme.nested_table[static_cast<std::size_t>(block)];
         const auto [columns, rows] = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
         for (const SpringDirection& direction : spring_directions) {
             const int lines = direction.offset.y == 0 ? rows : columns;

@@ -91,7 +91,7 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
     }
     for (const ClothModel& cloth : cloths) {
         all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
-        all.insert(all.end(), cloth.plan.skipped.begin(), cloth.plan.skipped.end());
+        all.insert(all.end(), cloth.scheme.skipped.begin(), cloth.scheme.skipped.end());
     }
     return all;
 }
@@ -100,7 +100,7 @@ std::vector<Compromise> SimulationModel::compromises() const {
     std::vector<Compromise> all;
     if (closed_loop()) return all;  // it judges what its steps do not follow
     for (const ClothModel& cloth : cloths)
-        all.insert(all.end(), cloth.plan.compromises.begin(), cloth.plan.compromises.end());
+        all.insert(all.end(), cloth.scheme.compromises.begin(), cloth.scheme.compromises.end());
     return all;
 }
 

@@ -76,7 +76,7 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
                                   scene.gravity,
                                   scene.solver.strain_damping,
                                   !scene.colliders.empty()};
-    return std::max(substeps, method.plan(ClothGeometry(scene, small, false), settings).following_substeps);
+    return std::max(substeps, method.scheme(ClothGeometry(scene, small, false), settings).following_substeps);
 }
 
 SolverCandidate candidate(const Method& method, const SceneDescription& scene, double tolerance, DeviceKind device) {

@@ -23,8 +23,8 @@ enum class DeviceKind { cpu, gpu };
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
-    std::uint32_t least_substeps;  ///< substeps that follow bending (MethodPlan::following_substeps)
-    double predicted_ms;           ///< per frame, all cloths; fit to compare, not to plan by
+    std::uint32_t least_substeps;  ///< substeps that follow bending (MethodScheme::following_substeps)
+    double predicted_ms;           ///< per frame, all cloths; fit to compare, not to scheme by
     bool reaches;                  ///< the law promises the tolerance within the limits of the settings
 };
 

@@ -10,7 +10,7 @@
 namespace drape {
 
 // A failed run leaves this file to be replayed.
-inline constexpr std::string_view capsule_file_name = "failure.capsule";
+inline constexpr std::string_view reproducer_file_name = "failure.reproducer";
 
 // This file says what the writers of an unfinished run were told (journal.h).
 inline constexpr std::string_view journal_file_name = "journal.drape";

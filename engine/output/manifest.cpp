@@ -219,7 +219,7 @@ Json::Value frameless_json(const Manifest& manifest) {
     json["program_version"] = manifest.program_version;
     json["status"] = manifest.status;
     if (!manifest.failure.empty()) json["failure"] = manifest.failure;
-    if (!manifest.capsule.empty()) json["capsule"] = manifest.capsule;
+    if (!manifest.reproducer.empty()) json["reproducer"] = manifest.reproducer;
     if (manifest.failed_frame) json["failed"] = failed_frame_json(*manifest.failed_frame);
     json["scene"] = scene_json(manifest.scene);
     json["device"] = device_json(manifest.device);

@@ -104,7 +104,7 @@ struct Manifest {
     // to; "device failed", "output failed", "out of memory", "internal error": it broke off; "validation messages"
     std::string status = "done";
     std::string failure;                       // the reason, when it is not done
-    std::string capsule;                       // file that replays the failure; empty: there is none
+    std::string reproducer;                    // file that replays the failure; empty: there is none
     std::optional<FrameFailure> failed_frame;  // the frame that was no result
     std::string run_key;                       // the run's key (kept_frames.h)
     Scene scene;

@@ -32,7 +32,7 @@ bool all_digits(std::string_view text) {
 }
 
 bool is_finished_file_name(std::string_view name) {
-    return name == manifest_file_name || name == capsule_file_name || name == journal_file_name ||
+    return name == manifest_file_name || name == reproducer_file_name || name == journal_file_name ||
            is_checkpoint_file_name(name) ||
            std::ranges::any_of(output_formats(), [&](const OutputFormat* format) { return format->owns(name); });
 }
@@ -195,7 +195,7 @@ void OutputFolder::check_content(ExistingFiles existing) {
         if (entry.is_folder) continue;
         const bool goes = existing == ExistingFiles::resume
                               ? is_temporary_file_name(entry.name) || is_loose_frame_file_name(entry.name) ||
-                                    entry.name == manifest_file_name || entry.name == capsule_file_name
+                                    entry.name == manifest_file_name || entry.name == reproducer_file_name
                               : is_output_file_name(entry.name) || listed.contains(entry.name);
         if (goes) files_to_remove_.push_back(entry.name);
     }

@@ -21,7 +21,7 @@ struct SectionFormat {
 };
 
 inline constexpr SectionFormat checkpoint_format{"DRAPECKP", "checkpoint", 1};
-inline constexpr SectionFormat capsule_format{"DRAPECAP", "capsule", 1};
+inline constexpr SectionFormat reproducer_format{"DRAPEREP", "reproducer", 1};
 
 // A file ends with the XXH3-128, low half first, of all before it.
 using SectionChecksum = std::array<std::byte, 16>;

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "cloth/kernel_steps.h"
-#include "cloth/step_change.h"
+#include "cloth/substep_change.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/triangles_around.h"
@@ -76,15 +76,16 @@ void Twin::run_frame(std::uint32_t frame) {
     for (const Step& step : kernel_steps(*model_, kernels_)) run_step(step, inputs);
 }
 
-void Twin::change_step(const SimulationModel& run) {
-    const std::vector<StepChange> changes = step_changes(run, model_->scene.solver.substeps, run.scene.solver.substeps);
+void Twin::change_substep(const SimulationModel& run) {
+    const std::vector<SubstepChange> changes =
+        substep_changes(run, model_->scene.solver.substeps, run.scene.solver.substeps);
     model_ = &run;
     if (contact_) contact_->model = &*run.self_contact;
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
         TwinCloth& state = cloths_[cloth];
         for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
-            const ChangedStep changed =
-                changed_step(xyz(state[Field::displacement][i]), xyz(state[Field::end_excess][i]), changes[cloth]);
+            const ChangedSubstep changed =
+                changed_substep(xyz(state[Field::displacement][i]), xyz(state[Field::end_excess][i]), changes[cloth]);
             state[Field::displacement][i] = texel(changed.displacement);
             state[Field::displacement_remainder][i] = {};
             state[Field::end_excess][i] = texel(changed.excess);
@@ -163,7 +164,7 @@ void run_spring(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SpringPush>();
     std::vector<float>& tensions = state.tension(static_cast<std::size_t>(push.channel));
-    const bool carried = step.iteration > 0 && model.plan.carries_tension[push.channel];
+    const bool carried = step.iteration > 0 && model.scheme.carries_tension[push.channel];
     for (int py = 0; py < push.pair_count.y; ++py)
         for (int px = 0; px < push.pair_count.x; ++px) {
             const ivec2 owner = spring_owner({px, py}, push.offset, push.parity_axis, push.parity);
@@ -208,7 +209,7 @@ void run_tether(const TwinPlace& where) {
 void run_advance(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<vec4>& before =
-        state[model.plan.spare_state ? Field::displacement_spare : Field::displacement_before];
+        state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before];
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
         state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i]),
                                                        model.collides ? contact_excess : free_excess));

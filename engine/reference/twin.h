@@ -103,7 +103,7 @@ class Twin {
     /// Simulates from frame - 1 to `frame`, step by step.
     void run_frame(std::uint32_t frame);
     /// Goes on with the substeps of `run`, a model of the same scene, which must outlive this.
-    void change_step(const SimulationModel& run);
+    void change_substep(const SimulationModel& run);
     /// Takes one step, of one cloth or of all of them.
     void run_step(const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);

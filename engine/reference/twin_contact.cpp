@@ -92,7 +92,7 @@ void run_collide(const TwinPlace& where) {
             touched = touched || deepest > 0.0f;
             if (!(deepest > push.contact.z)) break;
         }
-        if (touched && model.plan.second_order) {
+        if (touched && model.scheme.second_order) {
             state[Field::displacement_before][i] = texel(displacement);
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);

@@ -123,7 +123,7 @@ void run_explicit_step(const TwinPlace& where) {
 std::vector<TwinRow> twin_explicit_rows() { return {{StepKind::explicit_step, run_explicit_step}}; }
 
 void Twin::tension(std::size_t index) {
-    const TensionPush& push = model_->cloths[index].plan.gathered_tension.value();
+    const TensionPush& push = model_->cloths[index].scheme.gathered_tension.value();
     const Grid& grid = model_->cloths[index].grid;
     TwinCloth& state = cloths_[index];
     const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {

@@ -62,7 +62,7 @@ std::vector<ClothStatistics> TwinLoop::statistics(Twin& twin, std::uint32_t fram
     const FrameInputs inputs = frame_inputs(run, frame);
     std::vector<ClothStatistics> all;
     for (std::size_t cloth = 0; cloth < run.cloths.size(); ++cloth) {
-        if (run.cloths[cloth].plan.gathered_tension) twin.tension(cloth);
+        if (run.cloths[cloth].scheme.gathered_tension) twin.tension(cloth);
         all.push_back(cloth_statistics(run, run.cloths[cloth], twin_statistics(run, cloth, twin.cloth(cloth), inputs)));
     }
     return all;
@@ -86,7 +86,7 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     Judgement judgement;
     const auto begin = [&](std::uint32_t substeps) {
         Twin twin = state_;
-        if (substeps != state_substeps_) twin.change_step(at(substeps));
+        if (substeps != state_substeps_) twin.change_substep(at(substeps));
         return twin;
     };
     const auto run = [&](Twin& twin, std::uint32_t k, std::uint32_t substeps) {

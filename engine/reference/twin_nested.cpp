@@ -112,7 +112,7 @@ void run_nested(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<NestedPush>();
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
-    const std::vector<ivec4>& table = model.plan.nested_table;
+    const std::vector<ivec4>& table = model.scheme.nested_table;
     const auto first = static_cast<std::size_t>(push.first_pin);
     for (std::size_t k = first; k < first + static_cast<std::size_t>(table[first].z); ++k) {
         const ivec2 pin{table[k].x, table[k].y};

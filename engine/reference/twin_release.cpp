@@ -27,7 +27,7 @@ vec3 pull_of_springs(const ClothModel& model, const TwinCloth& state, ivec2 here
         const float share = state.topology.masked() ? component(state.topology.spring_shares()[i], around.z)
                                                     : border_share(owner, offset, model.grid.size());
         sum = add_tension_pull(sum, edge, state.tension(static_cast<std::size_t>(around.z))[i],
-                               component(model.plan.release_stiffness, around.z) * share);
+                               component(model.scheme.release_stiffness, around.z) * share);
     }
     return sum;
 }
@@ -42,13 +42,13 @@ void run_release(const TwinPlace& where) {
         const std::size_t i = at(model.grid, here);
         if (motion.held.x != 0.0f || pin.rest.w == 0.0f || position[i].w != 0.0f) continue;
         state[Field::position][i].w = pin.rest.w;
-        if (model.plan.second_order) {
+        if (model.scheme.second_order) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_release);
         }
         const vec3 nothing{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
         const vec3 pull =
-            model.plan.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : nothing;
+            model.scheme.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : nothing;
         const float surplus = release_surplus(motion);
         const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);

@@ -400,7 +400,7 @@ void run_self_return(const TwinPlace& where) {
         if (std::exchange(meeting->before[place].w, 0.0f) == 0.0f) continue;
         const vec3 displacement = xyz(meeting->displacements[place]);
         state.move_to(i, displacement);
-        if (!model.plan.second_order) continue;
+        if (!model.scheme.second_order) continue;
         state[Field::displacement_before][i] = texel(displacement);
         uint& hold = state.integers(Field::line_control)[control_hold];
         hold = std::max(hold, line_hold_contact);

@@ -8,8 +8,8 @@
 #include "output/png_sequence.h"
 #include "output/progress.h"
 #include "run/checkpoints.h"
-#include "run/failure_capsule.h"
 #include "run/frame_sink.h"
+#include "run/reproducer.h"
 #include "run/run.h"
 #include "run/run_description.h"
 #include "scene/start_crossings.h"
@@ -335,31 +335,32 @@ void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::opti
     }
 }
 
-/// Leaves a capsule to be replayed. What keeps it from being written has been told, or is told of the manifest.
-void leave_capsule(OutputFolder& folder, const RunRequest& request, const LoadedScene& scene, const FrameRange& range,
-                   const Checkpoints& checkpoints, const RunFailure& failure, Manifest& manifest) {
+/// Leaves a reproducer to be replayed. What keeps it from being written has been told, or is told of the manifest.
+void leave_reproducer(OutputFolder& folder, const RunRequest& request, const LoadedScene& scene,
+                      const FrameRange& range, const Checkpoints& checkpoints, const RunFailure& failure,
+                      Manifest& manifest) {
     if (failure.status == output_failed) return;
-    FailureCapsule capsule{.scene = request.scene, .scene_text = scene.text, .keep_failed = request.keep_failed};
-    capsule.start = range.start, capsule.end = range.end, capsule.step = range.step;
-    capsule.program_version = program_version();
-    capsule.run_key = manifest.run_key;
-    capsule.device = manifest.device;
-    capsule.status = failure.status;
-    capsule.reason = failure.reason;
-    capsule.failed = failure.frame;
-    capsule.checkpoint = checkpoints.last();
+    Reproducer reproducer{.scene = request.scene, .scene_text = scene.text, .keep_failed = request.keep_failed};
+    reproducer.start = range.start, reproducer.end = range.end, reproducer.step = range.step;
+    reproducer.program_version = program_version();
+    reproducer.run_key = manifest.run_key;
+    reproducer.device = manifest.device;
+    reproducer.status = failure.status;
+    reproducer.reason = failure.reason;
+    reproducer.failed = failure.frame;
+    reproducer.checkpoint = checkpoints.last();
     // Later checkpoints are of no use in a run that went on.
-    if (capsule.checkpoint && failure.frame && capsule.checkpoint->next_frame > failure.frame->frame)
-        capsule.checkpoint.reset();
+    if (reproducer.checkpoint && failure.frame && reproducer.checkpoint->next_frame > failure.frame->frame)
+        reproducer.checkpoint.reset();
     try {
         manifest.statistics([&](const Manifest::FrameStatistics& each) {
-            if (!failure.frame || each.frame < failure.frame->frame) capsule.last_frame = each;
+            if (!failure.frame || each.frame < failure.frame->frame) reproducer.last_frame = each;
         });
-        write_capsule(folder, capsule);
-        manifest.capsule = capsule_file_name;
+        write_reproducer(folder, reproducer);
+        manifest.reproducer = reproducer_file_name;
         if (request.message)
-            request.message(
-                fmt::format("note: `drape replay {}` goes to this failure again", folder.path_of(capsule_file_name)));
+            request.message(fmt::format("note: `drape replay {}` goes to this failure again",
+                                        folder.path_of(reproducer_file_name)));
     } catch (const OutputError&) {  // the run's own failure is told
     }
 }
@@ -433,7 +434,7 @@ RunSummary run_scene(const RunRequest& request) {
     }
     summary.validation_count = earlier_validation + device.validation_count();
     manifest.validation = {request.scene.validate, summary.validation_count};
-    if (folder && failure) leave_capsule(*folder, request, scene, range, *checkpoints, *failure, manifest);
+    if (folder && failure) leave_reproducer(*folder, request, scene, range, *checkpoints, *failure, manifest);
     if (folder && (summary.complete || failure)) {
         end_with_manifest(*folder, manifest, failure);
         if (!failure || failure->frame) checkpoints->remove_all();

@@ -9,14 +9,14 @@
 #include <cstring>
 
 #include "cloth/impossible_pins.h"
-#include "cloth/step_change.h"
+#include "cloth/substep_change.h"
 #include "simulation/frame_loop.h"
 
 namespace drape {
 
 std::span<const AttemptStep> FrameLoop::attempt_steps() const {
     using enum AttemptStep;
-    static constexpr std::array all{keep, restore, change_step, remember, compare};
+    static constexpr std::array all{keep, restore, change_substep, remember, compare};
     static_assert(all.size() == attempt_step_count);
     if (model_.closed_loop()) return all;
     return std::span(all).first(model_.self_contact ? 2 : 0);
@@ -48,10 +48,10 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
     };
     std::vector<VkCommandBuffer> all;
     if (run.before) all.push_back(commands(*run.before));
-    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_step));
+    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_substep));
     all.push_back(rung.frame.recorded->commands(slot));
     if (run.after) all.push_back(commands(*run.after));
-    const std::vector<glsl::StepChange> changes = step_changes(model_, state_substeps_, run.substeps);
+    const std::vector<glsl::SubstepChange> changes = substep_changes(model_, state_substeps_, run.substeps);
     std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
     slots_.submit(slot, all);

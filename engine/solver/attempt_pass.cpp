@@ -73,12 +73,12 @@ void add_remember(graph::Graph& graph, ClothState& state) {
     add_copies(graph, state, "remember", copies);
 }
 
-void add_change_step(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                     std::size_t cloth) {
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("change_step.comp", {{"second_order", state.model->plan.second_order}}));
-    const glsl::ChangeStepPush push{state.model->grid.size(), static_cast<int>(cloth)};
-    add_compute_pass(graph, state.pass_name("change step", "judge"), pipeline, push,
+void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
+                        std::size_t cloth) {
+    const vulkan::ComputePipeline& pipeline = pipelines.get(
+        vulkan::variant_name("change_substep.comp", {{"second_order", state.model->scheme.second_order}}));
+    const glsl::ChangeSubstepPush push{state.model->grid.size(), static_cast<int>(cloth)};
+    add_compute_pass(graph, state.pass_name("change substep", "judge"), pipeline, push,
                      {state.model->grid.columns(), state.model->grid.rows()}, {&state, nullptr, inputs});
 }
 
@@ -104,8 +104,8 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
             return add_state_copies(graph, state, false);
         case AttemptStep::restore:
             return add_state_copies(graph, state, true);
-        case AttemptStep::change_step:
-            return add_change_step(graph, pipelines, state, inputs, cloth);
+        case AttemptStep::change_substep:
+            return add_change_substep(graph, pipelines, state, inputs, cloth);
         case AttemptStep::remember:
             return add_remember(graph, state);
         case AttemptStep::compare:

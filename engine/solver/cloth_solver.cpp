@@ -120,7 +120,7 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
     if (model_.closed_loop())
-        inputs_.attempt = graph.buffer<glsl::StepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
+        inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer({.name = "colliders",
                                           .byte_count = count * sizeof(glsl::ColliderRecord),
@@ -281,7 +281,7 @@ std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, st
 void ClothSolver::add_statistics(graph::Graph& graph) {
     for_each_dispatch([&](ClothState& state) {
         const Grid& grid = state.model->grid;
-        if (const auto& push = state.model->plan.gathered_tension)
+        if (const auto& push = state.model->scheme.gathered_tension)
             add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get("tension.comp"), *push,
                              {grid.columns(), grid.rows(), state.count}, {&state});
         drape::add_statistics(graph, pipelines_, state, inputs_, *run_);

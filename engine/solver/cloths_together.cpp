@@ -31,7 +31,7 @@ std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
         std::map<std::tuple<std::size_t, float, bool, bool>, std::vector<std::size_t>> parts;
         for (const std::size_t index : alike) {
             const ClothModel& cloth = model.cloths[index];
-            const bool turns = cloth.plan.spare_state || cloth.plan.spare_displacement;
+            const bool turns = cloth.scheme.spare_state || cloth.scheme.spare_displacement;
             parts[{cloth.collider_list, cloth.edge_reach, turns && cloth.has_motion, turns && cloth.has_release}]
                 .push_back(index);
         }

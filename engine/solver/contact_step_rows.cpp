@@ -14,7 +14,7 @@ using glsl::SelfContactPush;
 bool masked(Place p) { return p.cloth->masked(); }
 bool buffered(Place p) { return p.cloth->buffered; }
 bool sheet_is_buffered(Place p) { return p.contact->buffered; }
-bool second_order(Place p) { return p.cloth->model->plan.second_order; }
+bool second_order(Place p) { return p.cloth->model->scheme.second_order; }
 bool wide_atomics(Place p) { return p.device.wide_atomics(); }
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<SelfContactPush>().crossed_count > 0; }

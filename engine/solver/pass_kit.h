@@ -67,7 +67,7 @@ struct ContactHandles {
 struct SceneInputs {
     graph::Handle wind;       ///< a vec4 per substep, m/s
     graph::Handle colliders;  ///< ColliderRecords, sorted by kind
-    graph::Handle attempt;    ///< closed loops: a StepChange per cloth
+    graph::Handle attempt;    ///< closed loops: a SubstepChange per cloth
 };
 
 /// "<cloth>/<name>": the resource of a field.

@@ -16,19 +16,19 @@ template <class Push>
 std::size_t channel_of(Place p) {
     return static_cast<std::size_t>(p.step.push<Push>().channel);
 }
-const MethodPlan& plan_of(Place p) { return p.cloth->model->plan; }
+const MethodScheme& scheme_of(Place p) { return p.cloth->model->scheme; }
 bool has(Place p, Field field) { return (*p.cloth)[field].valid(); }
 
 // The variants of the shaders stand for these.
 bool masked(Place p) { return p.cloth->masked(); }
 bool buffered(Place p) { return p.cloth->buffered; }
 bool windy(Place p) { return has(p, Field::wind_force); }
-bool second_order(Place p) { return plan_of(p).second_order; }
+bool second_order(Place p) { return scheme_of(p).second_order; }
 bool after_edges(Place p) { return p.step.after_edges; }
 bool keeps_excess(Place p) { return has(p, Field::end_excess); }
 bool comes_home(Place p) { return p.cloth->away; }
 bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
-bool carries_to_release(Place p) { return plan_of(p).release_stiffness.x > 0; }
+bool carries_to_release(Place p) { return scheme_of(p).release_stiffness.x > 0; }
 bool releases_tension(Place p) { return carries_to_release(p) && !masked(p); }
 bool releases_masked_tension(Place p) { return carries_to_release(p) && masked(p); }
 bool bends(Place p) { return p.step.push<glsl::LinePush>().bend > 0; }
@@ -36,9 +36,9 @@ bool shears(Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0;
 bool stores_spring_tension(Place p) {
     const std::size_t direction = channel_of<glsl::SpringPush>(p);
     return has(p, tension_of(direction)) &&
-           (plan_of(p).carries_tension[direction] || (p.step.last && p.step.push<glsl::SpringPush>().compliance > 0));
+           (scheme_of(p).carries_tension[direction] || (p.step.last && p.step.push<glsl::SpringPush>().compliance > 0));
 }
-bool carries_tension(Place p) { return plan_of(p).carries_tension[0]; }
+bool carries_tension(Place p) { return scheme_of(p).carries_tension[0]; }
 /// All springs of an iteration: only the stretch springs' tension is stored, for the stretch error.
 bool stores_stretch_tension(Place p) {
     return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
@@ -76,7 +76,7 @@ glsl::PinPush pins_of(Place p) {
 graph::PushConstants pin_push(Place p) { return pins_of(p); }
 graph::PushConstants release_push(Place p) {
     const glsl::PinPush pins = pins_of(p);
-    return glsl::ReleasePush{plan_of(p).release_stiffness, p.cloth->model->grid.size(), pins.particle_count,
+    return glsl::ReleasePush{scheme_of(p).release_stiffness, p.cloth->model->grid.size(), pins.particle_count,
                              pins.motion_first, p.cloth->model->reach()};
 }
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
@@ -118,8 +118,8 @@ std::string all_springs_alias(Place p, std::string_view name, bool written) {
 }
 /// Where micro-steps go to and fro, the displacement of the substep before the last is in the spare image.
 std::string advance_alias(Place p, std::string_view name, bool) {
-    return name == "displacement_before" && plan_of(p).spare_state ? variable_of(Field::displacement_spare)
-                                                                   : std::string();
+    return name == "displacement_before" && scheme_of(p).spare_state ? variable_of(Field::displacement_spare)
+                                                                     : std::string();
 }
 std::string box_edges_alias(Place p, std::string_view name, bool written) {
     if (written) return variable_of(p.step.after_edges ? Field::lifted : Field::lifted_once);

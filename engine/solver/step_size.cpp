@@ -27,7 +27,7 @@ std::size_t count_of(const SimulationModel& model, int kind) {
 }
 
 std::span<const glsl::ivec4> nested_pins(const StepPlace& place) {
-    const std::span<const glsl::ivec4> table = place.cloth->model->plan.nested_table;
+    const std::span<const glsl::ivec4> table = place.cloth->model->scheme.nested_table;
     const auto first = static_cast<std::size_t>(place.step.push<glsl::NestedPush>().first_pin);
     return table.subspan(first, static_cast<std::size_t>(table[first].z));
 }
@@ -60,7 +60,7 @@ std::uint32_t nested_group(const StepPlace& place) {
     constexpr int subgroup = 8, most = glsl::nested_group_width;
     int width = place.cloth->buffered ? subgroup : most;
     const auto takes_too_many = [&](const glsl::ivec4& pin) {
-        return nested_rounds(place.cloth->model->plan, place.step.push<glsl::NestedPush>(), {pin.x, pin.y}, width) >
+        return nested_rounds(place.cloth->model->scheme, place.step.push<glsl::NestedPush>(), {pin.x, pin.y}, width) >
                most_loop_rounds;
     };
     while (width < most && std::ranges::any_of(nested_pins(place), takes_too_many)) width *= 2;

@@ -23,20 +23,20 @@ SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
 }
 
 /// State of a substep of another length that ends at the same place with the same velocity and acceleration.
-struct ChangedStep {
+struct ChangedSubstep {
     vec3 displacement;
     vec3 before;  // displacement of the substep before it
     vec3 excess;
     vec3 excess_before;
 };
 
-SHARED ChangedStep changed_step(vec3 displacement, vec3 excess, StepChange change) {
+SHARED ChangedSubstep changed_substep(vec3 displacement, vec3 excess, SubstepChange change) {
     precise vec3 velocity = (displacement + excess) * change.ratio;
     precise vec3 moved = velocity - excess * change.motion;
     precise vec3 changed_excess = excess * change.excess;
     precise vec3 before = moved - changed_excess * 2.0f;
     precise vec3 excess_before = excess * change.excess_before;
-    return ChangedStep(moved, before, changed_excess, excess_before);
+    return ChangedSubstep(moved, before, changed_excess, excess_before);
 }
 
 #endif

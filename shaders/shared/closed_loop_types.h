@@ -11,15 +11,15 @@ namespace drape::glsl {
 /// Rows of particles that one invocation of the comparison joins before its workgroup does.
 const int difference_rows = 8;
 
-/// Weights of changed_step (include/end_velocity.h) from a cloth's substeps to those of an attempt.
-struct StepChange {
+/// Weights of changed_substep (include/end_velocity.h) from a cloth's substeps to those of an attempt.
+struct SubstepChange {
     float ratio;          // new length over old
     float motion;         // on the excess in the displacement; without damping the ratio's square
     float excess;         // on the excess in the new excess; without damping the ratio's square
     float excess_before;  // on the excess in that of the substep before; without damping the ratio's square
 };
 
-struct ChangeStepPush {
+struct ChangeSubstepPush {
     ivec2 grid;
     int cloth;
 };

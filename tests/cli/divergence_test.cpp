@@ -39,7 +39,7 @@ TEST(Divergence, StopsNamingFrameClothAndParticleAndKeepsTheFramesBefore) {
                       HasSubstr("the particle in column 0, row 0 is not finite"),
                       HasSubstr("(48 of the cloth's 48 particles are not)"), HasSubstr("(2 of 9 frames)")));
     ASSERT_THAT(names_in(folder.out()),
-                ElementsAre("failure.capsule", "manifest.json", "positions.npy", "positions.npz"));
+                ElementsAre("failure.reproducer", "manifest.json", "positions.npy", "positions.npz"));
     EXPECT_THAT(read_text(folder / "out/manifest.json"),
                 AllOf(HasSubstr("\"status\": \"diverged\""), HasSubstr("is not finite")));
     const std::string array = read_text(folder / "out/positions.npy");
@@ -54,13 +54,13 @@ TEST(Divergence, StopsARenderToo) {
     EXPECT_THAT(outcome.err,
                 AllOf(HasSubstr("the simulation diverged: in frame 2, cloth 'sheet'"), HasSubstr("(2 of 9 frames)")));
     EXPECT_THAT(names_in(folder.out()),
-                ElementsAre("failure.capsule", "frame_0000.png", "frame_0001.png", "manifest.json"));
+                ElementsAre("failure.reproducer", "frame_0000.png", "frame_0001.png", "manifest.json"));
 }
 
 TEST(Divergence, WithNoFrameBeforeLeavesTheReason) {
     const SceneFolder folder(small_scene(9));
     EXPECT_EQ(run_overflowing(folder, {"-s", "4"}).code, 5);
-    EXPECT_THAT(names_in(folder.out()), ElementsAre("failure.capsule", "manifest.json"));
+    EXPECT_THAT(names_in(folder.out()), ElementsAre("failure.reproducer", "manifest.json"));
     const Json::Value manifest = lasting_manifest(folder.out());
     EXPECT_EQ(manifest["status"], "diverged");
     EXPECT_EQ(manifest["failed"]["frame"], 4);

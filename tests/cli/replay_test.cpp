@@ -43,13 +43,13 @@ TEST_P(Replays, ReachTheSameFailure) {
     arguments.insert(arguments.end(), GetParam().more.begin(), GetParam().more.end());
     const Outcome failed = drape(arguments);
     ASSERT_EQ(failed.code, GetParam().code) << failed.err;
-    EXPECT_THAT(failed.err, HasSubstr("drape replay " + folder.out() + "/failure.capsule"));
+    EXPECT_THAT(failed.err, HasSubstr("drape replay " + folder.out() + "/failure.reproducer"));
     const Json::Value manifest = lasting_manifest(folder.out());
-    EXPECT_EQ(manifest["capsule"], "failure.capsule");
+    EXPECT_EQ(manifest["reproducer"], "failure.reproducer");
     EXPECT_GT(manifest["failed"]["frame"].asInt(), 5) << "nothing was before it";
-    EXPECT_LT(fs::file_size(folder / "out/failure.capsule"), std::uintmax_t{1} << 20);
-    fs::remove(folder.scene());  // the capsule holds the scene
-    const Outcome replayed = drape({"replay", folder.out() + "/failure.capsule"});
+    EXPECT_LT(fs::file_size(folder / "out/failure.reproducer"), std::uintmax_t{1} << 20);
+    fs::remove(folder.scene());  // the reproducer holds the scene
+    const Outcome replayed = drape({"replay", folder.out() + "/failure.reproducer"});
     EXPECT_EQ(replayed.code, GetParam().code) << replayed.err;
     EXPECT_THAT(replayed.err, HasSubstr("the same failure, to the bit:"));
     EXPECT_EQ(failure_in(replayed.err), failure_in(failed.err));
@@ -72,13 +72,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Failing{"NonsenseThatIsKept", R"("method": "relax", "substeps": 1)", {"--on-failure", "keep"}, 5}),
     [](const auto& each) { return std::string(each.param.name); });
 
-class Capsule : public testing::Test {
+class Reproducer : public testing::Test {
   protected:
-    Capsule() : folder_(torn_scene(R"("method": "relax", "substeps": 1)")) {
+    Reproducer() : folder_(torn_scene(R"("method": "relax", "substeps": 1)")) {
         EXPECT_EQ(drape({"simulate", folder_.scene(), "-o", folder_.out(), "-q", "--checkpoint", "0"}).code, 5);
         good_ = read_text(path());
     }
-    fs::path path() const { return folder_ / "out/failure.capsule"; }
+    fs::path path() const { return folder_ / "out/failure.reproducer"; }
     Outcome replay(const std::string& bytes) const {
         write_text(path(), bytes);
         return drape({"replay", path().string()});
@@ -87,16 +87,16 @@ class Capsule : public testing::Test {
     std::string good_;
 };
 
-TEST_F(Capsule, DamagedForeignOrMissingIsRefused) {
+TEST_F(Reproducer, DamagedForeignOrMissingIsRefused) {
     for (const double place : {0.01, 0.5, 0.9999}) {
         std::string bad = good_;
         bad[static_cast<std::size_t>(place * static_cast<double>(bad.size()))] ^= 1;
         const Outcome outcome = replay(bad);
         EXPECT_EQ(outcome.code, 1);
-        EXPECT_THAT(outcome.err, AllOf(HasSubstr("failure.capsule'"), HasSubstr("is damaged: its checksum")));
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("failure.reproducer'"), HasSubstr("is damaged: its checksum")));
     }
     EXPECT_THAT(replay(good_.substr(0, good_.size() / 2)).err, HasSubstr("is damaged"));
-    EXPECT_THAT(replay("no capsule at all").err, HasSubstr("is no capsule"));
+    EXPECT_THAT(replay("no reproducer at all").err, HasSubstr("is no reproducer"));
     EXPECT_EQ(replay("").code, 1);
     fs::remove(path());
     const Outcome missing = drape({"replay", path().string()});
@@ -104,7 +104,7 @@ TEST_F(Capsule, DamagedForeignOrMissingIsRefused) {
     EXPECT_THAT(missing.err, HasSubstr("No such file"));
 }
 
-TEST_F(Capsule, IsReplacedByTheNextRun) {
+TEST_F(Reproducer, IsReplacedByTheNextRun) {
     ASSERT_EQ(drape({"simulate", folder_.scene(), "-o", folder_.out(), "-q", "--overwrite", "-e", "3"}).code, 0);
     EXPECT_FALSE(fs::exists(path()));
 }

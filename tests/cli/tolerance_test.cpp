@@ -21,7 +21,7 @@ TEST(Tolerance, MissedEndsTheRunNamingFrameClothAndErrorAndKeepsTheFramesBefore)
                 AllOf(HasSubstr("the tolerance is missed: in frame 1, cloth 'sheet', the stretch error is "),
                       HasSubstr("the scene allows 1e-05"), HasSubstr("(1 of 9 frames)")));
     EXPECT_THAT(names_in(folder.out()),
-                ElementsAre("failure.capsule", "manifest.json", "positions.npy", "positions.npz"));
+                ElementsAre("failure.reproducer", "manifest.json", "positions.npy", "positions.npz"));
     EXPECT_THAT(read_text(folder / "out/manifest.json"), AllOf(HasSubstr("\"status\": \"tolerance missed\""),
                                                                HasSubstr("\"failure\": \"the tolerance is missed")));
 }

@@ -34,7 +34,7 @@ TEST(ClothModelTest, SpringConstantsFollowTheCellShape) {
     const ClothModel model(scene, 0);
     EXPECT_DOUBLE_EQ(model.inner_mass, 0.25 * 0.1 * 0.2);
     const double h = 1.0 / 600;
-    const auto springs = test::pushes<glsl::SpringPush>(model.plan);
+    const auto springs = test::pushes<glsl::SpringPush>(model.scheme);
     const auto stiffness = [&](std::size_t spring) {
         return model.inner_mass / (h * h * static_cast<double>(springs[spring].compliance));
     };
@@ -50,17 +50,17 @@ TEST(ClothModelTest, RigidSpringsHaveNoComplianceAndNoTension) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 4, 8);
     scene.cloths[0].stiffness.rigid = true;
     const ClothModel model(scene, 0);
-    const auto springs = test::pushes<glsl::SpringPush>(model.plan);
+    const auto springs = test::pushes<glsl::SpringPush>(model.scheme);
     ASSERT_EQ(springs.size(), 8u);
     for (const glsl::SpringPush& push : springs) EXPECT_EQ(push.compliance, 0.0f);
-    for (const bool has : model.plan.carries_tension) EXPECT_FALSE(has);
+    for (const bool has : model.scheme.carries_tension) EXPECT_FALSE(has);
 }
 
 TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
     SceneDescription scene = test::sheet(2, 9, 1, 1, 4, 1);
     scene.cloths[0].stiffness.shear = 0;
     const SimulationModel model(scene);
-    EXPECT_EQ(model.cloths[0].plan.iterated.size(), 3u);  // row even, column even, column odd
+    EXPECT_EQ(model.cloths[0].scheme.iterated.size(), 3u);  // row even, column even, column odd
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring row odd"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring shear down-right even"));
     EXPECT_TRUE(skips(model.skipped(), "sheet/spring shares"));
@@ -177,7 +177,7 @@ TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
         const std::vector<Step> steps = kernel_steps(model, stream_kernels);
         EXPECT_EQ(count(steps, StepKind::twist), 0);
         EXPECT_EQ(count(steps, StepKind::all_twist), 2);
-        const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].plan)[0];
+        const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].scheme)[0];
         for (const Step& step : steps) {
             const bool predicts = step.kind == StepKind::force || step.kind == StepKind::predict;
             EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second sweep";
@@ -224,28 +224,28 @@ TEST(FrameStepsTest, LineFramesPredictInSecondOrderWithCollidersToo) {
 TEST(ClothModelTest, LinesSayWhatTheySoften) {
     SceneDescription scene = test::sheet(33, 33, 1, 1, 20);
     scene.solver.method = SolverMethod::line;
-    EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
+    EXPECT_TRUE(ClothModel(scene, 0).scheme.compromises.empty());
     scene.cloths[0].stiffness.stretch = 1e11;
     for (const bool collides : {false, true}) {
         if (collides) scene.colliders.push_back({Sphere{}});
         scene.solver.substeps = 20;
         const ClothModel model(scene, 0);
-        ASSERT_EQ(model.plan.compromises.size(), 1u);
-        EXPECT_EQ(model.plan.compromises[0].what, "sheet/stiffness");
+        ASSERT_EQ(model.scheme.compromises.size(), 1u);
+        EXPECT_EQ(model.scheme.compromises[0].what, "sheet/stiffness");
         // The least compliance is in units of (4/9) h^2/m, or of h^2/m.
         const double factor = collides ? 1 : 2.25,
                      used = factor / least_line_compliance * model.inner_mass * 1200 * 1200;
-        EXPECT_NEAR(model.plan.used_stiffness[0], used, 1e-6 * used);
-        const glsl::LinePush push = test::pushes<glsl::LinePush>(model.plan)[2];
+        EXPECT_NEAR(model.scheme.used_stiffness[0], used, 1e-6 * used);
+        const glsl::LinePush push = test::pushes<glsl::LinePush>(model.scheme)[2];
         EXPECT_FLOAT_EQ(collides ? push.compliance : push.compliance_bdf2, float(least_line_compliance));
         // With so many substeps nothing is softened, with one less something is.
-        scene.solver.substeps = model.plan.compromises[0].enough_substeps;
-        EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
+        scene.solver.substeps = model.scheme.compromises[0].enough_substeps;
+        EXPECT_TRUE(ClothModel(scene, 0).scheme.compromises.empty());
         --scene.solver.substeps;
-        EXPECT_FALSE(ClothModel(scene, 0).plan.compromises.empty());
+        EXPECT_FALSE(ClothModel(scene, 0).scheme.compromises.empty());
     }
     scene.cloths[0].stiffness.rigid = true;
-    EXPECT_EQ(ClothModel(scene, 0).plan.compromises[0].enough_substeps, 0u);
+    EXPECT_EQ(ClothModel(scene, 0).scheme.compromises[0].enough_substeps, 0u);
 }
 
 TEST(ClothModelTest, BendingThatNoNumberOfSubstepsFollowsAsksForTheMostThatCanBeSaid) {
@@ -253,32 +253,32 @@ TEST(ClothModelTest, BendingThatNoNumberOfSubstepsFollowsAsksForTheMostThatCanBe
         SceneDescription scene = test::sheet(5, 5, 0.01, 0.01, 4);
         scene.solver.method = method;
         scene.cloths[0].stiffness.bend = 1e30;
-        EXPECT_EQ(ClothModel(scene, 0).plan.following_substeps, 1'000'000'000u);
+        EXPECT_EQ(ClothModel(scene, 0).scheme.following_substeps, 1'000'000'000u);
     }
 }
 
 TEST(ClothModelTest, LinesCarryTheTensionOfEverySpringThatThereIs) {
     SceneDescription scene = test::sheet(9, 9, 1, 1, 4);
     scene.solver.method = SolverMethod::line;
-    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, true, true}));
+    EXPECT_EQ(ClothModel(scene, 0).scheme.carries_tension, (PerDirection<bool>{true, true, true, true}));
     scene.cloths[0].stiffness = {true, 0, 0, 0};
-    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, true, true}));
+    EXPECT_EQ(ClothModel(scene, 0).scheme.carries_tension, (PerDirection<bool>{true, true, true, true}));
     scene.cloths[0].stiffness = {false, 500, 0, 0};
-    EXPECT_EQ(ClothModel(scene, 0).plan.carries_tension, (PerDirection<bool>{true, true, false, false}));
+    EXPECT_EQ(ClothModel(scene, 0).scheme.carries_tension, (PerDirection<bool>{true, true, false, false}));
 }
 
 TEST(ClothModelTest, NestedBoxesGoRoundEachParticleHeldAlone) {
     SceneDescription scene = test::sheet(65, 65, 1, 1, 4);
     scene.solver.method = SolverMethod::line;
     Cloth& cloth = scene.cloths[0];
-    const auto nested = [&] { return test::pushes<glsl::NestedPush>(ClothModel(scene, 0).plan); };
+    const auto nested = [&] { return test::pushes<glsl::NestedPush>(ClothModel(scene, 0).scheme); };
     cloth.pins = {test::pin_top(cloth)};
     EXPECT_TRUE(nested().empty());
     EXPECT_TRUE(skips(SimulationModel(scene).skipped(), "sheet/nested boxes"));
     // Two corners have boxes that share no particle; a pin between them whose box shares some with the first waits.
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(64, 0, 64, 0), test::pin_box(30, 0, 30, 0)};
     ASSERT_EQ(nested().size(), 2u);
-    const std::vector<glsl::ivec4> table = ClothModel(scene, 0).plan.nested_table;
+    const std::vector<glsl::ivec4> table = ClothModel(scene, 0).scheme.nested_table;
     const auto first = static_cast<std::size_t>(nested()[0].first_pin);
     EXPECT_EQ(table[first].z, 2);
     EXPECT_EQ(table[first + 1].x, 64);
@@ -303,9 +303,9 @@ TEST(ClothModelTest, NestedBoxesEndBeforeTheDeviceBreaksOff) {
     scene.solver.method = SolverMethod::line;
     scene.cloths[0].pins = {test::pin_box(135, 2100, 135, 2100)};
     const ClothModel model(scene, 0);
-    const auto nested = test::pushes<glsl::NestedPush>(model.plan);
+    const auto nested = test::pushes<glsl::NestedPush>(model.scheme);
     ASSERT_EQ(nested.size(), 1u);
-    EXPECT_LT(nested_rounds(model.plan, nested[0], {135, 2100}, glsl::nested_group_width), most_loop_rounds);
+    EXPECT_LT(nested_rounds(model.scheme, nested[0], {135, 2100}, glsl::nested_group_width), most_loop_rounds);
 }
 
 TEST(FrameStepsTest, OrdersAFrameAsTheSlidesDo) {
@@ -352,7 +352,7 @@ TEST(MethodTest, PlansOfOneGeometryDifferBySubsteps) {
     const ClothGeometry cloth(scene, scene.cloths[0], false);
     for (const Method& method : methods()) {
         const auto bytes = [&](std::uint32_t substeps) {
-            return bytes_of(method.plan(cloth, {substeps, 2, 1.0 / (60 * substeps), scene.gravity, 0.2, false}));
+            return bytes_of(method.scheme(cloth, {substeps, 2, 1.0 / (60 * substeps), scene.gravity, 0.2, false}));
         };
         EXPECT_EQ(bytes(10), bytes(10)) << method.name();
         EXPECT_NE(bytes(10), bytes(11)) << method.name();

@@ -69,7 +69,7 @@ TEST(ExplicitStiffnessTest, TheSceneSaysSo) {
     SceneDescription scene = test::sheet(101, 101, 1, 1, 20);
     scene.solver.method = SolverMethod::explicit_steps;
     const auto note = [](const SceneDescription& described) {
-        const std::vector<Compromise> all = ClothModel(described, 0).plan.compromises;
+        const std::vector<Compromise> all = ClothModel(described, 0).scheme.compromises;
         return all.empty() ? std::string("none") : all[0].reason;
     };
     // K = k h^2/m = 1000 / 1200^2 / 2e-5 = 34.7 against 0.45 / (1.1 x 1.4) asks for 20 sqrt(118.8) = 218.01 substeps.
@@ -91,29 +91,29 @@ TEST(BendStiffnessTest, RelaxationTakesOffWhatItsSweepAddsAndSaysWhatItFollows) 
     const double cell = 1.0 / 64, mass = cloth.areal_density * cell * cell, h = 1.0 / 1200;
     const auto rigidity = [&](double compliance) { return mass * cell * cell / (compliance * h * h); };
     const auto note = [&] {
-        const std::vector<Compromise> all = ClothModel(scene, 0).plan.compromises;
+        const std::vector<Compromise> all = ClothModel(scene, 0).scheme.compromises;
         return all.empty() ? std::string("none") : all[0].reason;
     };
     cloth.stiffness.bend = rigidity(60);
     const ClothModel model(scene, 0);
-    const auto bends = test::pushes<glsl::BendPush>(model.plan);
-    const auto twists = test::pushes<glsl::TwistPush>(model.plan);
+    const auto bends = test::pushes<glsl::BendPush>(model.scheme);
+    const auto twists = test::pushes<glsl::TwistPush>(model.scheme);
     ASSERT_EQ(bends.size(), 6u);
     ASSERT_EQ(twists.size(), 4u);
     EXPECT_FLOAT_EQ(bends[0].compliance, 57);
     EXPECT_FLOAT_EQ(twists[0].compliance, 28);  // twice as stiff as an axis: 60/2 - 2
-    EXPECT_EQ(model.plan.used_bend, cloth.stiffness.bend);
+    EXPECT_EQ(model.scheme.used_bend, cloth.stiffness.bend);
     EXPECT_EQ(note(), "none");
     cloth.stiffness.bend = rigidity(1);  // four times what a sweep can do on the twist: twice as many substeps
     const ClothModel softened(scene, 0);
-    EXPECT_NEAR(softened.plan.used_bend, rigidity(4), 1e-12);
-    EXPECT_FLOAT_EQ(test::pushes<glsl::BendPush>(softened.plan)[0].compliance,
+    EXPECT_NEAR(softened.scheme.used_bend, rigidity(4), 1e-12);
+    EXPECT_FLOAT_EQ(test::pushes<glsl::BendPush>(softened.scheme)[0].compliance,
                     1);  // the axes follow no more than the twist
-    EXPECT_GT(test::pushes<glsl::TwistPush>(softened.plan)[0].compliance, 0);
-    EXPECT_LT(test::pushes<glsl::TwistPush>(softened.plan)[0].compliance, 1e-6f);
+    EXPECT_GT(test::pushes<glsl::TwistPush>(softened.scheme)[0].compliance, 0);
+    EXPECT_LT(test::pushes<glsl::TwistPush>(softened.scheme)[0].compliance, 1e-6f);
     EXPECT_NE(note().find("40 substeps would follow all of it"), std::string::npos) << note();
     cloth.stiffness.bend = 0;
-    EXPECT_TRUE(ClothModel(scene, 0).plan.once.empty());
+    EXPECT_TRUE(ClothModel(scene, 0).scheme.once.empty());
 }
 
 TEST(BendStiffnessTest, ExplicitStepsShareTheirLimitWithBending) {

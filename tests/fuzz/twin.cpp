@@ -70,7 +70,7 @@ void check_finite(const SimulationModel& model, Twin& twin, Watch& watch, std::u
     const FrameInputs inputs = frame_inputs(model, frame);
     std::vector<ClothStatistics> all;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        if (model.cloths[cloth].plan.gathered_tension) twin.tension(cloth);
+        if (model.cloths[cloth].scheme.gathered_tension) twin.tension(cloth);
         const TwinCloth& state = twin.cloth(cloth);
         all.push_back(cloth_statistics(model, model.cloths[cloth], twin_statistics(model, cloth, state, inputs)));
         std::uint32_t count = 0;

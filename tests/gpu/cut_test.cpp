@@ -223,7 +223,7 @@ TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.cutters = random_blades(frames - 5, scene.time.fps, 0.9);
     const ClothModel model(scene, 0);
-    ASSERT_TRUE(model.plan.second_order);
+    ASSERT_TRUE(model.scheme.second_order);
     ASSERT_EQ(model.tethers[5 * 40].anchor_a, 0);
     EXPECT_EQ(expect_the_twins_cuts(scene, frames)[5 * 40].anchor_a, -1);
 }

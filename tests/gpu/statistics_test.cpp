@@ -407,7 +407,7 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
             ASSERT_EQ(frame.statistics.size(), 2u);
             EXPECT_TRUE(frame.positions.empty());
             for (std::size_t cloth = 0; cloth < 2; ++cloth) {
-                if (model.cloths[cloth].plan.gathered_tension) twin.tension(cloth);
+                if (model.cloths[cloth].scheme.gathered_tension) twin.tension(cloth);
                 const ClothStatistics expected = cloth_statistics(
                     model, model.cloths[cloth],
                     twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)));

@@ -18,7 +18,7 @@ TEST(TwinLineTest, EverythingAtOnce) { compare(everything_in_lines()); }
 
 TEST(TwinLineTest, SecondOrder) {
     const SimulationModel model(free_lines());
-    ASSERT_TRUE(model.cloths[0].plan.second_order);
+    ASSERT_TRUE(model.cloths[0].scheme.second_order);
     compare(free_lines());
 }
 
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TwinLineGrid,
 
 TEST(TwinLineTest, NestedBoxesAroundLonePins) {
     const SimulationModel model(lone_pins());
-    ASSERT_EQ(model.cloths[0].plan.iterated.size(), 4u + 3u) << "lines, and rounds of pins";
+    ASSERT_EQ(model.cloths[0].scheme.iterated.size(), 4u + 3u) << "lines, and rounds of pins";
     compare(lone_pins());
 }
 

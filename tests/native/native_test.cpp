@@ -65,7 +65,7 @@ class NativeKernels : public testing::TestWithParam<Run> {
                 TwinCloth& state = twin.cloth(cloth);
                 expect_same_bits(run.positions(cloth), field_of(state, Field::position), "position");
                 expect_same_bits(run.displacements(cloth), field_of(state, Field::displacement), "displacement");
-                if (!model.cloths[cloth].plan.line_scratch) continue;
+                if (!model.cloths[cloth].scheme.line_scratch) continue;
                 for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
                     expect_same_bits(run.tension(cloth, direction), state.tension(direction), "tension");
             }

@@ -31,8 +31,8 @@ SceneDescription bending_sheet(SolverMethod method, double compliance) {
 /// linear in x, E = -1/2 sum x . F.
 double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape) {
     const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
-    EXPECT_EQ(model.cloths[0].plan.used_bend, rigidity);
+    EXPECT_TRUE(model.cloths[0].scheme.compromises.empty());
+    EXPECT_EQ(model.cloths[0].scheme.used_bend, rigidity);
     Twin twin(model);
     TwinCloth& state = twin.cloth(0);
     for (std::size_t i = 0; i < shape.size(); ++i) {

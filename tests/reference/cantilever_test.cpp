@@ -14,7 +14,7 @@ namespace {
 /// Returns H/W once the strip hangs still.
 double fall_over_reach(const SceneDescription& scene) {
     const SimulationModel model(scene);
-    EXPECT_EQ(model.cloths[0].plan.used_bend, scene.cloths[0].stiffness.bend);
+    EXPECT_EQ(model.cloths[0].scheme.used_bend, scene.cloths[0].stiffness.bend);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame < scene.time.frame_count; ++frame) twin.run_frame(frame);
     const Vec3 tip = test::position_of(twin.cloth(0), model.cloths[0].grid.columns() - 1);
@@ -29,7 +29,7 @@ TEST_P(Cantilever, HangsAsTheElastica) {
     double ratio[3];
     for (std::size_t k = 0; k < 3; ++k) {
         const SceneDescription scene = model_scenes::hanging_cantilever(16u << k, gamma, method);
-        EXPECT_TRUE(ClothModel(scene, 0).plan.compromises.empty());
+        EXPECT_TRUE(ClothModel(scene, 0).scheme.compromises.empty());
         ratio[k] = fall_over_reach(scene);
         std::printf("[ measured ] %s, Gamma %g, %u segments: H/W %.6f, %+.3f %% of the elastica's\n",
                     method == SolverMethod::relax ? "relax" : "explicit", gamma, 16u << k, ratio[k],

@@ -15,7 +15,7 @@ namespace {
 /// Largest difference of a particle's force from the network's, relative to the largest force.
 double force_error(const SceneDescription& scene) {
     const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
+    EXPECT_TRUE(model.cloths[0].scheme.compromises.empty());
     Twin twin(model);
     TwinCloth& state = twin.cloth(0);
     std::mt19937 random(11);

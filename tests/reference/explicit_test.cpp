@@ -29,7 +29,7 @@ TEST(ExplicitTest, AHangingSheetStretchesByItsTension) {
     cloth.damping = 20;
     cloth.pins = {test::pin_top(cloth)};
     const SimulationModel model(scene);
-    ASSERT_TRUE(model.cloths[0].plan.compromises.empty());
+    ASSERT_TRUE(model.cloths[0].scheme.compromises.empty());
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 120; ++frame) twin.run_frame(frame);
     double worst = 0;
@@ -60,7 +60,7 @@ SceneDescription swing(std::uint32_t links, std::uint32_t substeps, double strai
 /// Energy above the sheet hanging straight down, as a mean over half a second around `end`, over that at the start.
 double energy_kept(const SceneDescription& scene, std::uint32_t end) {
     const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].plan.compromises.empty());
+    EXPECT_TRUE(model.cloths[0].scheme.compromises.empty());
     Twin twin(model);
     const double mass = scene.cloths[0].areal_density, lowest = -mass * 9.81 * 0.5;
     const double start = test::energy_of(model, 0, twin.cloth(0)).gravity - lowest;

@@ -90,7 +90,7 @@ TEST(LineTest, AHangingSheetStretchesByItsTension) {
     cloth.damping = 20;
     cloth.pins = {test::pin_top(cloth)};
     const SimulationModel model(scene);
-    ASSERT_EQ(model.cloths[0].plan.used_stiffness[1], model.cloths[0].stiffness_constant.spring[1]);
+    ASSERT_EQ(model.cloths[0].scheme.used_stiffness[1], model.cloths[0].stiffness_constant.spring[1]);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 120; ++frame) twin.run_frame(frame);
     double worst = 0;

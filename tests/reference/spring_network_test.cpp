@@ -40,7 +40,7 @@ TEST(SpringNetworkTest, HasTheMassesSpringsAndRestLengthsOfTheDevice) {
     // Every spring of the device occurs once, with share * k = share * m_inner / (compliance h^2).
     std::size_t found = 0;
     const CutTopology topology(model);
-    for (const glsl::SpringPush& push : test::pushes<glsl::SpringPush>(model.plan)) {
+    for (const glsl::SpringPush& push : test::pushes<glsl::SpringPush>(model.scheme)) {
         if (push.parity != 0) continue;
         const double h = model.substep_length, k = model.inner_mass / (double(push.compliance) * h * h);
         const int step = push.offset.y * 9 + push.offset.x;

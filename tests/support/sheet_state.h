@@ -102,10 +102,10 @@ inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const T
     for_springs(model, [&](std::size_t first, std::size_t second, std::size_t direction, double share) {
         const double stretch = distance(position_of(state, first), position_of(state, second)) -
                                model.stiffness_constant.rest_length[direction];
-        energy.elastic += 0.5 * share * model.plan.used_stiffness[direction] * stretch * stretch;
+        energy.elastic += 0.5 * share * model.scheme.used_stiffness[direction] * stretch * stretch;
     });
     const double wanted = scene.scene.cloths[cloth].stiffness.bend;
-    const double used = wanted > 0 ? model.plan.used_bend / wanted : 0;
+    const double used = wanted > 0 ? model.scheme.used_bend / wanted : 0;
     for_bends(model, [&](std::size_t first, std::size_t middle, std::size_t third, std::size_t axis, double share) {
         const Vec3 a = position_of(state, first), b = position_of(state, middle), c = position_of(state, third);
         const double difference = std::hypot(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1], a[2] - 2 * b[2] + c[2]);

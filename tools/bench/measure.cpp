@@ -160,10 +160,10 @@ std::string hash_of(const T& value) {
 std::vector<std::string> hashes_of(const SimulationModel& model) {
     std::vector<std::string> parts;
     for (const ClothModel& cloth : model.cloths)
-        parts.insert(parts.end(),
-                     {hash_of(cloth.position), hash_of(cloth.start_displacement()), hash_of(cloth.grid.cells()),
-                      hash_of(cloth.pinned), hash_of(cloth.tethers), hash_of(bytes_of(cloth.plan)), hash_of(cloth.wind),
-                      hash_of(cloth.collision), hash_of(cloth.residual), hash_of(model.iteration_limit())});
+        parts.insert(parts.end(), {hash_of(cloth.position), hash_of(cloth.start_displacement()),
+                                   hash_of(cloth.grid.cells()), hash_of(cloth.pinned), hash_of(cloth.tethers),
+                                   hash_of(bytes_of(cloth.scheme)), hash_of(cloth.wind), hash_of(cloth.collision),
+                                   hash_of(cloth.residual), hash_of(model.iteration_limit())});
     std::string order;
     for (const Step& step : frame_steps(model))
         order += fmt::format("{} {} {} {}{} ", static_cast<int>(step.kind), step.cloth, step.substep, step.last ? 1 : 0,
@@ -283,9 +283,9 @@ CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t 
     result.stiffness_share = 1;
     for (const ClothModel& cloth : model.cloths)
         for (std::size_t axis = 0; axis < 2; ++axis)
-            if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.plan.used_stiffness[axis]))
+            if (cloth.stiffness_constant.spring[axis] > 0 && std::isfinite(cloth.scheme.used_stiffness[axis]))
                 result.stiffness_share = std::min(
-                    result.stiffness_share, cloth.plan.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
+                    result.stiffness_share, cloth.scheme.used_stiffness[axis] / cloth.stiffness_constant.spring[axis]);
 
     const SceneDescription scene = scene_of(problem, size, setting);
     RecordedRun run = record(device, problem, scene, stop);

@@ -45,12 +45,12 @@ class NativeRun::Sheet {
             *field = {field_memory(), field_memory(), field_memory()};
         view_.weight = field_memory();
         for (std::size_t k = 0; k < spring_directions.size(); ++k)
-            view_.tension[k] = cloth.plan.carries_tension[k] ? field_memory() : nullptr;
+            view_.tension[k] = cloth.scheme.carries_tension[k] ? field_memory() : nullptr;
         place_particles();
         const std::size_t workers = static_cast<std::size_t>(worker_count);
-        if (cloth.plan.line_scratch)
+        if (cloth.scheme.line_scratch)
             lines_.assign(workers, std::vector<LineParticles>(std::max(grid.x, grid.y) + std::size_t{1}));
-        if (cloth.plan.spare_state)
+        if (cloth.scheme.spare_state)
             for (std::size_t k = 0; k < workers; ++k) explicit_.push_back(explicit_scratch());
     }
 
@@ -127,7 +127,7 @@ class NativeRun::Sheet {
     }
 
     ExplicitScratch explicit_scratch() {
-        const auto& push = std::get<ExplicitPush>(cloth_.plan.prediction.at(0).constants);
+        const auto& push = std::get<ExplicitPush>(cloth_.scheme.prediction.at(0).constants);
         const auto count = static_cast<std::size_t>(view_.whole_vectors());
         ExplicitScratch scratch;
         const auto vectors = [&] { return Vectors{zeros(count), zeros(count), zeros(count)}; };
@@ -196,7 +196,7 @@ NativeRun::NativeRun(const SimulationModel& model, NativeWay way)
         const PerDirection<double>& springs = cloth.stiffness_constant.spring;
         if (cloth.starts_masked || cloth.bend > 0 || std::ranges::count(springs, 0) > 0)
             throw std::invalid_argument("a cloth without a native kernel");
-        if (!cloth.plan.line_scratch && std::ranges::count(cloth.plan.carries_tension, true) > 0)
+        if (!cloth.scheme.line_scratch && std::ranges::count(cloth.scheme.carries_tension, true) > 0)
             throw std::invalid_argument("iterations without a native kernel");
         sheets_.push_back(std::make_unique<Sheet>(cloth, way.vectors ? vector_kernels() : scalar_kernels(), sharing));
     }

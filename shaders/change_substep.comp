@@ -9,13 +9,13 @@
 #include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(ChangeStepPush)
+PUSH_CONSTANTS(ChangeSubstepPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_remainder;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D end_excess_in;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D end_excess_out;
-layout(set = 0, binding = 5, std430) readonly buffer Attempt { StepChange attempt[]; };  // by cloth
+layout(set = 0, binding = 5, std430) readonly buffer Attempt { SubstepChange attempt[]; };  // by cloth
 #ifdef SECOND_ORDER
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_before;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
@@ -24,7 +24,7 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    ChangedStep changed = changed_step(imageLoad(displacement_in, texel).xyz, imageLoad(end_excess_in, texel).xyz,
+    ChangedSubstep changed = changed_substep(imageLoad(displacement_in, texel).xyz, imageLoad(end_excess_in, texel).xyz,
                                        attempt[push.cloth]);
     imageStore(displacement_out, texel, vec4(changed.displacement, 0.0f));
     imageStore(displacement_remainder, texel, vec4(0.0f, 0.0f, 0.0f, 0.0f));

@@ -1,4 +1,4 @@
-#include "cloth/step_change.h"
+#include "cloth/substep_change.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 /// beside it, so its excess is e = -w (e^(c h) - 1)^2/(2 c). Substeps W times as long have G = (e^(c W h) - 1)/(e^(c h)
 /// - 1): d' = W (d + e) - e (W + 2 (G - W)/(e^(c h) - 1)), e' = G^2 e, and that of the substep before is e^(c W h)
 /// times as much. Without damping all three weights are W^2.
-glsl::StepChange step_change(double damping, double substep, double ratio) {
+glsl::SubstepChange substep_change(double damping, double substep, double ratio) {
     const double ch = damping * substep, growth = std::expm1(ch);
     const auto rounded = [](double value) { return static_cast<float>(value); };
     // Beyond that the rest of a velocity would be scaled up without bound.
@@ -24,10 +24,11 @@ glsl::StepChange step_change(double damping, double substep, double ratio) {
 
 }  // namespace
 
-std::vector<glsl::StepChange> step_changes(const SimulationModel& model, std::uint32_t before, std::uint32_t after) {
+std::vector<glsl::SubstepChange> substep_changes(const SimulationModel& model, std::uint32_t before,
+                                                 std::uint32_t after) {
     const double substep = 1 / (model.scene.time.fps * before), ratio = static_cast<double>(before) / after;
-    std::vector<glsl::StepChange> changes;
-    for (const ClothModel& cloth : model.cloths) changes.push_back(step_change(cloth.damping, substep, ratio));
+    std::vector<glsl::SubstepChange> changes;
+    for (const ClothModel& cloth : model.cloths) changes.push_back(substep_change(cloth.damping, substep, ratio));
     return changes;
 }
 

@@ -9,6 +9,7 @@
 namespace drape {
 
 /// Returns the changes by cloth, from `before` substeps per frame to `after`.
-std::vector<glsl::StepChange> step_changes(const SimulationModel& model, std::uint32_t before, std::uint32_t after);
+std::vector<glsl::SubstepChange> substep_changes(const SimulationModel& model, std::uint32_t before,
+                                                 std::uint32_t after);
 
 }  // namespace drape

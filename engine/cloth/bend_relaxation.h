@@ -1,4 +1,4 @@
-// Methods that iterate over springs or lines relax bending in one sweep per substep.
+// Methods that iterate over springs or lines relax bending in one pass per substep.
 #pragma once
 
 #include "cloth/method.h"
@@ -7,7 +7,7 @@ namespace drape {
 
 /// Adds the elements of both axes, then the cells' twist, to the steps taken once, for relaxation. What a sweep cannot
 /// follow is softened, and said.
-void add_bend_sweep(const ClothGeometry& cloth, const MethodSettings& settings, MethodPlan& plan);
+void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 
 /// A step multiplies the compliance m/(t h^2) of a backward Euler step by these.
 struct StepFactors {
@@ -16,7 +16,7 @@ struct StepFactors {
 };
 
 /// Adds the cells' twist alone, because the lines bend by themselves.
-void add_twist_sweep(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
-                     MethodPlan& plan);
+void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
+                          MethodScheme& scheme);
 
 }  // namespace drape

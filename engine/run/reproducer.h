@@ -1,4 +1,4 @@
-// A failed run leaves a capsule so that anybody can see it fail again: its scene, its settings, its device, its last
+// A failed run leaves a reproducer so that anybody can see it fail again: its scene, its settings, its device, its last
 // checkpoint and what it said (engine/docs/checkpoint.md).
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace drape {
 
-struct FailureCapsule {
+struct Reproducer {
     SceneRequest scene;  ///< its path is a name only
     std::string scene_text;
     bool keep_failed = false;
@@ -27,16 +27,16 @@ struct FailureCapsule {
     std::optional<RunCheckpoint> checkpoint;
 };
 
-/// Writes it into the folder, as capsule_file_name. Throws OutputError.
-void write_capsule(OutputFolder& folder, const FailureCapsule& capsule);
-/// Throws OutputError naming the file when it is no capsule.
-FailureCapsule read_capsule(const std::string& path);
+/// Writes it into the folder, as reproducer_file_name. Throws OutputError.
+void write_reproducer(OutputFolder& folder, const Reproducer& reproducer);
+/// Throws OutputError naming the file when it is no reproducer.
+Reproducer read_reproducer(const std::string& path);
 /// Decodes a file's bytes. Throws OutputError with what is wrong, to be put behind the file's name.
-FailureCapsule decode_capsule(std::span<const std::byte> file);
+Reproducer decode_reproducer(std::span<const std::byte> file);
 
 struct ReplayRequest {
     std::string path;
-    std::string device;  ///< selects the device; empty: the capsule's, if it is there, else the default
+    std::string device;  ///< selects the device; empty: the reproducer's, if it is there, else the default
     bool validate = false;
     std::function<void(const std::string&)> message;
     std::function<bool()> stop;
@@ -49,7 +49,7 @@ struct Replay {
     std::exception_ptr error;  ///< the failure's, where there was one
 };
 
-/// Simulates from the capsule's checkpoint to its failure. Throws OutputError, SceneFailure, DeviceError.
-Replay replay_capsule(const ReplayRequest& request);
+/// Simulates from the reproducer's checkpoint to its failure. Throws OutputError, SceneFailure, DeviceError.
+Replay replay_reproducer(const ReplayRequest& request);
 
 }  // namespace drape
