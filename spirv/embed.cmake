@@ -1,12 +1,13 @@
-# Writes OUTPUT, a C++ file with the words of every module in MODULES. Run by spirv/CMakeLists.txt.
+# Writes OUTPUT, a C++ file with the words of every module of FOLDER whose name the file MODULES lists. Run by
+# spirv/CMakeLists.txt.
+file(STRINGS ${MODULES} names)
 set(code "#include \"spirv_modules.h\"\n\nnamespace drape {\nnamespace {\n")
 set(rows "")
-list(SORT MODULES)
+list(SORT names)
 set(index 0)
-foreach(module ${MODULES})
-  get_filename_component(name ${module} NAME)
-  string(REGEX REPLACE "\\.spv$" "" name ${name})
-  file(READ ${module} hex HEX)
+foreach(module ${names})
+  string(REGEX REPLACE "\\.spv$" "" name ${module})
+  file(READ ${FOLDER}/${module} hex HEX)
   string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
   string(APPEND code "constexpr std::uint32_t module_${index}[] = {${words}};\n")
   string(APPEND rows "    {\"${name}\", module_${index}},\n")
@@ -14,4 +15,4 @@ foreach(module ${MODULES})
 endforeach()
 string(APPEND code "constexpr SpirvModule table[] = {\n${rows}};\n}  // namespace\n\n"
                    "std::span<const SpirvModule> spirv_modules() { return table; }\n\n}  // namespace drape\n")
-file(WRITE ${OUTPUT} "${code}")
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${code}" @ONLY)  # keeps its time where nothing changed
