@@ -16,8 +16,8 @@ void prepare_streams();
 /// pipe.
 void print_data(std::string_view text);
 
-/// Writes a line to stderr, its control characters (but for line ends) as \x1b. Never fails: there is nowhere to say
-/// so.
+/// Writes a line to stderr, its control characters (but for line ends) and bytes that are not UTF-8 as \x1b. Never
+/// fails: there is nowhere to say so.
 void print_message(std::string_view text);
 
 /// The same, of something that went wrong.

@@ -65,6 +65,9 @@ class AtomicFile {
 // Writes a whole file.
 FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<const std::byte> bytes);
 
+// The bytes of a whole file anywhere. Throws OutputError.
+std::string read_file(const std::filesystem::path& path);
+
 // Writes a whole file anywhere, in a folder that exists, in the same way; for results that are not a run's.
 void write_file(const std::filesystem::path& path, std::string_view text);
 

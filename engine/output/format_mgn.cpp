@@ -75,6 +75,7 @@ extern const OutputFormat mgn_format{
     .load = "`numpy.load(\"out/trajectory.npz\")`",
     .follows_cuts = false,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },
     .owns = [](std::string_view name) { return name == "trajectory.npz" || name == "trajectory_frames.npz"; },
     .open = open_writer<Trajectory>};
 

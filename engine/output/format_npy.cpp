@@ -47,6 +47,7 @@ extern const OutputFormat npy_format{.name = "npy",
                                          "faces_FRAME.npy too, int32 [face, 3], from that frame on",
                                      .load = "`numpy.load(\"out/positions.npy\")`",
                                      .frame_files = false,
+                                     .frame_bytes = [](const FrameSize& frame) { return 12 * frame.particles; },
                                      .owns =
                                          [](std::string_view name) {
                                              return is_cloth_file_name(name, "positions", "npy") ||

@@ -12,7 +12,7 @@ namespace drape {
 
 namespace {
 
-/// What is there for every particle of every frame.
+/// What is there for every particle of every frame, once in a file that waits and once in the archive.
 struct ParticleArray {
     std::string_view name;
     NpyValues values = {};
@@ -147,6 +147,7 @@ extern const OutputFormat npz_format{
     .load = "`run = numpy.load(\"out/positions.npz\"); scene = json.loads(run[\"scene\"].item())`",
     .details = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return 2 * 26 * frame.particles; },
     .owns = owns,
     .open = open_writer<NpzFiles>};
 

@@ -95,6 +95,7 @@ extern const OutputFormat pc2_format{
     .holds = "a point cache, and the uncut mesh in its first frame to play it on",
     .load = "Blender: import the OBJ so that vertices keep their order, add the modifier Mesh Cache",
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.triangles > 0 ? 12 * frame.particles : 0; },
     .owns =
         [](std::string_view name) {
             return is_cloth_file_name(name, "positions", "pc2") || is_cloth_file_name(name, "positions", "obj");

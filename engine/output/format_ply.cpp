@@ -42,6 +42,7 @@ extern const OutputFormat ply_format{
     .holds = "the same, binary",
     .load = "any 3D program; `meshio.read(\"out/mesh_0000.ply\")`",
     .frame_files = true,
+    .frame_bytes = [](const FrameSize& frame) { return 20 * frame.particles + 13 * frame.triangles; },
     .owns = [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "ply"); },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {
         return std::make_unique<MeshSequence>(folder, run, "ply", ply_text);

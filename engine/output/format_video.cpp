@@ -137,6 +137,7 @@ extern const OutputFormat y4m_format{
     .load = "`ffmpeg -i out/video.y4m -colorspace bt709 -color_primaries bt709 -color_trc bt709 flag.mp4`; mpv",
     .draws = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.pixels * 3 / 2; },
     .owns = [](std::string_view name) { return name == y4m.file_name; },
     .open = open_file<y4m>,
     .stream = open_stream<y4m>};
@@ -148,6 +149,7 @@ extern const OutputFormat rgb_format{
     .load = "`numpy.fromfile(\"out/video.rgb\", numpy.uint8).reshape(-1, height, width, 3)`",
     .draws = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.pixels * 3; },
     .owns = [](std::string_view name) { return name == rgb.file_name; },
     .open = open_file<rgb>,
     .stream = open_stream<rgb>};

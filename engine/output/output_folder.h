@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/printable_text.h"
 #include "output/file_descriptor.h"
 #include "output/output_error.h"
 
@@ -16,7 +17,7 @@ inline constexpr std::string_view manifest_file_name = "manifest.json";
 // Value of the manifest's "format" key: how a later run knows that a manifest.json is drape's.
 inline constexpr std::string_view manifest_format = "drape manifest 1";
 
-// What to do with a folder that is not empty.
+// What to do with a folder that is not empty, but for what killed runs left unfinished: that goes in any case.
 enum class ExistingFiles {
     refuse,
     overwrite,  // remove what an earlier run wrote, leave every other file alone
@@ -45,14 +46,15 @@ class OutputFolder {
 
     const std::filesystem::path& path() const { return path_; }
     // Path of the file of this name, for messages.
-    std::string path_of(std::string_view name) const { return (path_ / name).string(); }
+    std::string path_of(std::string_view name) const { return printable((path_ / name).string()); }
     int descriptor() const { return descriptor_.get(); }
 
     // False on a file system that cannot lock folders (some network ones): two processes are then not kept
     // apart.
     bool is_locked() const { return is_locked_; }
 
-    // The earlier run's files that the first write removes, sorted; empty unless overwriting or resuming.
+    // The earlier run's files that the first write removes, sorted; unless overwriting or resuming only unfinished
+    // ones.
     const std::vector<std::string>& files_to_remove() const { return files_to_remove_; }
 
     bool has_file(const std::string& name) const;
@@ -61,6 +63,11 @@ class OutputFolder {
     // The whole file; a symbolic link or anything else that is no regular file is refused. Throws
     // OutputError.
     std::vector<std::uint8_t> read_file(const std::string& name) const;
+
+    // Throws OutputError where it is known that so many bytes more will not fit, with what files_to_remove() take as
+    // room. On a file system whose free space says less of that (network, copy on write, unknown) never, or only where
+    // no compression would help.
+    void expect_room(std::uint64_t bytes) const;
 
     // Removes files_to_remove() once. Every writer calls it; any thread may. Throws OutputError.
     void begin_writing();
@@ -91,5 +98,8 @@ bool is_plain_file_name(std::string_view name);
 // they have while being written.
 bool is_output_file_name(std::string_view name);
 bool is_temporary_file_name(std::string_view name);
+
+// Whether the file has a temporary name of any file, by a process that no longer runs here.
+bool is_left_over(std::string_view name);
 
 }  // namespace drape

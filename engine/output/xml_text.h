@@ -4,13 +4,15 @@
 #include <string>
 #include <string_view>
 
+#include "base/printable_text.h"
+
 namespace drape {
 
-/// For content and for attributes in double quotes. Control characters but tab and line feed, which XML cannot say,
-/// become spaces.
+/// For content and for attributes in double quotes. Bytes that are not UTF-8 are escaped; control characters but tab
+/// and line feed, which XML cannot say, become spaces.
 inline std::string xml_text(std::string_view text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : printable(text, Escaped::not_utf8)) {
         if (c == '&')
             result += "&amp;";
         else if (c == '<')

@@ -30,7 +30,8 @@ struct FrameEffort {
     /// Method `auto`: false where that is above its limit because more substeps do not reduce it. Cloth that crumples
     /// parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;
-    /// Method `auto`: everything lies still, and the frame is the one before it; nothing was simulated.
+    /// Method `auto`: everything lies still, and the frame is the one before it; nothing was simulated, and velocities
+    /// and kinetic energies are 0.
     bool asleep = false;
     /// Method `auto`: false where the most substeps that it tries miss a limit (handed out without keep_promises only).
     bool within_limits = true;

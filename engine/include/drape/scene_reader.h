@@ -21,7 +21,7 @@ struct SceneError {
     std::string pointer;       ///< JSON pointer; empty for the document itself and for syntax errors
     std::string message;
 
-    /// `file:line:column: /json/pointer: message`, without the parts that are not known.
+    /// `file:line:column: /json/pointer: message`, without the parts that are not known; on one line.
     std::string text() const;
     bool operator==(const SceneError&) const = default;
 };
