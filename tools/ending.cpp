@@ -1,8 +1,10 @@
 #include "ending.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 
 #include "run/failure.h"
 #include "streams.h"
@@ -13,25 +15,48 @@ namespace {
 
 volatile std::sig_atomic_t signal_number = 0;
 
-void remember_signal(int number) { signal_number = number; }
+volatile std::sig_atomic_t has_deadline = 0, on_terminal = 0;
+constexpr unsigned most_seconds = 2;
+
+const char* signal_name() { return signal_number == SIGTERM ? "SIGTERM" : "SIGINT"; }
+ExitCode signal_code() { return signal_number == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
+
+void remember_signal(int number) {
+    signal_number = number;
+    if (has_deadline != 0) alarm(most_seconds);
+}
+
+/// What is under way has not come to where it asks. Calls only what a handler may; files are whole at any moment.
+void end_at_once(int) {
+    for (const char* part : {on_terminal != 0 ? "\n" : "", "drape: stopped by ", signal_name(),
+                             ", without waiting for a step that takes longer than two seconds: what came before it is "
+                             "kept as the last checkpoint has it\n"})
+        (void)!write(STDERR_FILENO, part, std::strlen(part));
+    _exit(static_cast<int>(signal_code()));
+}
 
 }  // namespace
 
-void catch_signals() {
+void catch_signals(bool waits_for_processes) {
     struct sigaction action {};
     action.sa_handler = remember_signal;
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESETHAND;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    has_deadline = !waits_for_processes;
+    on_terminal = isatty(STDERR_FILENO);
+    action.sa_handler = end_at_once;
+    sigaction(SIGALRM, &action, nullptr);
 }
 
 bool stop_requested() { return signal_number != 0; }
+void take_time() { alarm(0); }
 
 ExitCode report_stop(const std::string& consequence) {
-    const bool terminated = signal_number == SIGTERM;
-    print_error(fmt::format("stopped by {}: {}", terminated ? "SIGTERM" : "SIGINT", consequence));
-    return terminated ? ExitCode::terminated : ExitCode::interrupted;
+    take_time();
+    print_error(fmt::format("stopped by {}: {}", signal_name(), consequence));
+    return signal_code();
 }
 
 ExitCode report_validation(std::uint64_t message_count) {

@@ -8,11 +8,15 @@
 
 namespace drape::cli {
 
-/// From here on SIGINT and SIGTERM are remembered; a second one ends the program at once.
-void catch_signals();
+/// From here on SIGINT and SIGTERM are remembered. A second one ends the program at once, and so do two seconds after
+/// the first, unless it waits for processes that have a deadline of their own.
+void catch_signals(bool waits_for_processes = false);
 
 /// Returns whether SIGINT or SIGTERM came.
 bool stop_requested();
+
+/// What is left to do may take longer.
+void take_time();
 
 /// Says which signal it was and what became of the work.
 ExitCode report_stop(const std::string& consequence);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/printable_text.h"
 #include "help_text.h"
 #include "run/run.h"
 #include "scene/nearest_word.h"
@@ -143,7 +144,7 @@ Program::Parsed Program::usage_error(const std::string& text) const {
         command = command->get_subcommands().front();
         name += " " + command->get_name();
     }
-    return {{}, {}, name + ": " + text + "\nSee `" + name + " --help`.", ExitCode::usage};
+    return {{}, {}, name + ": " + printable(text) + "\nSee `" + name + " --help`.", ExitCode::usage};
 }
 
 /// Returns the error in the words that ought to name a command; empty when there is none.

@@ -1,7 +1,6 @@
 #include "streams.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "base/printable_text.h"
 #include "output/output_error.h"
 
 namespace drape::cli {
@@ -32,25 +32,9 @@ void print_data(std::string_view text) {
     throw system_error_at("write to", "stdout", error);
 }
 
-namespace {
-
-/// Replaces control characters: names and texts from files may hold what a terminal obeys.
-std::string harmless(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if ((byte >= 0x20 && byte != 0x7f) || c == '\n')
-            result += c;
-        else
-            result += fmt::format("\\x{:02x}", byte);
-    }
-    return result;
-}
-
-}  // namespace
-
 void print_message(std::string_view text) {
-    const std::string line = harmless(text) + '\n';  // one write: whole lines where processes share a log
+    // Names and texts from files may hold what a terminal obeys. One write: whole lines where processes share a log.
+    const std::string line = printable(text, Escaped::controls) + '\n';
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

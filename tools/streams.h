@@ -15,8 +15,8 @@ void prepare_streams();
 /// Writes to stdout, at once. Throws OutputError when it cannot be written whole, ReaderGone on a broken pipe.
 void print_data(std::string_view text);
 
-/// Writes a line to stderr, its control characters (but for line ends) as \x1b. It never fails: there is nowhere to say
-/// so.
+/// Writes a line to stderr, its control characters (but for line ends) and bytes that are not UTF-8 as \x1b. It never
+/// fails: there is nowhere to say so.
 void print_message(std::string_view text);
 
 /// Writes a line to stderr that tells of an error.

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <fstream>
 #include <new>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -109,6 +111,15 @@ FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<c
     AtomicFile file(folder, name);
     file.append(bytes);
     return file.commit();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (file) text << file.rdbuf();
+    if (!file) throw system_error_at("read", path.string(), errno == 0 ? EIO : errno);
+    return std::move(text).str();
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {

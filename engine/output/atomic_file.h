@@ -63,6 +63,9 @@ class AtomicFile {
 
 FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<const std::byte> bytes);
 
+// Returns the bytes of a whole file anywhere. Throws OutputError.
+std::string read_file(const std::filesystem::path& path);
+
 // Writes a whole file in the same way anywhere in a folder that exists, for results that are not a run's.
 void write_file(const std::filesystem::path& path, std::string_view text);
 

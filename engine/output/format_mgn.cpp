@@ -74,6 +74,7 @@ extern const OutputFormat mgn_format{
         "cells [1, cell, 3], node_type [1, node, 1]; not with cutters",
     .follows_cuts = false,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },
     .owns = [](std::string_view name) { return name == "trajectory.npz" || name == "trajectory_frames.npz"; },
     .open = open_writer<Trajectory>};
 

@@ -46,6 +46,7 @@ extern const OutputFormat npy_format{.name = "npy",
                                          "positions, float32 [frame, row, column, 3], metres; with cutters "
                                          "faces_FRAME.npy too, int32 [face, 3], from that frame on",
                                      .frame_files = false,
+                                     .frame_bytes = [](const FrameSize& frame) { return 12 * frame.particles; },
                                      .owns =
                                          [](std::string_view name) {
                                              return is_cloth_file_name(name, "positions", "npy") ||

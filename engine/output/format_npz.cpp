@@ -12,6 +12,7 @@ namespace drape {
 
 namespace {
 
+/// Values of every particle of every frame go into a file that waits, then once into the archive.
 struct ParticleArray {
     std::string_view name;
     NpyValues values = {};
@@ -145,6 +146,7 @@ extern const OutputFormat npz_format{
         "every default, JSON",
     .details = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return 2 * 26 * frame.particles; },
     .owns = owns,
     .open = open_writer<NpzFiles>};
 

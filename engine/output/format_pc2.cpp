@@ -88,15 +88,16 @@ class Pc2Writer : public FrameWriter {
 
 }  // namespace
 
-extern const OutputFormat pc2_format{.name = "pc2",
-                                     .files = "positions.pc2, positions.obj",
-                                     .holds = "a point cache, and the uncut mesh in its first frame to play it on",
-                                     .frame_files = false,
-                                     .owns =
-                                         [](std::string_view name) {
-                                             return is_cloth_file_name(name, "positions", "pc2") ||
-                                                    is_cloth_file_name(name, "positions", "obj");
-                                         },
-                                     .open = open_writer<Pc2Writer>};
+extern const OutputFormat pc2_format{
+    .name = "pc2",
+    .files = "positions.pc2, positions.obj",
+    .holds = "a point cache, and the uncut mesh in its first frame to play it on",
+    .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.triangles > 0 ? 12 * frame.particles : 0; },
+    .owns =
+        [](std::string_view name) {
+            return is_cloth_file_name(name, "positions", "pc2") || is_cloth_file_name(name, "positions", "obj");
+        },
+    .open = open_writer<Pc2Writer>};
 
 }  // namespace drape

@@ -135,6 +135,7 @@ extern const OutputFormat y4m_format{
         "with -o - on stdout",
     .draws = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.pixels * 3 / 2; },
     .owns = [](std::string_view name) { return name == y4m.file_name; },
     .open = open_file<y4m>,
     .stream = open_stream<y4m>};
@@ -145,6 +146,7 @@ extern const OutputFormat rgb_format{
     .holds = "bare pixels, 3 bytes each, sRGB, rows from the top, frame after frame; with -o - on stdout",
     .draws = true,
     .frame_files = false,
+    .frame_bytes = [](const FrameSize& frame) { return frame.pixels * 3; },
     .owns = [](std::string_view name) { return name == rgb.file_name; },
     .open = open_file<rgb>,
     .stream = open_stream<rgb>};

@@ -99,6 +99,7 @@ extern const OutputFormat vtu_format{
         "times",
     .details = true,
     .frame_files = true,
+    .frame_bytes = [](const FrameSize& frame) { return 34 * frame.particles + 33 * frame.triangles; },
     .owns =
         [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "vtu") || name == collection_name; },
     .open = open_writer<VtuSequence>};

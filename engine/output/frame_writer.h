@@ -77,6 +77,13 @@ class FrameWriter {
 /// Takes a stream's bytes in order; throws what ends the run.
 using ByteSink = std::function<void(std::span<const std::byte>)>;
 
+/// The size of a run's frames, all cloths together.
+struct FrameSize {
+    std::uint64_t particles = 0;
+    std::uint64_t triangles = 0;  ///< 0: holes or cuts leave fewer
+    std::uint64_t pixels = 0;
+};
+
 /// A row of the table. The command line's help, the check of its options, docs/export_formats.md (usage_test) and the
 /// names that `--overwrite` may remove follow from these.
 struct OutputFormat {
@@ -88,6 +95,8 @@ struct OutputFormat {
     bool resumes = false;      ///< its files name their run (kept_frames.h); others' are written anew
     bool follows_cuts = true;  ///< its faces may change; false: such a scene is refused
     bool frame_files;          ///< a file per frame, each a result; else files that appear when the run is complete
+    /// Returns the bytes that every frame takes at least; null: not known before.
+    std::uint64_t (*frame_bytes)(const FrameSize& frame) = nullptr;
     /// Returns whether the format may give a file this name.
     bool (*owns)(std::string_view file_name);
     /// Opens a writer, which the folder must outlive.

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/printable_text.h"
 #include "output/output_error.h"
 
 namespace drape {
@@ -21,6 +22,10 @@ std::string number_text(double value, const std::string& pointer) {
     return std::string(text, end);
 }
 
+std::string quoted(const std::string& text) {
+    return Json::valueToQuotedString(printable(text, Escaped::not_utf8).c_str());
+}
+
 std::string leaf_text(const Json::Value& value, const std::string& pointer) {
     switch (value.type()) {
         case Json::nullValue:
@@ -34,7 +39,7 @@ std::string leaf_text(const Json::Value& value, const std::string& pointer) {
         case Json::realValue:
             return number_text(value.asDouble(), pointer);
         default:
-            return Json::valueToQuotedString(value.asCString());
+            return quoted(value.asString());
     }
 }
 
@@ -46,7 +51,7 @@ void for_each_child(const Json::Value& value, const std::string& pointer, const 
             visit(std::string(), *child, fmt::format("{}/{}", pointer, child.index()));
         } else {
             const std::string key = child.name();
-            visit(Json::valueToQuotedString(key.c_str()) + ": ", *child, fmt::format("{}/{}", pointer, key));
+            visit(quoted(key) + ": ", *child, fmt::format("{}/{}", pointer, key));
         }
     }
 }

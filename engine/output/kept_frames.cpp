@@ -1,11 +1,8 @@
 #include "output/kept_frames.h"
 
 #include <fmt/format.h>
-#include <json/json.h>
 
-#include <charconv>
-#include <sstream>
-
+#include "output/json_file.h"
 #include "output/json_text.h"
 #include "output/png.h"
 #include "output/png_sequence.h"
@@ -46,12 +43,9 @@ FrameValues values_in(const std::string& text) {
     FrameValues values;
     const size_t begin = text.find('{');
     if (begin == std::string::npos) return values;
-    std::istringstream stream(text.substr(begin));
-    Json::Value root;
-    std::string errors;
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &root, &errors) || !root.isObject())
-        throw OutputError("its values are no JSON object");
-    for (auto value = root.begin(); value != root.end(); ++value) {
+    const std::optional<Json::Value> root = parse_json(std::string_view(text).substr(begin));
+    if (!root || !root->isObject()) throw OutputError("its values are no JSON object");
+    for (auto value = root->begin(); value != root->end(); ++value) {
         if (!value->isNumeric()) throw OutputError("a value is no number");
         values[value.name()] = value->asDouble();
     }
@@ -77,12 +71,9 @@ void check_manifest(const OutputFolder& folder, const std::string& key) {
     const std::string name(manifest_file_name);
     if (!folder.has_file(name)) return;
     const std::vector<std::uint8_t> bytes = folder.read_file(name);
-    std::istringstream stream(std::string(bytes.begin(), bytes.end()));
-    Json::Value root;
-    std::string errors;
+    const std::optional<Json::Value> root = parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     // The folder has already refused a manifest that is not this program's.
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &root, &errors) ||
-        root["run_key"] != Json::Value(key)) {
+    if (!root || (*root)["run_key"] != Json::Value(key)) {
         throw OutputError(
             fmt::format("cannot resume: '{}' is that of another run (other command, scene, size, samples, view, "
                         "program version, "

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/json_file.h"
 #include "output/json_text.h"
 
 namespace drape {
@@ -260,6 +261,53 @@ void put_manifest(const Manifest& manifest, const std::function<void(std::string
     if (manifest.statistics) manifest.statistics(put);
     if (any) append("\n  ");
     append(whole.substr(inside));
+}
+
+// What is read of it.
+static std::span<const JsonRule> manifest_rules() {
+    using enum JsonRule::Kind;
+    static constexpr JsonRule rules[] = {
+        {"/format", text},
+        {"/status", text},
+        {"/failure", text},
+        {"/scene/name", text},
+        {"/device", object},
+        {"/frames/end", number},
+        {"/frames/step", number},
+        {"/frames/fps", number},
+        {"/picture", object},
+        {"/solver", object},
+        {"/validation/messages", whole_number},
+        {"/self_collision/proved", boolean},
+        {"/self_collision/certificate", text},
+        {"/cuts", list},
+        {"/cuts/*/cloth", text},
+        {"/cuts/*/frame", whole_number},
+        {"/cuts/*/springs", whole_number},
+        {"/cuts/*/triangles", whole_number},
+        {"/cuts/*/crumbs", whole_number},
+        {"/warnings", list},
+        {"/files", list},
+        {"/files/*/name", text},
+        {"/files/*/bytes", number},
+        {"/statistics", list},
+        {"/statistics/*", object},
+        {"/statistics/*/*", number},
+        {"/run/command_line", list},
+        {"/run/command_line/*", text},
+        {"/run/frame_ms/median", number},
+        {"/run/stage_median_ms", object},
+        {"/run/stage_median_ms/*", number},
+    };
+    return rules;
+}
+
+Json::Value read_manifest(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / manifest_file_name;
+    Json::Value manifest = read_json(file, manifest_rules());
+    if (manifest["format"] != Json::Value(std::string(manifest_format)))
+        throw OutputError(fmt::format("'{}' is no manifest of this program", file.string()));
+    return manifest;
 }
 
 void write_manifest(OutputFolder& folder, const Manifest& manifest) {

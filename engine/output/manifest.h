@@ -1,7 +1,10 @@
 #pragma once
 
+#include <json/value.h>
+
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -138,6 +141,9 @@ std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chro
 // Hands UTF-8 JSON to `append` piece by piece; doubles have the fewest digits that read back as the same double. Throws
 // OutputError naming the number when one is not finite (JSON has no such numbers, and a run that has one is not done).
 void put_manifest(const Manifest& manifest, const std::function<void(std::string_view)>& append);
+
+// The manifest of a folder, what is read of it of the types that are written. Throws OutputError naming the file.
+Json::Value read_manifest(const std::filesystem::path& folder);
 
 // Writes manifest.json after all files of the run have reached the disk. Throws OutputError.
 void write_manifest(OutputFolder& folder, const Manifest& manifest);

@@ -2,22 +2,26 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <json/json.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "output/checkpoint_names.h"
 #include "output/frame_writer.h"
+#include "output/json_file.h"
 
 namespace drape {
 
@@ -29,6 +33,14 @@ constexpr std::string_view temporary_mark = ".tmp-";
 
 bool all_digits(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// The digits behind the mark of a temporary name.
+std::optional<std::string_view> process_in(std::string_view name) {
+    const size_t mark = name.rfind(temporary_mark);
+    if (mark == std::string_view::npos) return std::nullopt;
+    const std::string_view digits = name.substr(mark + temporary_mark.size());
+    return all_digits(digits) ? std::optional(digits) : std::nullopt;
 }
 
 bool is_finished_file_name(std::string_view name) {
@@ -48,20 +60,17 @@ bool is_loose_frame_file_name(std::string_view name) {
 // nothing when the file is not a manifest of this program.
 std::optional<std::set<std::string>> names_in_manifest(const fs::path& manifest_path) {
     std::ifstream file(manifest_path, std::ios::binary);
-    Json::Value root;
-    std::string errors;
-    try {
-        if (!file || !Json::parseFromStream(Json::CharReaderBuilder(), file, &root, &errors)) return std::nullopt;
-        if (!root.isObject() || root["format"] != Json::Value(std::string(manifest_format))) return std::nullopt;
-        std::set<std::string> names;
-        if (!root["files"].isArray()) return std::nullopt;
-        for (const Json::Value& entry : root["files"]) {
-            if (entry.isObject() && entry["name"].isString()) names.insert(entry["name"].asString());
-        }
-        return names;
-    } catch (const Json::Exception&) {  // it is nested too deeply
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf())) return std::nullopt;
+    const std::optional<Json::Value> root = parse_json(std::move(text).str());
+    if (!root || !root->isObject() || (*root)["format"] != Json::Value(std::string(manifest_format)))
         return std::nullopt;
-    }
+    std::set<std::string> names;
+    const Json::Value& files = (*root)["files"];
+    if (!files.isArray()) return std::nullopt;
+    for (const Json::Value& entry : files)
+        if (entry.isObject() && entry["name"].isString()) names.insert(entry["name"].asString());
+    return names;
 }
 
 struct Entry {
@@ -102,9 +111,16 @@ bool is_plain_file_name(std::string_view name) {
 }
 
 bool is_temporary_file_name(std::string_view name) {
-    const size_t mark = name.rfind(temporary_mark);
-    return mark != std::string_view::npos && all_digits(name.substr(mark + temporary_mark.size())) &&
-           is_finished_file_name(name.substr(0, mark));
+    const auto process = process_in(name);
+    return process && is_finished_file_name(name.substr(0, name.size() - process->size() - temporary_mark.size()));
+}
+
+bool is_left_over(std::string_view name) {
+    const auto process = process_in(name);
+    pid_t number = 0;
+    if (!process || std::from_chars(process->data(), process->data() + process->size(), number).ec != std::errc{})
+        return false;
+    return kill(number, 0) != 0 && errno == ESRCH;
 }
 
 bool is_output_file_name(std::string_view name) { return is_finished_file_name(name) || is_temporary_file_name(name); }
@@ -171,7 +187,14 @@ void OutputFolder::open_and_lock() {
 }
 
 void OutputFolder::check_content(ExistingFiles existing) {
-    const std::vector<Entry> entries = list_entries(path_);
+    std::vector<Entry> entries = list_entries(path_);
+    // Who holds the lock knows that nobody else is writing.
+    std::erase_if(entries, [&](const Entry& entry) {
+        const bool goes = !entry.is_folder && is_temporary_file_name(entry.name) &&
+                          (is_locked_ || existing != ExistingFiles::refuse || is_left_over(entry.name));
+        if (goes) files_to_remove_.push_back(entry.name);
+        return goes;
+    });
     if (entries.empty()) return;
     if (existing == ExistingFiles::refuse) {
         throw OutputError(
@@ -194,11 +217,12 @@ void OutputFolder::check_content(ExistingFiles existing) {
     for (const Entry& entry : entries) {
         if (entry.is_folder) continue;
         const bool goes = existing == ExistingFiles::resume
-                              ? is_temporary_file_name(entry.name) || is_loose_frame_file_name(entry.name) ||
-                                    entry.name == manifest_file_name || entry.name == reproducer_file_name
+                              ? is_loose_frame_file_name(entry.name) || entry.name == manifest_file_name ||
+                                    entry.name == reproducer_file_name
                               : is_output_file_name(entry.name) || listed.contains(entry.name);
         if (goes) files_to_remove_.push_back(entry.name);
     }
+    std::ranges::sort(files_to_remove_);
 }
 
 void OutputFolder::check_writable() const {
@@ -240,6 +264,30 @@ std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const
         done += static_cast<size_t>(count);
     }
     return bytes;
+}
+
+void OutputFolder::expect_room(std::uint64_t bytes) const {
+    // By f_type of statfs(2): how much more than the free space may fit at most. BTRFS keeps a page of 32 at least,
+    // and may lie below an overlay.
+    constexpr std::pair<std::uint32_t, std::uint64_t> known[] = {
+        {0xef53, 1}, {0x58465342, 1}, {0x01021994, 1}, {0x9123683e, 32}, {0x794c7630, 32}};  // ext, xfs, tmpfs, ...
+    struct statfs status {};
+    if (fstatfs(descriptor_.get(), &status) != 0 || status.f_blocks == 0) return;
+    const auto* system =
+        std::ranges::find(known, static_cast<std::uint32_t>(status.f_type), [](const auto& row) { return row.first; });
+    if (system == std::end(known)) return;
+    std::uint64_t room =
+        (geteuid() == 0 ? status.f_bfree : status.f_bavail) * static_cast<std::uint64_t>(status.f_bsize);
+    for (const std::string& name : files_to_remove()) {
+        struct stat file {};
+        if (fstatat(descriptor_.get(), name.c_str(), &file, AT_SYMLINK_NOFOLLOW) == 0)
+            room += static_cast<std::uint64_t>(file.st_size);
+    }
+    if (bytes / system->second > room)
+        throw OutputError(
+            fmt::format("output folder '{}' has room for {:.1f} GB, and the run would write {:.1f} GB: fewer frames "
+                        "(-s, -e, -j) or another format take less",
+                        path_.string(), static_cast<double>(room) / 1e9, static_cast<double>(bytes) / 1e9));
 }
 
 void OutputFolder::begin_writing() {

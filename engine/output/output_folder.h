@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/printable_text.h"
 #include "output/file_descriptor.h"
 #include "output/output_error.h"
 
@@ -16,7 +17,7 @@ inline constexpr std::string_view manifest_file_name = "manifest.json";
 // The manifest's "format" key has this value, by which a later run knows that a manifest.json is drape's.
 inline constexpr std::string_view manifest_format = "drape manifest 1";
 
-// A folder that is not empty can be treated so.
+// How a folder that is not empty is treated. What killed runs left unfinished does not count, and goes in any case.
 enum class ExistingFiles {
     refuse,
     overwrite,  // remove what an earlier run wrote, leave every other file alone
@@ -40,14 +41,15 @@ class OutputFolder {
 
     const std::filesystem::path& path() const { return path_; }
     // Returns the path of the file of this name, for messages.
-    std::string path_of(std::string_view name) const { return (path_ / name).string(); }
+    std::string path_of(std::string_view name) const { return printable((path_ / name).string()); }
     int descriptor() const { return descriptor_.get(); }
 
     // Returns false on a file system that cannot lock folders (some network ones): two processes are then not kept
     // apart.
     bool is_locked() const { return is_locked_; }
 
-    // Returns the earlier run's files that the first write removes, sorted; empty unless overwriting or resuming.
+    // Returns the earlier run's files that the first write removes, sorted; unless overwriting or resuming only
+    // unfinished ones.
     const std::vector<std::string>& files_to_remove() const { return files_to_remove_; }
 
     bool has_file(const std::string& name) const;
@@ -55,6 +57,11 @@ class OutputFolder {
     std::vector<std::string> file_names() const;
     // Returns the whole file; refuses a symbolic link or anything else that is no regular file. Throws OutputError.
     std::vector<std::uint8_t> read_file(const std::string& name) const;
+
+    // Throws OutputError where it is known that so many bytes more will not fit, with what files_to_remove() take as
+    // room. On a file system whose free space says less of that (network, copy on write, unknown) never, or only where
+    // no compression would help.
+    void expect_room(std::uint64_t bytes) const;
 
     // Removes files_to_remove() once. Every writer calls it; any thread may. Throws OutputError.
     void begin_writing();
@@ -85,5 +92,8 @@ bool is_plain_file_name(std::string_view name);
 // being written, such a temporary name.
 bool is_output_file_name(std::string_view name);
 bool is_temporary_file_name(std::string_view name);
+
+// Whether the file has a temporary name of any file, by a process that no longer runs here.
+bool is_left_over(std::string_view name);
 
 }  // namespace drape

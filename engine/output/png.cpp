@@ -8,7 +8,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "output/output_error.h"
+#include "output/atomic_file.h"
+#include "output/available_memory.h"
 
 namespace drape {
 
@@ -65,6 +66,17 @@ std::string read_text_chunk(spng_ctx* context) {
     return {};
 }
 
+// Before memory is taken for what the header says.
+void check_size(const spng_ihdr& header, std::size_t file_bytes) {
+    constexpr std::uint64_t channels[] = {1, 0, 3, 1, 2, 0, 4};  // by colour type
+    constexpr std::uint64_t most_shrunk = 1032;                  // of deflate: 258 bytes in two bits
+    const std::uint64_t row_bits = channels[header.color_type] * header.bit_depth * header.width;
+    const std::string what = fmt::format("PNG: a picture of {}x{} pixels", header.width, header.height);
+    if (row_bits / 8 * header.height / most_shrunk > file_bytes)
+        throw OutputError(fmt::format("{} is not in {} bytes", what, file_bytes));
+    expect_memory(what, std::uint64_t{header.width} * header.height * 3);
+}
+
 void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, const std::uint8_t* rgba) {
     std::vector<std::uint8_t> row(size_t{width} * 3);
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -119,11 +131,21 @@ Picture decode_png(std::span<const std::uint8_t> png) {
     check(spng_set_png_buffer(context.get(), png.data(), png.size()), "read");
     spng_ihdr header{};
     check(spng_get_ihdr(context.get(), &header), "read the header");
+    check_size(header, png.size());
     Picture picture{header.width, header.height, {}, {}};
     picture.rgb.resize(size_t{header.width} * header.height * 3);
     check(spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size(), SPNG_FMT_RGB8, 0), "decode");
     picture.text = read_text_chunk(context.get());
     return picture;
+}
+
+Picture read_png(const std::filesystem::path& file) {
+    const std::string bytes = read_file(file);
+    try {
+        return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    } catch (const OutputError& error) {
+        throw OutputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
+    }
 }
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,10 @@ struct Picture {
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                 std::vector<std::uint8_t>& png, const std::string& text = {});
 
-// Throws OutputError when the bytes are no PNG, are damaged, or exceed 16384 pixels a side.
+// Throws OutputError when the bytes are no PNG, are damaged, exceed 16384 pixels a side, or say that they are a picture
+// that cannot be in so few, or not in memory.
 Picture decode_png(std::span<const std::uint8_t> png);
+// Of a file, which the error names.
+Picture read_png(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double redraw_interval = 0.1;  // seconds
 constexpr double line_interval = 30.0;
+constexpr double long_frame = 1.0;  // from then on what is done to it is told
 // The rate is that of the latest frames: the first ones pay for pipelines, and scenes grow harder on contact.
 constexpr size_t recent_limit = 33;
 
@@ -53,11 +54,23 @@ Progress::~Progress() { finish(); }
 
 void Progress::frame_done(std::int64_t frame, std::string note) {
     ++done_count_;
-    frame_ = frame;
+    what_ = fmt::format("{} {}", options_.unit, frame);
     note_ = std::move(note);
     const double now = options_.seconds();
     recent_.push_back(now);
     if (recent_.size() > recent_limit) recent_.pop_front();
+    report(now);
+}
+
+void Progress::frame_begun(std::int64_t frame, std::uint32_t substeps, std::uint32_t attempt) {
+    const double now = options_.seconds();
+    if (done_count_ == frame_count_ || now - recent_.back() < long_frame) return;
+    what_ = fmt::format("{} {}, {} substeps, attempt {}", options_.unit, frame, substeps, attempt);
+    note_.clear();
+    report(now);
+}
+
+void Progress::report(double now) {
     if (options_.is_quiet || !is_due(now)) return;
     options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line(now)) : fmt::format("{}\n", line(now)));
     line_is_open_ = options_.is_terminal;
@@ -82,9 +95,11 @@ std::string Progress::line(double now) const {
     const double rate = milliseconds_per_frame(now);
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
-    std::string text = fmt::format(
-        "{0} {1} ({2}/{3}, {4} %)  {5:.1f} ms/{0}  ETA {6}{7}{8}", options_.unit, frame_, done_count_, frame_count_,
-        percent, rate, duration_text(static_cast<double>(left) * rate / 1000), note_.empty() ? "" : "  ", note_);
+    std::string text = fmt::format("{} ({}/{}, {} %)", what_, done_count_, frame_count_, percent);
+    if (done_count_ > 0)
+        text += fmt::format("  {:.1f} ms/{}  ETA {}", rate, options_.unit,
+                            duration_text(static_cast<double>(left) * rate / 1000));
+    if (!note_.empty()) text += "  " + note_;
     if (options_.is_terminal && options_.columns > 1 && text.size() >= options_.columns)
         text.resize(options_.columns - 1);
     return text;

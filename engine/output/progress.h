@@ -30,6 +30,10 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    // Notes that attempt 1, 2, ... at a frame begins, with so many substeps: the line shows it where a frame takes
+    // long.
+    void frame_begun(std::int64_t frame, std::uint32_t substeps, std::uint32_t attempt);
+
     // Counts a frame as done; the line shows its number, and after the times a note on it, if any.
     void frame_done(std::int64_t frame, std::string note = {});
 
@@ -40,6 +44,7 @@ class Progress {
     void finish();
 
   private:
+    void report(double now);
     bool is_due(double now) const;
     std::string line(double now) const;
     double milliseconds_per_frame(double now) const;
@@ -47,7 +52,7 @@ class Progress {
     std::uint64_t frame_count_;
     Options options_;
     std::uint64_t done_count_ = 0;
-    std::int64_t frame_ = 0;
+    std::string what_;  // "frame 12", or what is being done to it
     std::string note_;
     std::deque<double> recent_;  // times when the latest frames were done, oldest first
     double last_report_;

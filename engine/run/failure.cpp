@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "base/printable_text.h"
 #include "output/output_error.h"
 #include "run/run.h"
 #include "vulkan/instance.h"
@@ -27,9 +28,9 @@ Failure current_failure() {
     } catch (const SceneFailure& failure) {
         return {failure.result().unreadable ? ExitCode::io : ExitCode::scene, failure.what(), true};
     } catch (const UsageError& error) {
-        return {ExitCode::usage, error.what()};
+        return {ExitCode::usage, printable(error.what())};
     } catch (const OutputError& error) {
-        return {ExitCode::io, error.what()};
+        return {ExitCode::io, printable(error.what())};
     } catch (const Diverged& error) {
         return {ExitCode::diverged, error.what()};
     } catch (const ToleranceMissed& error) {

@@ -5,11 +5,9 @@
 #include <json/json.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <sstream>
 
 #include "output/atomic_file.h"
+#include "output/json_file.h"
 #include "output/json_text.h"
 #include "output/section_file.h"
 #include "run/run_statistics.h"
@@ -93,22 +91,10 @@ void take_about(const Json::Value& json, Reproducer& reproducer) {
         reproducer.last_frame->values[value.name()] = value->asDouble();
 }
 
-std::string bytes_at(const std::string& path) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (file) text << file.rdbuf();
-    if (!file) throw system_error_at("read", path, errno == 0 ? EIO : errno);
-    return text.str();
-}
-
 Json::Value json_of(const std::vector<std::byte>& bytes) {
-    std::istringstream stream(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    Json::Value json;
-    std::string errors;
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &json, &errors) || !json.isObject())
-        throw Error("its part 'about' is no JSON object");
-    return json;
+    const std::optional<Json::Value> json = parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!json || !json->isObject()) throw Error("its part 'about' is no JSON object");
+    return *json;
 }
 
 }  // namespace
@@ -152,7 +138,7 @@ Reproducer decode_reproducer(std::span<const std::byte> file) {
 }
 
 Reproducer read_reproducer(const std::string& path) {
-    const std::string file = bytes_at(path);
+    const std::string file = read_file(path);
     try {
         return decode_reproducer(bytes_of(file));
     } catch (const OutputError& error) {

@@ -54,7 +54,8 @@ struct RunRequest {
     bool verbose = false;      ///< notes on device, plan and memory through `message`
     std::vector<std::string> command_line;
     std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
-    std::function<bool()> stop;  ///< asked before each frame; true: finish what is in flight and end
+    std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish what is in flight and end
+    std::function<void()> saving;  ///< told before a checkpoint is written
 
     bool draws() const;    ///< some format needs pictures
     bool details() const;  ///< some format needs velocities and contacts

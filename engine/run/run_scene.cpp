@@ -75,7 +75,25 @@ MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const Ru
     return missing;
 }
 
-/// A run that would end early at the same frame again, or has frames that are no result, failed so.
+/// Throws OutputError where the disk has not what all frames take at least.
+void expect_room(const OutputFolder& folder, const RunRequest& request, const SceneDescription& scene,
+                 const FrameRange& range) {
+    FrameSize size{.pixels = std::uint64_t{scene.image.size[0]} * scene.image.size[1]};
+    bool whole = scene.cutters.empty();
+    for (const Cloth& cloth : scene.cloths) {
+        const std::uint64_t columns = cloth.grid[0], rows = cloth.grid[1];
+        size.particles += columns * rows;
+        size.triangles += 2 * (columns - 1) * (rows - 1);
+        whole = whole && cloth.holes.empty();
+    }
+    if (!whole) size.triangles = 0;
+    std::uint64_t frame_bytes = 0;
+    for (const OutputFormat* format : output_formats(request.formats))
+        if (format->frame_bytes) frame_bytes += format->frame_bytes(size);
+    folder.expect_room(frame_bytes * range.count());
+}
+
+/// How a run ended before its end that would end there again, or with frames that are no result.
 struct RunFailure {
     std::string status, reason;
     std::optional<FrameFailure> frame;
@@ -117,9 +135,11 @@ struct RunParts {
     std::optional<RunFailure>& failure;
     std::uint64_t earlier_validation;  ///< messages of a run that this one goes on
     const Device& device;
+    Progress*& progress;  ///< while frames are written
 };
 
 void write_checkpoint(const RunParts& run) {
+    if (run.request.saving) run.request.saving();
     RunCheckpoint checkpoint;
     checkpoint.next_frame = run.simulation.next_frame();
     checkpoint.validation_count = run.earlier_validation + run.device.validation_count();
@@ -136,12 +156,15 @@ bool run_with_checkpoints(const RunParts& run, std::uint32_t last,
     const auto stopped = [&] { return run.request.stop && run.request.stop(); };
     if (!run.checkpoints || !run.checkpoints->enabled()) return run.simulation.run(last, wanted, finished, stopped);
     std::uint32_t saved = run.simulation.next_frame();
+    std::optional<std::uint32_t> begun;
     for (bool due = true; due;) {
         due = false;
         const auto pause = [&] {
             // Frames that method auto has simulated ahead are handed out first, which takes no time.
             if (!run.simulation.can_save()) return false;
-            due = run.simulation.next_frame() > saved && run.checkpoints->due();
+            const std::uint32_t frame = run.simulation.next_frame();
+            due = begun != frame && frame > saved && run.checkpoints->due();  // for none is an attempt given up
+            begun = frame;
             return due || stopped();
         };
         if (run.simulation.run(last, wanted, finished, pause)) return true;
@@ -168,6 +191,7 @@ bool write_frames(const RunParts& run, std::uint32_t last) {
                            summary.kept_count + count);
     };
     Progress progress(count, Progress::standard_options(run.request.quiet));
+    run.progress = &progress;
     try {
         return run_with_checkpoints(run, last, [&](const FinishedFrame& frame) {
             if (frame.failure && frame.failure->kind == FrameFailure::Kind::not_finite) raise(*frame.failure);
@@ -317,7 +341,14 @@ std::optional<std::string> still_crossed(const Simulation& simulation) {
     return "cloths that started through each other still are in the last frame";
 }
 
-/// Finishes the files of a run that is done, or of one that failed as far as it came.
+/// While there is one.
+std::function<void(const FrameAttempt&)> told_to(Progress*& progress) {
+    return [&progress](const FrameAttempt& attempt) {
+        if (progress) progress->frame_begun(attempt.frame, attempt.substeps, attempt.number);
+    };
+}
+
+/// The files of a run that is done, or of one that failed as far as it came.
 void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
     manifest.cuts = sink.cuts();
     const std::shared_ptr<const RunStatistics> statistics = sink.statistics();
@@ -365,8 +396,9 @@ void leave_reproducer(OutputFolder& folder, const RunRequest& request, const Loa
     }
 }
 
-/// The manifest says how a run ended, also where it failed.
-void end_with_manifest(OutputFolder& folder, Manifest& manifest, std::optional<RunFailure>& failure) {
+/// The manifest says how a run ended, also where it failed. Checkpoints go where it would end there again.
+void end_with_manifest(OutputFolder& folder, Manifest& manifest, const std::optional<RunFailure>& failure,
+                       Checkpoints& checkpoints) {
     if (failure) {
         manifest.status = failure->status;
         manifest.failure = failure->reason;
@@ -380,6 +412,7 @@ void end_with_manifest(OutputFolder& folder, Manifest& manifest, std::optional<R
     } catch (const OutputError&) {
         if (!failure) throw;  // else the first failure is told, which keeps this file from being written too
     }
+    if (!failure || failure->frame) checkpoints.remove_all();
 }
 
 }  // namespace
@@ -400,6 +433,7 @@ RunSummary run_scene(const RunRequest& request) {
     std::optional<OutputFolder> folder;
     check_formats(request, scene.description);
     if (!request.stream) folder.emplace(request.output, request.existing);
+    if (folder) expect_room(*folder, request, scene.description, range);
     const Device device = device_of(request.scene, scene.description, request.draws());
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);
@@ -414,6 +448,8 @@ RunSummary run_scene(const RunRequest& request) {
         Sink* cut_sink = nullptr;
         SimulationOptions options = run_options(request);
         options.on_cut = [&](const Cut& cut) { cut_sink->add_cut(cut); };
+        Progress* progress = nullptr;
+        options.on_attempt = told_to(progress);
         Simulation simulation(scene.description, options, device);
         for (const Compromise& each : simulation.facts().compromises) warn(each.what + ": " + each.reason);
         if (request.verbose) std::ranges::for_each(notes(device, simulation), say);
@@ -422,12 +458,12 @@ RunSummary run_scene(const RunRequest& request) {
         Sink sink(folder, request, simulation.scene(), written_run(request, scene, simulation, manifest), missing.kept,
                   checkpoints && checkpoints->enabled() ? &checkpoints->journal() : nullptr);
         cut_sink = &sink;
-        const RunParts run{request, missing, simulation,         sink,  checkpoints ? &*checkpoints : nullptr,
-                           summary, failure, earlier_validation, device};
+        const RunParts run{request, missing, simulation,         sink,   checkpoints ? &*checkpoints : nullptr,
+                           summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
-        if (const auto warning = missed_limits(simulation.facts(), *sink.statistics())) warn(*warning);
-        if (const auto warning = lost_proof(simulation)) warn(*warning);
-        if (const auto warning = still_crossed(simulation)) warn(*warning);
+        for (const auto& warning :
+             {missed_limits(simulation.facts(), *sink.statistics()), lost_proof(simulation), still_crossed(simulation)})
+            if (warning) warn(*warning);
         manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);
@@ -435,10 +471,7 @@ RunSummary run_scene(const RunRequest& request) {
     summary.validation_count = earlier_validation + device.validation_count();
     manifest.validation = {request.scene.validate, summary.validation_count};
     if (folder && failure) leave_reproducer(*folder, request, scene, range, *checkpoints, *failure, manifest);
-    if (folder && (summary.complete || failure)) {
-        end_with_manifest(*folder, manifest, failure);
-        if (!failure || failure->frame) checkpoints->remove_all();
-    }
+    if (folder && (summary.complete || failure)) end_with_manifest(*folder, manifest, failure, *checkpoints);
     if (failure) std::rethrow_exception(failure->error);
     return summary;
 }

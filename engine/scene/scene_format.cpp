@@ -131,7 +131,8 @@ const Object<Pin> pin{
          "Seconds. From then on the particles are free and keep their velocity. Absent: never."},
         {"path", &Pin::path, path, "Rigid motion of the particles relative to where they start. Absent: at rest."},
         {"pivot", &Pin::pivot, optional<Vec3>(vec3),
-         "Metres: the point the path rotates about. Absent: the centroid of the pinned particles."},
+         "Metres: the point the path rotates about, which its translation takes along. Absent: the centroid of the "
+         "particles where they start, without those that a later pin holds."},
     },
     check_pin,
     R"("oneOf": [{"required": ["edge"]}, {"required": ["corner"]}, {"required": ["at"]}, {"required": ["box"]}])"};
@@ -195,7 +196,8 @@ const Object<Cloth> cloth{
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
-        {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000), "What holds the cloth."},
+        {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),
+         "What holds the cloth. Of several pins of a particle only the last one counts."},
         {"appearance", &Cloth::appearance, appearance, "For pictures only."},
     },
     check_cloth};
@@ -214,7 +216,8 @@ std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
          "Degrees, rest pose: Euler angles about x, then y, then z, about the collider's own centre (a plane's: normal "
          "* offset)."},
         {"path", &Collider::path, path,
-         "Rigid motion on top of the rest pose, rotating about the collider's own centre. Absent: at rest."},
+         "Rigid motion on top of the rest pose, rotating about the collider's own centre (a plane's: normal * offset), "
+         "which its translation takes along. Absent: at rest."},
         {"color", &Collider::color, color, "sRGB, for pictures only."},
     };
     keys.insert(keys.end(), std::begin(common), std::end(common));

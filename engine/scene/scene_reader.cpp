@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "base/printable_text.h"
 #include "scene/scene_node.h"
 
 namespace drape {
@@ -53,7 +54,7 @@ std::string SceneError::text() const {
     std::string place = file;
     if (line != 0) place += fmt::format(":{}:{}", line, column);
     if (!pointer.empty()) place += ": " + pointer;
-    return place + ": " + message;
+    return printable(place + ": " + message);
 }
 
 SceneResult read_scene_text(std::string_view text, const std::string& file_name,

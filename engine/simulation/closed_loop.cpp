@@ -41,7 +41,9 @@ FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps) {
     return rung;
 }
 
-void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
+void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& attempt, const Asked& asked) {
+    if (asked.stop && asked.stop()) throw Stopped();
+    if (options_.on_attempt) options_.on_attempt({run.frame, run.substeps, attempt.number});
     const Rung& rung = this->rung(run.substeps);
     const auto commands = [&](AttemptStep step) {
         return attempts_[static_cast<std::size_t>(step)].recorded->commands(slot);
@@ -55,6 +57,7 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run) {
     std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
     slots_.submit(slot, all);
+    kept_ = kept_ || run.before == AttemptStep::keep;
     if (options_.meanwhile) options_.meanwhile();
 }
 
@@ -71,14 +74,14 @@ FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t subst
     return judged;
 }
 
-void FrameLoop::run_coarse(std::uint32_t frame, bool first, Judgement& judgement) {
+void FrameLoop::run_coarse(const Attempt& attempt, Judgement& judgement, const Asked& asked) {
     const Segment& segment = control_->segment();
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const std::uint32_t slot = take_slot(withhold_);
-        Run run{frame + k, segment.substeps / 2, {}, {}, k == 0};
-        if (k == 0) run.before = first ? AttemptStep::keep : AttemptStep::restore;
+        Run run{attempt.frame + k, segment.substeps / 2, {}, {}, k == 0};
+        if (k == 0) run.before = attempt.keeps ? AttemptStep::keep : AttemptStep::restore;
         if (k + 1 == segment.frame_count) run.after = AttemptStep::remember;
-        submit_run(slot, run);
+        submit_run(slot, run, attempt, asked);
         judgement.coarse_stretch =
             std::max(judgement.coarse_stretch, stretch_judgement(model_, take_judged(slot, run.substeps).statistics));
     }
@@ -98,7 +101,7 @@ double FrameLoop::motion_of(std::uint32_t slot) {
 }
 
 /// Returns the facts of the last frame that was run: the segment's last, unless one before it failed.
-FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked) {
+FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgement, const Asked& asked) {
     const Segment& segment = control_->segment();
     const Finished& finished = segment.probes ? withhold_ : asked.finished;
     Judged judged;
@@ -106,32 +109,34 @@ FrameLoop::Judged FrameLoop::run_fine(std::uint32_t frame, bool first, Judgement
     attempt_self_records_.clear();
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
         const bool last = k + 1 == segment.frame_count;
-        const std::uint32_t slot = take_slot(finished);
-        Run run{frame + k, segment.substeps, {}, {}, k == 0};
-        if (k == 0) run.before = first && !segment.probes ? AttemptStep::keep : AttemptStep::restore;
+        const std::uint32_t slot = take_slot(finished), frame = attempt.frame + k;
+        Run run{frame, segment.substeps, {}, {}, k == 0};
+        if (k == 0) run.before = attempt.keeps && !segment.probes ? AttemptStep::keep : AttemptStep::restore;
         if (last && segment.probes) run.after = AttemptStep::compare;
-        submit_run(slot, run);
+        submit_run(slot, run, attempt, asked);
         deliver(next_slot_, finished);  // hands out the frame before while this one is simulated
         judged = take_judged(slot, run.substeps);
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_record);
         const double implausible =
-            std::max(watch_.excess(frame + k, judged.statistics), solver_.self_list_use(judged.self_record));
+            std::max(watch_.excess(frame, judged.statistics), solver_.self_list_use(judged.self_record));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
         if (judgement.stretch > 1 && !control_->at_top()) return judged;
         if (!segment.probes) return judged;
         if (last) judgement.motion = motion_of(slot);
-        submit_output(frame + k, judged, frame + k > asked.last || asked.wanted(frame + k), withhold_);
+        submit_output(frame, judged, frame > asked.last || asked.wanted(frame), withhold_);
     }
     return judged;
 }
 
-/// Hands out a frame that is the one before it.
+/// Hands out a frame that is the one before it. Nothing moves in it; what wakes has the velocity that it fell asleep
+/// with.
 void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
     simulated_ = frame + 1;
-    submit_output(frame, {attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}}, asked.wanted(frame),
-                  asked.finished);
+    Judged still{attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}};
+    for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
+    submit_output(frame, std::move(still), asked.wanted(frame), asked.finished);
 }
 
 void FrameLoop::drop_withheld() {
@@ -143,7 +148,26 @@ bool FrameLoop::lengthen_lists() {
     if (solver_.self_list_use(fullest_) <= 1 || !solver_.grow_lists(fullest_)) return false;
     if (control_->segment().probes) drop_withheld();
     begin_anew();
+    kept_ = false;
     return true;
+}
+
+bool FrameLoop::simulate_unless_stopped(std::uint32_t frame, const Asked& asked) {
+    const std::vector<std::byte> before = host_state();
+    kept_ = false;
+    in_segment_ = true;
+    bool stopped = false;
+    try {
+        simulate_segment(frame, asked);
+    } catch (const Stopped&) {
+        stopped = true;
+        if (control_->segment().probes) drop_withheld();
+        deliver_all(asked.finished);
+        if (kept_) restore_kept();
+        take_host_state(before);
+    }
+    in_segment_ = false;
+    return !stopped;
 }
 
 void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
@@ -153,13 +177,13 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (begun.probes) deliver_all(asked.finished);  // then only withheld frames are in flight
     FrameEffort effort{.attempts = 0};
     Judged judged;
-    for (bool first = true;;) {
+    for (;;) {
+        const Attempt attempt{frame, effort.attempts + 1, !kept_};
         Judgement judgement;
         fullest_ = {};
-        if (control_->segment().probes) run_coarse(frame, first, judgement);
-        judged = run_fine(frame, first, judgement, asked);
-        first = lengthen_lists();  // the kept state is gone then
-        if (first) continue;
+        if (control_->segment().probes) run_coarse(attempt, judgement, asked);
+        judged = run_fine(attempt, judgement, asked);
+        if (lengthen_lists()) continue;
         ++effort.attempts;
         const SubstepControl::Verdict verdict = control_->judge(judgement);
         if (verdict == SubstepControl::Verdict::give_up) give_up(frame, judgement, asked);

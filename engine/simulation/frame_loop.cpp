@@ -209,10 +209,14 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
     if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
 }
 
-void FrameLoop::begin_anew() {
+void FrameLoop::restore_kept() {
     const std::uint32_t slot = next_slot_;
     slots_.submit(slot, {attempts_[static_cast<std::size_t>(AttemptStep::restore)].recorded->commands(slot)});
     slots_.wait(slot);
+}
+
+void FrameLoop::begin_anew() {
+    restore_kept();
     rebuild_resources(solver_.download_state(*pool_));
 }
 
@@ -251,7 +255,8 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
     if (done.output && options_.positions) result.positions = arrays(slot, "position");
-    if (done.output && options_.velocities) result.velocities = velocities(slot, done.substeps);
+    if (done.output && options_.velocities)
+        result.velocities = velocities(slot, result.effort.asleep ? 0 : done.substeps);
     if (done.output && options_.normals) result.normals = arrays(slot, "normal");
     if (done.output && !done.judged && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) finished(result);
@@ -266,13 +271,14 @@ std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::s
     return views;
 }
 
-/// Returns what the statistics take for the velocity (end_velocity.h), over the substep.
+/// Returns what the statistics take for the velocity (end_velocity.h), over the substep; 0 where there was none.
 std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
     const auto moved = arrays(slot, "displacement"), excess = arrays(slot, "excess displacement");
     const double substeps_per_second = model_.scene.time.fps * substeps;
     velocities_.resize(moved.size());
     for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {
         velocities_[cloth].assign(moved[cloth].size(), 0.0f);
+        if (substeps == 0) continue;
         for (std::size_t i = 0; i < moved[cloth].size(); ++i)
             if (i % 4 != 3)  // w of a displacement counts something else
                 velocities_[cloth][i] =
@@ -321,7 +327,8 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
             break;
         }
         if (control_ && frame > 0) {
-            if (frame >= simulated_) simulate_segment(frame, {last, wanted, finished});
+            complete = frame < simulated_ || simulate_unless_stopped(frame, {last, wanted, finished, stop});
+            if (!complete) break;
             release_withheld(frame, output, finished);
             continue;
         }

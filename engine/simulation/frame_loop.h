@@ -42,8 +42,9 @@ struct FrameLoopOptions : PictureOptions {
     bool keep_promises = true;  ///< a closed loop throws ToleranceMissed where it gives up
     /// Each cut is told here, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
-    std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
-    graph::BarrierFilter barrier_filter;  ///< canary tests only
+    std::function<void(const FrameAttempt&)> on_attempt;  ///< told of before each
+    std::function<void()> meanwhile;                      ///< called whenever the device has got a frame to simulate
+    graph::BarrierFilter barrier_filter;                  ///< canary tests only
 };
 
 /// One of these is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated;
@@ -83,13 +84,14 @@ class FrameLoop {
     FrameLoop(const vulkan::Device& device, SimulationModel&& model, const FrameLoopOptions& options) = delete;
 
     /// Runs frames next_frame() .. last; `wanted(frame)` says which are handed to `finished`, in order. `stop()` is
-    /// asked before each submit; true ends the loop after what is in flight. Returns whether it ran to the end.
+    /// asked before each submit; true ends the loop after what is in flight, and what a closed loop has of a segment
+    /// that is not kept goes. Returns whether it ran to the end.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 
     std::uint32_t next_frame() const { return next_frame_; }
-    /// Returns whether every frame that was simulated was handed out.
-    bool can_save() const { return withheld_.empty() && (!control_ || next_frame_ >= simulated_); }
+    /// Returns whether every frame that was simulated was handed out, or will have been once `stop` has ended the loop.
+    bool can_save() const { return in_segment_ || (withheld_.empty() && (!control_ || next_frame_ >= simulated_)); }
     /// Returns what next_frame() starts from; call it only while can_save().
     SimulationState save() const;
     /// Takes over what another loop of the same model saved. Throws Error when it is not that.
@@ -146,6 +148,9 @@ class FrameLoop {
     // These are in loop_state.cpp.
     template <class Archive>
     void transfer(Archive& archive);
+    std::vector<std::byte> host_state() const;
+    /// Whether it was one.
+    bool take_host_state(std::span<const std::byte> bytes);
     void restore_cuts(const SimulationState& state);
     /// Returns whether a loop of this scene can come to the state that was read: the next frame divides by it.
     bool can_be() const;
@@ -157,7 +162,9 @@ class FrameLoop {
     void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
     /// Does a named method's frame again with longer lists of contact where they were too short.
     void fit_lists(std::uint32_t slot, const Finished& finished);
-    /// Goes back to what the frame or segment started from, with new resources. Nothing may be in flight.
+    /// Goes back to what the frame or segment started from. Nothing may be in flight.
+    void restore_kept();
+    /// Does the same with new resources.
     void begin_anew();
     void deliver(std::uint32_t slot, const Finished& finished);
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
@@ -176,7 +183,15 @@ class FrameLoop {
         std::uint32_t last;
         const std::function<bool(std::uint32_t)>& wanted;
         const Finished& finished;
+        const std::function<bool()>& stop;
     };
+    /// To simulate a segment.
+    struct Attempt {
+        std::uint32_t frame;   ///< the first
+        std::uint32_t number;  ///< from 1
+        bool keeps;            ///< what it starts from
+    };
+    struct Stopped {};  ///< thrown within a segment
     struct Run {
         std::uint32_t frame, substeps;
         std::optional<AttemptStep> before, after;  ///< done before and after the frame
@@ -185,14 +200,16 @@ class FrameLoop {
     /// Simulates the frames from `frame` on that are judged together until the control keeps them, or throws
     /// ToleranceMissed. Those of a probe are withheld until they are kept, then released.
     void simulate_segment(std::uint32_t frame, const Asked& asked);
+    /// Whether it was simulated; else it was stopped, and everything is as before it.
+    bool simulate_unless_stopped(std::uint32_t frame, const Asked& asked);
     void sleep_through(std::uint32_t frame, const Asked& asked);
     /// Returns whether the segment's lists of contact were too short and now are longer, at its start.
     bool lengthen_lists();
     void drop_withheld();
-    void run_coarse(std::uint32_t frame, bool first, Judgement& judgement);
-    Judged run_fine(std::uint32_t frame, bool first, Judgement& judgement, const Asked& asked);
+    void run_coarse(const Attempt& attempt, Judgement& judgement, const Asked& asked);
+    Judged run_fine(const Attempt& attempt, Judgement& judgement, const Asked& asked);
     double motion_of(std::uint32_t slot);
-    void submit_run(std::uint32_t slot, const Run& run);
+    void submit_run(std::uint32_t slot, const Run& run, const Attempt& attempt, const Asked& asked);
     Judged take_judged(std::uint32_t slot, std::uint32_t substeps);
     void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
     void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
@@ -217,6 +234,8 @@ class FrameLoop {
     glsl::SelfRecord fullest_{};  ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
     std::uint32_t state_substeps_;    ///< substeps of the state's history
+    bool in_segment_ = false;         ///< `stop` is asked within one
+    bool kept_ = false;               ///< the device has what the segment started from
     std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;         ///< the last probe's
     std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet

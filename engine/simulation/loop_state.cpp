@@ -67,6 +67,18 @@ void FrameLoop::transfer(Archive& archive) {
     for (ClothStatistics& statistics : attempt_statistics_.back()) transfer_statistics(archive, statistics);
 }
 
+std::vector<std::byte> FrameLoop::host_state() const {
+    ByteWriter writer;
+    const_cast<FrameLoop*>(this)->transfer(writer);  // a writer changes nothing
+    return writer.take();
+}
+
+bool FrameLoop::take_host_state(std::span<const std::byte> bytes) {
+    ByteReader reader(bytes);
+    transfer(reader);
+    return reader.left() == 0 && can_be();
+}
+
 SimulationState FrameLoop::save() const {
     SimulationState state;
     for (auto& [name, bytes] : solver_.download_state(*pool_))
@@ -76,9 +88,7 @@ SimulationState FrameLoop::save() const {
         if (!model_.scene.cutters.empty() && topology.masked())
             state[cuts_part(model_.cloths[cloth])] = cut_bytes(topology);
     }
-    ByteWriter writer;
-    const_cast<FrameLoop*>(this)->transfer(writer);  // a writer changes nothing
-    state[loop_part] = writer.take();
+    state[loop_part] = host_state();
     return state;
 }
 
@@ -110,9 +120,7 @@ void FrameLoop::restore_cuts(const SimulationState& state) {
 void FrameLoop::restore(const SimulationState& state) {
     const auto loop = state.find(loop_part);
     if (loop == state.end()) refuse("it has no part 'loop'");
-    ByteReader reader(loop->second);
-    transfer(reader);
-    if (reader.left() > 0 || !can_save() || !can_be()) refuse("its part 'loop' is of something else");
+    if (!take_host_state(loop->second) || !can_save()) refuse("its part 'loop' is of something else");
     restore_cuts(state);
     SimulationState fields;
     for (const auto& [name, bytes] : state)

@@ -99,6 +99,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.velocities = wanted.velocities;
     options.statistics = wanted.statistics || wanted.velocities;
     options.keep_promises = wanted.keep_promises;
+    options.on_attempt = wanted.on_attempt;
     options.kernels = wanted.kernels;
     options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];
     options.width = scene.image.size[0];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/printable_text.h"
 #include "output/json_text.h"
 #include "output/xml_text.h"
 #include "verify/verify.h"
@@ -41,9 +42,9 @@ std::string suite(const Report& report) {
 }  // namespace
 
 std::string report_text(const Report& report) {
-    if (!report.errors.empty()) return fmt::format("{}: not run\n{}\n", report.file, error_text(report));
+    if (!report.errors.empty()) return fmt::format("{}: not run\n{}\n", printable(report.file), error_text(report));
     std::string text =
-        fmt::format("{}: {} ({} frames, {:.1f} s)\n", report.file,
+        fmt::format("{}: {} ({} frames, {:.1f} s)\n", printable(report.file),
                     report.met() ? "ok" : fmt::format("{} of {} missed", missed_count(report), report.findings.size()),
                     report.frame_count, report.seconds);
     for (const Finding& finding : report.findings)

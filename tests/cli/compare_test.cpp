@@ -161,5 +161,40 @@ TEST_F(Compare, SaysWhatItCannotRead) {
     EXPECT_EQ(run("a.npy", "a.npy", {"--max", "-1"}).code, 2);
 }
 
+/// Small files that say that they hold much: refused by what they say, before it is in memory.
+TEST_F(Compare, RefusesWhatWouldExpandBeforeItDoes) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    write_text(*this / "make.py", R"(
+import numpy as n, struct, zipfile, zlib
+def npz(name, shape, zeros):
+    with zipfile.ZipFile(name, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        header = "{'descr': '<f4', 'fortran_order': False, 'shape': (%s), }" % shape
+        header += " " * (117 - len(header)) + "\n"
+        archive.writestr("a.npy", b"\x93NUMPY\x01\x00" + struct.pack("<H", 118) + header.encode() + bytes(zeros))
+npz("other.npz", "3,", 400_000_000)
+npz("large.npz", "100000000,", 400_000_000)
+def png(name, width, height, pixels):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                           chunk(b"IDAT", zlib.compress(bytes(pixels), 1)) + chunk(b"IEND", b""))
+png("short.png", 16000, 16000, 1000)
+png("large.png", 12000, 12000, 12000 * 36001)
+)");
+    ASSERT_EQ(std::system(("cd " + path().string() + " && /usr/bin/python3 make.py").c_str()), 0);
+    const auto refused = [&](const char* name, const char* why, const std::string& limit) {
+        const std::string file = (*this / name).string();
+        const Outcome outcome =
+            Running("/bin/sh", {"-c", limit + " exec " DRAPE_PROGRAM " compare " + file + " " + file}).wait();
+        EXPECT_EQ(outcome.code, 1) << name;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr(file), HasSubstr(why)));
+        EXPECT_LT(outcome.peak_memory_kib, 100 << 10) << name;
+    };
+    refused("other.npz", "it has 400000000 bytes of values, not those of float32 (3)", "");
+    refused("large.npz", " needs 400 MB, and ", "ulimit -v 400000;");
+    refused("short.png", "16000x16000 pixels is not in ", "");
+    refused("large.png", "12000x12000 pixels needs 432 MB, and ", "ulimit -v 400000;");
+}
+
 }  // namespace
 }  // namespace drape

@@ -1,7 +1,13 @@
 // The report's page needs no other file, is well-formed, and says what the manifest says.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <json/json.h>
 
+#include <set>
+
+#include "output/json_file.h"
+#include "output/json_text.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -75,6 +81,52 @@ TEST(Report, OfNoFinishedRunIsRefused) {
     write_text(folder / "other/manifest.json", "{\"name\": \"web app\"}");
     EXPECT_THAT(report("other").err, HasSubstr("is no manifest of this program"));
     EXPECT_THAT(names_in(folder / "other"), testing::ElementsAre("manifest.json"));
+}
+
+/// Pointers of everything in a value, parents first.
+void collect(const Json::Value& value, const std::string& at, std::vector<std::string>& pointers) {
+    if (!at.empty()) pointers.push_back(at);
+    for (auto child = value.begin(); child != value.end(); ++child)
+        collect(*child, at + (value.isArray() ? fmt::format("[{}]", child.index()) : "." + child.name()), pointers);
+}
+
+TEST(Report, AManifestOfWrongTypesIsRefusedByNameAndPlace) {
+    const SceneFolder folder(small_scene(1));
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q"}).code, 0);
+    const Json::Value good = read_json(folder / "out/manifest.json", {});
+    std::vector<std::string> pointers;
+    collect(good, "", pointers);
+    std::set<std::string> refused;
+    for (const std::string& pointer : pointers) {
+        Json::Value wrong = good;
+        Json::Value& place = Json::Path(pointer).make(wrong);
+        place = place.isString() ? Json::Value(Json::arrayValue) : Json::Value(place.isNumeric() ? "seven" : "\x1b");
+        write_text(folder / "out/manifest.json", json_text(wrong));
+        const Outcome outcome = drape({"report", folder.out(), "-o", "-"});
+        if (outcome.code == 0) continue;
+        EXPECT_EQ(outcome.code, 1) << pointer << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("manifest.json'")) << pointer;
+        refused.insert(pointer);
+    }
+    for (const char* pointer :
+         {".format", ".scene.name", ".run.command_line", ".run.command_line[0]", ".files[0]", ".files[0].name",
+          ".statistics", ".statistics[0].frame", ".frames.fps", ".solver", ".validation.messages"})
+        EXPECT_TRUE(refused.contains(pointer)) << pointer;
+    for (const char* text : {"[1, 2]", "7", "null", "{", "{\"format\": 3}"}) {
+        write_text(folder / "out/manifest.json", text);
+        const Outcome outcome = drape({"report", folder.out(), "-o", "-"});
+        EXPECT_EQ(outcome.code, 1) << text;
+        EXPECT_THAT(outcome.err, HasSubstr("manifest.json'")) << text;
+    }
+}
+
+TEST(Report, APictureThatCannotBeReadIsNamed) {
+    const SceneFolder folder(small_scene(2));
+    ASSERT_EQ(drape({"render", folder.scene(), "-o", folder.out(), "-q"}).code, 0);
+    write_text(folder / "out/frame_0001.png", read_text(folder / "out/frame_0001.png").substr(0, 400));
+    const Outcome outcome = drape({"report", folder.out()});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("out/frame_0001.png': PNG: "));
 }
 
 }  // namespace

@@ -65,10 +65,8 @@ Json::Value lasting_manifest(const fs::path& folder) {
 }
 
 bool is_whole_picture(const fs::path& file, unsigned width, unsigned height) {
-    const std::string bytes = read_text(file);
     try {
-        const Picture picture =
-            decode_png(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+        const Picture picture = read_png(file);
         return picture.width == width && picture.height == height;
     } catch (const OutputError&) {
         return false;

@@ -5,8 +5,11 @@
 #include <json/json.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
+#include "output/json_file.h"
+#include "output/json_text.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -147,6 +150,102 @@ TEST_F(Sweep, ItsDataSetOpensInPython) {
     const Outcome cut = sweep({"--dataset", "--resume"}, "other");
     EXPECT_EQ(cut.code, 2);
     EXPECT_THAT(cut.err, HasSubstr("the scene has cutters"));
+}
+
+TEST_F(Sweep, TextInItsTableIsNoFormulaAndHoldsNoControlCharacter) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "set": {"/time/frames": 1},
+        "vary": {"/cloths/0/damping": {"grid": [-1]},
+                 "/name": {"grid": ["=HYPERLINK(1)", "+1", "-2", "@x", "a\u001b[31m\nb", "a,\"b\""]
+}
+}
+})");
+    EXPECT_EQ(sweep({"-q"}).code, 9);
+const std::vector<std::string> lines = results();
+ASSERT_EQ(lines.size(), 7u);
+const std::vector<std::string> names{"'=HYPERLINK(1)", "'+1", "'-2", "'@x", "a\\x1b[31m\\x0ab", R"("a,""b""")"};
+for (std::size_t i = 0; i < names.size(); ++i) EXPECT_TRUE(lines[i + 1].ends_with(",-1," + names[i])) << lines[i + 1];
+}
+
+TEST_F(Sweep, RecordsOfWrongTypesAreRefusedByNameAndPlace) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "set": {"/time/frames": 1},
+        "vary": {"/cloths/0/damping": {"grid": [0.5]}}})");
+    ASSERT_EQ(sweep({"-q"}).code, 0);
+    const Json::Value good = read_json(folder / "out/jobs/0000.json", {});
+    for (const auto& [name, value] : std::multimap<std::string, Json::Value>{
+             {"exit_code", "zero"}, {"exit_code", -1}, {"message", 7}, {"seconds", Json::arrayValue}, {"values", 3}}) {
+        Json::Value wrong = good;
+        wrong[name] = value;
+        write_text(folder / "out/jobs/0000.json", json_text(wrong));
+        for (const char* option : {"--collect", "--resume"}) {
+            const Outcome outcome = sweep({option});
+            EXPECT_EQ(outcome.code, 1) << name;
+            EXPECT_THAT(outcome.err, HasSubstr("out/jobs/0000.json': /" + name + ": expected ")) << name;
+        }
+    }
+    write_text(folder / "out/jobs/0000.json", "[0]");
+    EXPECT_THAT(sweep({"--collect"}).err, HasSubstr("out/jobs/0000.json' is no JSON object"));
+    Json::Value manifest = read_json(folder / "out/runs/0000/manifest.json", {});
+    manifest["statistics"][0]["frame"] = "first";
+    std::filesystem::remove(folder / "out/jobs/0000.json");
+    write_text(folder / "out/runs/0000/manifest.json", json_text(manifest));
+    EXPECT_EQ(sweep({"--resume", "-q"}).code, 0) << "it is run again";
+}
+
+TEST_F(Sweep, SpecificationsOfWrongTypesAreWrongScenes) {
+    for (const char* spec :
+         {"[1]", "7", R"({"scene": 3, "count": 1})", R"({"scene": "scene.json", "count": "two"})",
+          R"({"scene": "scene.json", "count": 1, "set": [1]})", R"({"scene": "scene.json", "count": 1, "vary": "all"})",
+          R"({"scene": "scene.json", "count": 1, "vary": {"/a": 3}})",
+          R"({"scene": "scene.json", "count": 1, "vary": {"/a": {"normal": ["x", 1]}}})",
+          R"({"scene": "scene.json", "count": 1, "vary": {"/a": {"normal": [0, 1e-3], "within": "all"}}})",
+          R"({"scene": "scene.json", "count": 1, "vary": {"/a": {"normal": [0, 1e-3], "within": [100, 101]}}})"}) {
+        write_text(folder / "spec.json", spec);
+        for (const std::vector<std::string>& more : {std::vector<std::string>{"--list"}, {"-q"}}) {
+            const Outcome outcome = sweep(more);
+            EXPECT_EQ(outcome.code, 3) << spec << outcome.err;
+            EXPECT_THAT(outcome.err, testing::StartsWith("spec.json:1:")) << spec;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST_F(Sweep, SomeRunsOfADataSetHaveItsDescription) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 9,
+        "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
+    ASSERT_EQ(sweep({"--dataset", "--index", "0-1"}).code, 0);
+    const auto load = [&] {
+        return Running("/usr/bin/python3",
+                       {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py", (folder / "out/dataset").string()})
+            .wait();
+    };
+    const Outcome loaded = load();
+    EXPECT_EQ(loaded.code, 0) << loaded.err;
+    EXPECT_THAT(loaded.out, HasSubstr("2 trajectories of 9 frames"));
+    const std::string meta = file("out/dataset/meta.json");
+    EXPECT_EQ(sweep({"--dataset", "--collect"}).code, 9);
+    EXPECT_EQ(file("out/dataset/meta.json"), meta);
+    // Trajectories of two lengths.
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/time/frames": {"grid": [3, 4]}}})");
+    ASSERT_EQ(sweep({"--dataset", "--index", "1"}, "other").code, 0);
+    EXPECT_EQ(read_json(folder / "other/dataset/meta.json", {})["trajectory_length"], Json::Value(-1));
+}
+
+TEST_F(Sweep, WhatAKilledOneLeftIsNothing) {
+    for (const char* place : {"out", "out/jobs"}) std::filesystem::create_directories(folder / place);
+    const std::filesystem::path left = folder / "out/jobs/0000.json.tmp-4000000";
+    write_text(left, "half");
+    std::filesystem::remove_all(folder / "fresh");
+    std::filesystem::create_directory(folder / "fresh");
+    write_text(folder / "fresh/sweep.json.tmp-4000000", "half");
+    EXPECT_EQ(sweep({"--index", "0"}, "fresh").code, 0);
+    EXPECT_EQ(sweep({"-q"}).code, 9);
+    EXPECT_TRUE(std::filesystem::exists(left)) << "young: another machine may be writing it";
+    std::filesystem::remove_all(folder / "out/runs");
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out/jobs"))
+        if (entry.path() != left) std::filesystem::remove(entry.path());
+    std::filesystem::last_write_time(left, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    EXPECT_EQ(sweep({"-q"}).code, 9);
+    EXPECT_FALSE(std::filesystem::exists(left));
 }
 
 }  // namespace

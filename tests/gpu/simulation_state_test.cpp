@@ -73,6 +73,26 @@ void run(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationS
         told.met.emplace_back(report->first_unproved, report->most_pairs, report->truncated);
 }
 
+/// Likewise, but every frame that has so many attempts is stopped at one that its number says.
+void run_stopped_within(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationState>& states) {
+    std::optional<std::uint32_t> frame, stopped;
+    std::uint32_t asked = 0;
+    const auto stop = [&] {
+        if (!simulation.can_save() || simulation.next_frame() == stopped) return false;
+        if (simulation.next_frame() != frame) asked = 0;
+        frame = simulation.next_frame();
+        if (++asked != 2 + *frame % 4) return false;  // the first is asked before the frame
+        stopped = frame;
+        return true;
+    };
+    while (!simulation.run(
+        simulation.scene().time.frame_count - 1, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& each) { told.frames.insert_or_assign(each.frame, seen(each)); }, stop))
+        states[simulation.next_frame()] = simulation.save();
+    if (const auto report = simulation.self_contact())
+        told.met.emplace_back(report->first_unproved, report->most_pairs, report->truncated);
+}
+
 struct Case {
     const char* name;
     const char* scene;
@@ -112,6 +132,26 @@ TEST_P(SimulationStateTest, GoesOnToTheSameBitsWhereverItWasTaken) {
         EXPECT_TRUE(rest.frames == Frames(from, whole.frames.end())) << "from frame " << next;
         for (const auto& [frame, faces] : rest.faces) EXPECT_EQ(faces, whole.faces.at(frame)) << "cut in " << frame;
     }
+}
+
+TEST_P(SimulationStateTest, IsAsBeforeTheFrameThatIsStoppedWithin) {
+    const SceneDescription scene = parse_scene(GetParam().scene);
+    Told whole, within;
+    std::map<std::uint32_t, SimulationState> before, states;
+    {
+        Simulation simulation(scene, options_of(whole, GetParam().draw), library_device());
+        run(simulation, whole, &before);
+    }
+    Simulation simulation(scene, options_of(within, GetParam().draw), library_device());
+    run_stopped_within(simulation, within, states);
+    EXPECT_EQ(within.frames, whole.frames);
+    EXPECT_EQ(within.met, whole.met);
+    EXPECT_EQ(within.faces, whole.faces);
+    for (const auto& [next, state] : states) EXPECT_EQ(state, before.at(next)) << "before frame " << next;
+    if (scene.solver.method == SolverMethod::automatic)
+        EXPECT_GE(states.size(), 5u);
+    else
+        EXPECT_TRUE(states.empty());
 }
 
 // `auto` changes its substeps where the ball hits; pins that let go begin a probe; two cloths, one with a hole.

@@ -1,8 +1,11 @@
 #include "output/output_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
 
 #include "output/atomic_file.h"
 #include "output/manifest.h"
@@ -56,6 +59,41 @@ TEST(OutputFolder, RefusesANonEmptyFolderNamingTheOptions) {
     EXPECT_THAT(open_error(temporary.path()),
                 AllOf(HasSubstr("'" + temporary.path().string() + "' is not empty"), HasSubstr("thesis.tex and 1 more"),
                       HasSubstr("--overwrite"), HasSubstr("--resume")));
+}
+
+TEST(OutputFolder, WhatAKilledRunLeftIsNothingAndGoesAtTheFirstWrite) {
+    for (const ExistingFiles existing : {ExistingFiles::refuse, ExistingFiles::overwrite, ExistingFiles::resume}) {
+        const TemporaryFolder temporary;
+        write_text(temporary / "frame_0003.png.tmp-4000000", "half");
+        write_text(temporary / "manifest.json.tmp-1", "half");
+        {
+            OutputFolder folder(temporary.path(), existing);
+            EXPECT_THAT(folder.files_to_remove(), ElementsAre("frame_0003.png.tmp-4000000", "manifest.json.tmp-1"));
+            write_byte(folder, "frame_0000.png");
+        }
+        EXPECT_THAT(names_in(temporary.path()), ElementsAre("frame_0000.png"));
+    }
+    const TemporaryFolder temporary;
+    write_text(temporary / "frame_0003.png.tmp-4000000", "half");
+    write_text(temporary / "thesis.tex.tmp-4000000", "no file of ours");
+    EXPECT_THAT(open_error(temporary.path()), HasSubstr("it holds thesis.tex.tmp-4000000)"));
+    EXPECT_TRUE(is_left_over("thesis.tex.tmp-4000000")) << "no process has this number";
+    EXPECT_FALSE(is_left_over(fmt::format("thesis.tex.tmp-{}", getpid())));
+    EXPECT_FALSE(is_left_over("thesis.tex"));
+}
+
+TEST(OutputFolder, RefusesARunThatIsKnownNotToFit) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    folder.expect_room(1);
+    struct statfs status {};
+    ASSERT_EQ(statfs(temporary.path().c_str(), &status), 0);
+    const bool known = status.f_type == 0xef53 || status.f_type == 0x58465342 || status.f_type == 0x01021994;
+    if (!known) GTEST_SKIP() << "the free space of this file system says little";
+    const std::uint64_t room = fs::space(temporary.path()).free;
+    folder.expect_room(room / 2);
+    EXPECT_THAT(error_text<OutputError>([&] { folder.expect_room(room + (std::uint64_t{1} << 40)); }),
+                AllOf(HasSubstr(temporary.path().string()), HasSubstr(" GB, and the run would write ")));
 }
 
 TEST(OutputFolder, RefusesWhatIsNoFolder) {

@@ -36,6 +36,24 @@ TEST(Progress, TerminalRedrawsOneLine) {
               "\rframe 14 (3/3, 100 %)  1500.0 ms/frame  ETA 0:00\x1b[K\n");
 }
 
+TEST(Progress, ALongFrameSaysWhatIsDoneToIt) {
+    Screen screen;
+    Progress progress(3, screen.options(true));
+    progress.frame_begun(0, 4, 1);
+    EXPECT_EQ(screen.text, "") << "it need not be long";
+    screen.now += 2;
+    progress.frame_begun(0, 64, 2);
+    EXPECT_EQ(screen.text, "\rframe 0, 64 substeps, attempt 2 (0/3, 0 %)\x1b[K");
+    screen.text.clear();
+    screen.now += 1;
+    progress.frame_done(0, "a note");
+    EXPECT_EQ(screen.text, "\rframe 0 (1/3, 33 %)  3000.0 ms/frame  ETA 0:06  a note\x1b[K");
+    screen.text.clear();
+    screen.now += 2;
+    progress.frame_begun(1, 128, 3);
+    EXPECT_EQ(screen.text, "\rframe 1, 128 substeps, attempt 3 (1/3, 33 %)  3000.0 ms/frame  ETA 0:06\x1b[K");
+}
+
 TEST(Progress, TerminalIsRedrawnTenTimesASecondAtMost) {
     Screen screen;
     Progress progress(10001, screen.options(true));

@@ -1,5 +1,6 @@
 #include <json/json.h>
 
+#include "base/printable_text.h"
 #include "cloth/simulation_model.h"
 #include "options.h"
 #include "output/json_text.h"
@@ -55,10 +56,10 @@ ExitCode check(const CheckOptions& options) {
             Json::Value& entry = row["compromises"].append(Json::Value(Json::objectValue));
             entry["what"] = each.what;
             entry["reason"] = each.reason;
-            if (!options.json) print_message("warning: " + path + ": " + each.what + ": " + each.reason);
+            if (!options.json) print_message("warning: " + printable(path) + ": " + each.what + ": " + each.reason);
         }
         report.append(row);
-        if (!options.json && !options.quiet && result.scene) print_data(path + ": ok\n");
+        if (!options.json && !options.quiet && result.scene) print_data(printable(path) + ": ok\n");
     }
     if (options.json) print_data(json_text(report));
     return code;

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
+#include "base/printable_text.h"
 #include "compare/results.h"
 #include "options.h"
-#include "output/output_error.h"
+#include "output/atomic_file.h"
 #include "profile/comparison.h"
 #include "program.h"
 #include "streams.h"
@@ -23,21 +22,13 @@ struct CompareOptions {
     bool json = false;
 };
 
-std::string text_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw OutputError("cannot read '" + path + "'");
-    return text.str();
-}
-
 ExitCode compare_profiles(const std::string& before, const std::string& after) {
     try {
-        const profile::Comparison comparison = profile::compare(text_of(before), before, text_of(after), after);
+        const profile::Comparison comparison = profile::compare(read_file(before), before, read_file(after), after);
         print_data(comparison.text());
         return comparison.slower() ? ExitCode::comparison : ExitCode::ok;
     } catch (const profile::NoProfile& error) {
-        print_error(error.what());
+        print_error(printable(error.what()));
         return ExitCode::io;
     }
 }
@@ -47,8 +38,7 @@ ExitCode run(const CompareOptions& options) {
     std::error_code ignored;
     for (const fs::path& path : {before, after}) {
         if (fs::exists(path, ignored)) continue;
-        print_error(fmt::format("'{}' does not exist", path.string()));
-        return ExitCode::io;
+        throw OutputError(fmt::format("'{}' does not exist", path.string()));
     }
     const bool folder = fs::is_directory(before, ignored);
     if (folder != fs::is_directory(after, ignored)) throw UsageError("a folder is compared with a folder");

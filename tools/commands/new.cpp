@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/printable_text.h"
 #include "options.h"
 #include "output/output_error.h"
 #include "program.h"
@@ -55,8 +56,8 @@ ExitCode run(const std::string& name, const std::string& output) {
     }
     const std::string path = output.empty() ? name + ".json" : output;
     create(path, scene.text);
-    print_message(fmt::format("{0}\nNext: drape render {0} -o {1}", path,
-                              (std::filesystem::path("out") / std::filesystem::path(path).stem()).string()));
+    print_message(fmt::format("{0}\nNext: drape render {0} -o {1}", printable(path),
+                              printable((std::filesystem::path("out") / std::filesystem::path(path).stem()).string())));
     return ExitCode::ok;
 }
 

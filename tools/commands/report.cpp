@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/printable_text.h"
 #include "options.h"
 #include "output/atomic_file.h"
 #include "program.h"
@@ -28,7 +29,7 @@ ExitCode run(const ReportOptions& options) {
     const std::filesystem::path path = options.output.empty() ? std::filesystem::path(options.folder) / "report.html"
                                                               : std::filesystem::path(options.output);
     write_file(path, html);
-    print_message(fmt::format("{} ({:.1f} MB)", path.string(), static_cast<double>(html.size()) / 1e6));
+    print_message(fmt::format("{} ({:.1f} MB)", printable(path.string()), static_cast<double>(html.size()) / 1e6));
     return ExitCode::ok;
 }
 

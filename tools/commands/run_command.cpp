@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/printable_text.h"
 #include "ending.h"
 #include "output/frame_writer.h"
 #include "streams.h"
@@ -32,12 +33,13 @@ ExitCode run_into_folder(RunRequest request, const std::vector<std::string>& com
     catch_signals();
     request.command_line = command_line;
     request.stop = stop_requested;
+    request.saving = take_time;
     request.message = print_message;
     if (request.output == "-") stream_to_stdout(request);
     const RunSummary summary = run_scene(request);
     const std::uint64_t count = summary.frame_count + summary.kept_count;
     const std::string frames = fmt::format("{} frame{} {}", count, count == 1 ? "" : "s",
-                                           request.stream ? "to stdout" : "in " + request.output);
+                                           request.stream ? "to stdout" : "in " + printable(request.output));
     if (!summary.complete) {
         if (request.stream) return report_stop("the video ends after " + frames);
         std::string left = summary.dropped.size() < request.formats.size() ? frames + "; " : "";

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/printable_text.h"
 #include "ending.h"
 #include "options.h"
 #include "output/output_error.h"
@@ -64,6 +65,7 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     request.quiet = true;
     request.message = print_message;
     request.stop = stop_requested;
+    request.saving = take_time;
     return request;
 }
 
@@ -97,6 +99,7 @@ ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, 
         if (!code) return report_stop(fmt::format("run {} left no record", index));
         if (*code != ExitCode::ok) worst = *code;
     }
+    if (options.dataset) folder.describe_dataset();
     return worst;
 }
 
@@ -112,7 +115,7 @@ std::vector<std::string> command_of(const SweepOptions& options, std::uint32_t i
 ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder) {
     const sweep::Tally tally = folder.collect(options.dataset);
     if (!options.quiet || !tally.complete())
-        print_message(fmt::format("{}; {}", tally.text(), (folder.path() / "results.csv").string()));
+        print_message(fmt::format("{}; {}", tally.text(), printable((folder.path() / "results.csv").string())));
     return tally.complete() ? ExitCode::ok : ExitCode::sweep;
 }
 
@@ -159,7 +162,7 @@ ExitCode run(const SweepOptions& options) {
     check_scene(spec, options.dataset);
     const bool fresh = options.indices.empty() && !options.resume && !options.collect;
     const sweep::SweepFolder folder(options.output, spec, fresh);
-    catch_signals();
+    catch_signals(options.indices.empty());
     if (options.collect) return conclude(options, folder);
     return options.indices.empty() ? run_all(options, spec, folder) : run_indices(options, spec, folder);
 }
@@ -181,7 +184,8 @@ gives. Grids are counted through, the last pointer in alphabetical order
 fastest; without a count every combination runs once.
 
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
-results.csv, a line per run, failed ones too: exit code 9 when there is one. A
+results.csv, a line per run, failed ones too: exit code 9 when there is one; no
+text in it is a control character or, to a spreadsheet, a formula. A
 file that a run cannot read or write ends the sweep with exit code 1; that run
 has no record, and --resume runs it.
 
@@ -191,6 +195,8 @@ Examples:
   drape sweep spec.json -o out/data --dataset     layout of flag_simple
   drape sweep spec.json -o out/sweep --index 17   one run, on any machine
   drape sweep spec.json -o out/sweep --collect    results.csv of what is there
+  drape sweep spec.json -o out/data --dataset --index 0-99      a machine's share
+  drape sweep spec.json -o out/data --dataset --collect         and dataset/meta.json
 )text";
 
 }  // namespace
@@ -210,7 +216,8 @@ void add_sweep(Program& program) {
              "The layout of MeshGraphNets' flag_simple instead: dataset/meta.json and a trajectory per run",
              options->dataset);
     add_flag(command, "--resume", "Go on with a sweep: runs with a record are kept, failed ones too", options->resume);
-    add_flag(command, "--collect", "Run nothing: results.csv of the records", options->collect);
+    add_flag(command, "--collect", "Run nothing: results.csv of the records, with --dataset meta.json too",
+             options->collect);
     add_flag(command, "--list", "Print every run's values", options->list);
     add_flag(command, "--count", "Print the number of runs", options->count);
     add_device_option(command, options->device);

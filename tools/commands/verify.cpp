@@ -1,5 +1,6 @@
 #include "verify/verify.h"
 
+#include "base/printable_text.h"
 #include "ending.h"
 #include "options.h"
 #include "output/atomic_file.h"
@@ -25,7 +26,8 @@ ExitCode run(VerifyOptions options) {
     ExitCode code = ExitCode::ok;
     for (const std::string& path : scene_files(options.paths)) {
         verify::Report report = verify::verify_scene(path, options.request);
-        if (report.stopped || stop_requested()) return report_stop(path + " and what came after it were not judged");
+        if (report.stopped || stop_requested())
+            return report_stop(printable(path) + " and what came after it were not judged");
         if (!options.json && !(options.quiet && report.met())) print_data(verify::report_text(report));
         if (!report.errors.empty())
             code = report.unreadable || code == ExitCode::io ? ExitCode::io : ExitCode::scene;

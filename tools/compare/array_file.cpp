@@ -8,11 +8,13 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <regex>
-#include <sstream>
+#include <span>
 
+#include "output/available_memory.h"
 #include "output/output_error.h"
 
 namespace drape::compare {
@@ -67,14 +69,21 @@ std::vector<std::uint64_t> shape_of(const std::string& text, const std::string& 
     return shape;
 }
 
-/// Parses an array as https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html describes it.
-Array parsed(std::string_view file, const std::string& where) {
-    const std::size_t preamble = file.size() > 6 && file[6] == 1 ? 10 : 12;
-    if (!file.starts_with("\x93NUMPY") || file.size() < preamble) throw unreadable(where, "it is no NumPy array");
+/// Reads so many bytes, or fewer where there are no more.
+using Read = std::function<std::size_t(char* to, std::size_t count)>;
+
+/// Of a file of `size` bytes, which need not be in memory: what its header says is checked before its values are read.
+/// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+Array read_array(const Read& read, std::uint64_t size, const std::string& where) {
+    constexpr std::size_t most_header = std::size_t{1} << 16;
+    std::string head(std::min<std::uint64_t>(size, most_header), '\0');
+    head.resize(read(head.data(), head.size()));
+    const std::size_t preamble = head.size() > 6 && head[6] == 1 ? 10 : 12;
+    if (!head.starts_with("\x93NUMPY") || head.size() < preamble) throw unreadable(where, "it is no NumPy array");
     std::uint32_t header_bytes = 0;
-    std::memcpy(&header_bytes, file.data() + 8, preamble - 8);
-    if (file.size() - preamble < header_bytes) throw unreadable(where, "it ends within its header");
-    const std::string header(file.substr(preamble, header_bytes));
+    std::memcpy(&header_bytes, head.data() + 8, preamble - 8);
+    if (head.size() - preamble < header_bytes) throw unreadable(where, "it ends within its header");
+    const std::string header = head.substr(preamble, header_bytes);
     std::smatch type, shape;
     if (!std::regex_search(header, type, std::regex("'descr': '([^']*)'")) ||
         !std::regex_search(header, shape, std::regex("'shape': \\(([0-9, ]*)\\)")))
@@ -82,20 +91,47 @@ Array parsed(std::string_view file, const std::string& where) {
     if (header.find("'fortran_order': False") == std::string::npos)
         throw unreadable(where, "its values are in Fortran's order");
     Array array{{}, type[1], shape_of(shape[1], where), {}};
-    const std::string_view values = file.substr(preamble + header_bytes);
-    if (array.has_numbers() && values.size() != array.count() * find_type(array.type)->bytes)
-        throw unreadable(where, fmt::format("it has {} bytes of values, not those of {}", values.size(), array.text()));
-    const auto* begin = reinterpret_cast<const std::byte*>(values.data());
-    array.bytes.assign(begin, begin + values.size());
+    const std::uint64_t value_bytes = size - preamble - header_bytes;
+    if (array.has_numbers() && value_bytes != array.count() * find_type(array.type)->bytes)
+        throw unreadable(where, fmt::format("it has {} bytes of values, not those of {}", value_bytes, array.text()));
+    expect_memory(fmt::format("'{}'", where), value_bytes);
+    array.bytes.resize(value_bytes);
+    head.erase(0, preamble + header_bytes);
+    std::ranges::copy(std::as_bytes(std::span(head)), array.bytes.begin());
+    char* const rest = reinterpret_cast<char*>(array.bytes.data()) + head.size();
+    if (read(rest, value_bytes - head.size()) != value_bytes - head.size())
+        throw unreadable(where, "it ends too early");
     return array;
 }
 
-std::string contents(const std::filesystem::path& path) {
+Array load_array(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw unreadable(path.string(), "it is not there, or no file");
-    return std::move(text).str();
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (!file || error) throw unreadable(path.string(), "it is not there, or no file");
+    const auto read = [&](char* to, std::size_t count) {
+        file.read(to, static_cast<std::streamsize>(count));
+        return static_cast<std::size_t>(file.gcount());
+    };
+    return read_array(read, size, path.string());
+}
+
+/// Of the archive.
+Array load_part(zip_t* archive, zip_uint64_t index, const std::filesystem::path& path) {
+    zip_stat_t stat;
+    zip_stat_index(archive, index, 0, &stat);
+    std::string name = stat.name;
+    const std::string where = path.string() + "', '" + name;
+    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive, index, 0), zip_fclose);
+    if (!file) throw unreadable(where, zip_strerror(archive));
+    const auto read = [&](char* to, std::size_t count) {
+        const zip_int64_t got = zip_fread(file.get(), to, count);
+        if (got < 0) throw unreadable(where, zip_file_strerror(file.get()));
+        return static_cast<std::size_t>(got);
+    };
+    Array array = read_array(read, stat.size, where);
+    array.name = name.ends_with(".npy") ? name.substr(0, name.size() - 4) : name;
+    return array;
 }
 
 std::vector<Array> load_archive(const std::filesystem::path& path) {
@@ -109,19 +145,8 @@ std::vector<Array> load_archive(const std::filesystem::path& path) {
         throw unreadable(path.string(), why);
     }
     std::vector<Array> arrays;
-    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
-        zip_stat_t stat;
-        const auto index = static_cast<zip_uint64_t>(i);
-        zip_stat_index(archive.get(), index, 0, &stat);
-        std::string name = stat.name, bytes(stat.size, '\0');
-        const std::string where = path.string() + "', '" + name;
-        zip_file_t* file = zip_fopen_index(archive.get(), index, 0);
-        if (!file || zip_fread(file, bytes.data(), bytes.size()) != static_cast<zip_int64_t>(bytes.size()))
-            throw unreadable(where, zip_strerror(archive.get()));
-        zip_fclose(file);
-        arrays.push_back(parsed(bytes, where));
-        arrays.back().name = name.ends_with(".npy") ? name.substr(0, name.size() - 4) : name;
-    }
+    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i)
+        arrays.push_back(load_part(archive.get(), static_cast<zip_uint64_t>(i), path));
     std::ranges::sort(arrays, {}, &Array::name);
     return arrays;
 }
@@ -155,7 +180,7 @@ std::string Array::place(std::size_t index) const {
 std::vector<Array> load_arrays(const std::filesystem::path& path) {
     if (path.extension() == ".npz") return load_archive(path);
     std::vector<Array> one;
-    one.push_back(parsed(contents(path), path.string()));
+    one.push_back(load_array(path));
     return one;
 }
 

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <set>
 
+#include "base/printable_text.h"
 #include "compare/array_file.h"
+#include "output/atomic_file.h"
 #include "output/json_text.h"
-#include "output/output_folder.h"
 #include "output/png.h"
 
 namespace drape::compare {
@@ -21,22 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::uint8_t> bytes_in(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.is_open() || file.bad()) throw OutputError(fmt::format("cannot read '{}'", path.string()));
-    return bytes;
-}
-
-Picture picture_in(const fs::path& path) {
-    try {
-        return decode_png(bytes_in(path));
-    } catch (const OutputError& error) {
-        throw OutputError(fmt::format("cannot read '{}': {}", path.string(), error.what()));
-    }
-}
-
-/// Largest and RMS difference, and the place of the largest. A NaN on one side alone is infinitely far away.
+/// Largest and RMS difference, and where the largest is. What is NaN on one side alone is infinitely far away.
 class Differences {
   public:
     void see(double a, double b, std::size_t index) {
@@ -90,7 +75,7 @@ Row compare_arrays(const std::string& name, const Array& a, const Array& b, cons
 }
 
 Row compare_pictures(const fs::path& a, const fs::path& b, const Limits& limits) {
-    const Picture before = picture_in(a), after = picture_in(b);
+    const Picture before = read_png(a), after = read_png(b);
     Row row{a.filename().string(), {}, false, {}, {}, {}};
     const auto size = [](const Picture& picture) { return fmt::format("{}x{}", picture.width, picture.height); };
     if (before.width != after.width || before.height != after.height) {
@@ -165,7 +150,7 @@ std::vector<Row> compare_folders(const fs::path& a, const fs::path& b, const Lim
         } else if (is_result_file(name)) {
             std::ranges::move(compare_files(a / name, b / name, limits), std::back_inserter(rows));
         } else {
-            const bool equal = bytes_in(a / name) == bytes_in(b / name);
+            const bool equal = read_file(a / name) == read_file(b / name);
             rows.push_back({name, equal ? "equal bytes" : "other bytes", !equal, {}, {}, {}});
         }
     }
@@ -176,7 +161,8 @@ std::vector<Row> compare_folders(const fs::path& a, const fs::path& b, const Lim
 
 std::string rows_text(const std::vector<Row>& rows) {
     std::string text;
-    for (const Row& row : rows) text += fmt::format("{}  {}: {}\n", row.over ? "OVER" : "ok  ", row.name, row.text);
+    for (const Row& row : rows)
+        text += fmt::format("{}  {}: {}\n", row.over ? "OVER" : "ok  ", printable(row.name), printable(row.text));
     const auto over = std::ranges::count(rows, true, &Row::over);
     return text + fmt::format("{} compared, {} over {} limit\n", rows.size(), over, over == 1 ? "its" : "their");
 }

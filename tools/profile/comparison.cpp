@@ -1,12 +1,12 @@
 #include "profile/comparison.h"
 
 #include <fmt/format.h>
-#include <json/reader.h>
+#include <json/json.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 
+#include "output/json_file.h"
 #include "profile/profile.h"
 
 namespace drape::profile {
@@ -22,11 +22,10 @@ struct Parsed {
 };
 
 Parsed parsed(const std::string& text, const std::string& name) {
-    Json::Value root;
-    std::string errors;
-    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+    const std::optional<Json::Value> json = parse_json(text);
+    if (!json) throw NoProfile(name + ": no JSON");
+    const Json::Value& root = *json;
     try {
-        if (!reader->parse(text.data(), text.data() + text.size(), &root, &errors)) throw NoProfile(name + ": no JSON");
         if (!root.isObject() || !root["benchmarks"].isArray() || !root["context"].isObject())
             throw NoProfile(name + ": no profile: it needs \"context\" and \"benchmarks\"");
         Parsed result{root["context"], {}, {}};

@@ -1,16 +1,12 @@
 #include "report/run_folder.h"
 
 #include <fmt/format.h>
-#include <json/json.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "output/output_error.h"
-#include "output/output_folder.h"
+#include "output/manifest.h"
 #include "output/png.h"
 
 namespace drape::report {
@@ -18,14 +14,6 @@ namespace drape::report {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw OutputError(fmt::format("cannot read '{}'", path.string()));
-    return text.str();
-}
 
 double linear(std::uint8_t code) {
     static const std::array<double, 256> table = [] {
@@ -70,15 +58,9 @@ std::vector<std::uint8_t> shrunk(const Picture& picture, std::uint32_t width, st
 }  // namespace
 
 RunFolder read_run_folder(const fs::path& path) {
-    RunFolder run{path, {}, {}};
-    const fs::path file = path / manifest_file_name;
-    if (!fs::exists(file))
+    if (!fs::exists(path / manifest_file_name))
         throw OutputError(fmt::format("'{}' has no {}: no finished run is there", path.string(), manifest_file_name));
-    std::istringstream stream(content(file));
-    std::string errors;
-    const bool is_json = Json::parseFromStream(Json::CharReaderBuilder(), stream, &run.manifest, &errors);
-    if (!is_json || !run.manifest.isObject() || run.manifest["format"].asString() != manifest_format)
-        throw OutputError(fmt::format("'{}' is no manifest of this program", file.string()));
+    RunFolder run{path, read_manifest(path), {}};
     for (const Json::Value& entry : run.manifest["files"]) {
         const std::string name = entry["name"].asString();
         if (is_plain_file_name(name) && name.ends_with(".png") && fs::exists(path / name)) run.pictures.push_back(name);
@@ -87,8 +69,7 @@ RunFolder read_run_folder(const fs::path& path) {
 }
 
 std::string small_picture(const fs::path& file, std::uint32_t width) {
-    const std::string bytes = content(file);
-    const Picture picture = decode_png(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+    const Picture picture = read_png(file);
     const std::uint32_t columns = std::min(width, picture.width);
     const auto rows =
         static_cast<std::uint32_t>(std::max<std::uint64_t>(1, std::uint64_t{picture.height} * columns / picture.width));

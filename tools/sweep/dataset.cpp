@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <json/json.h>
 
+#include <algorithm>
 #include <optional>
+#include <regex>
 
 #include "output/atomic_file.h"
 #include "output/json_text.h"
@@ -34,9 +36,16 @@ std::optional<Shape> shape_of(const SweepSpec& spec, std::uint32_t index) {
     return shape;
 }
 
+/// Whether the value may decide a shape. Of a scene with any other all runs have that of one.
+bool shapes(const std::string& pointer) {
+    static const std::regex pointers("/(time|time/(fps|frames)|cloths|cloths/[^/]*|cloths/[^/]*/(grid|holes)(/.*)?)");
+    return std::regex_match(pointer, pointers);
+}
+
 Shape common_shape(const SweepSpec& spec) {
     std::optional<Shape> common;
-    for (std::uint32_t index = 0; index < spec.count; ++index) {
+    const bool differ = std::ranges::any_of(spec.parameters, [](const auto& entry) { return shapes(entry.first); });
+    for (std::uint32_t index = 0; index < spec.count && (differ || !common); ++index) {
         const auto shape = shape_of(spec, index);
         if (!shape) continue;
         if (!common) common = shape;

@@ -4,12 +4,12 @@
 #include <json/json.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <chrono>
 
-#include "output/atomic_file.h"
+#include "base/printable_text.h"
+#include "output/json_file.h"
 #include "output/json_text.h"
-#include "output/output_error.h"
+#include "output/manifest.h"
 #include "run/run.h"
 #include "sweep/dataset.h"
 
@@ -19,22 +19,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::optional<std::string> content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return std::nullopt;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
 }
 
-Json::Value parsed(const std::string& text, const fs::path& path) {
-    Json::Value value;
-    std::istringstream stream(text);
-    std::string errors;
-    if (!Json::parseFromStream(Json::CharReaderBuilder(), stream, &value, &errors))
-        throw OutputError(fmt::format("'{}' is not JSON: {}", path.string(), errors));
-    return value;
+/// Nothing when there is no such file.
+std::optional<std::string> content(const fs::path& path) {
+    return is_there(path) ? std::optional(read_file(path)) : std::nullopt;
 }
+
+constexpr JsonRule record_rules[] = {{"/exit_code", JsonRule::Kind::whole_number},
+                                     {"/message", JsonRule::Kind::text},
+                                     {"/seconds", JsonRule::Kind::number},
+                                     {"/values", JsonRule::Kind::object},
+                                     {"/values/*", JsonRule::Kind::number}};
 
 void make_folder(const fs::path& path) {
     std::error_code error;
@@ -42,7 +41,22 @@ void make_folder(const fs::path& path) {
     if (error) throw OutputError(fmt::format("cannot make '{}': {}", path.string(), error.message()));
 }
 
-/// The table of runs has these statistics, the largest of any frame and cloth.
+/// Beside what killed processes left unfinished. That is removed, unless it is so young that a process of another
+/// machine may be writing it.
+bool holds_anything(const fs::path& folder) {
+    bool found = false;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const bool left = is_left_over(entry->path().filename().string());
+        found = found || !left;
+        std::error_code ignored;
+        if (left && fs::file_time_type::clock::now() - entry->last_write_time(ignored) > std::chrono::minutes(1))
+            fs::remove(entry->path(), ignored);
+    }
+    return found;
+}
+
+/// Statistics that a table of runs has: the largest of any frame and cloth.
 constexpr std::string_view worst_values[] = {"stretch_max",   "stretch_rms",   "stretch_error_rms",
                                              "penetration_m", "speed_max_m_s", "motion_error_m_s"};
 
@@ -69,16 +83,21 @@ std::map<std::string, double> manifest_values(const Json::Value& manifest) {
     return values;
 }
 
-/// Quotes a field by RFC 4180.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+/// By RFC 4180, and so that no spreadsheet takes it for a formula.
+std::string csv_text(const std::string& text) {
+    std::string shown = printable(text);
+    if (shown.find_first_of("=+-@") == 0) shown.insert(0, "'");
+    if (shown.find_first_of(",\"") == std::string::npos) return shown;
     std::string field = "\"";
-    for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+    for (const char c : shown) field += c == '"' ? std::string("\"\"") : std::string(1, c);
     return field + "\"";
 }
 
-/// Returns a value as a table has it: words without the quotes of JSON.
-std::string plain(const std::string& json) { return json.starts_with('"') ? parsed(json, "a value").asString() : json; }
+/// A value as a table has it: numbers as they are, words without the quotes of JSON.
+std::string csv_value(const std::string& json) {
+    const Json::Value value = *parse_json(json);
+    return value.isNumeric() ? json : csv_text(value.isString() ? value.asString() : json);
+}
 
 }  // namespace
 
@@ -90,8 +109,8 @@ std::string JobRecord::status() const {
 }
 
 std::string Tally::text() const {
-    std::string text = fmt::format("{} done, {} failed, {} missing; {:.1f} MB", done, failed.size(), missing.size(),
-                                   static_cast<double>(bytes) / 1e6);
+    std::string text =
+        fmt::format("{} done, {} failed, {} missing; {:.1f} MB", done, failed.size(), missing.size(), bytes / 1e6);
     constexpr std::size_t most = 20;
     for (std::size_t i = 0; i < std::min(failed.size(), most); ++i)
         text += fmt::format("\n  run {}: {}: {}", failed[i].index, failed[i].status(), failed[i].message);
@@ -106,16 +125,16 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh
     json["scene"] = spec.scene;
     json["scene_hash"] = xxh3_128_hex(content(spec.scene).value_or(""));
     json["count"] = spec.count;
-    json["specification"] = parsed(spec.text, "the specification");
+    json["specification"] = parse_json(spec.text).value_or(Json::Value(spec.text));
     const std::string text = json_text(json);
     const fs::path file = path_ / "sweep.json";
     const auto there = content(file);
     if (there && *there != text)
         throw OutputError(
             fmt::format("'{}' is another sweep's: its specification, scene or program differs", path.string()));
-    if (fresh && fs::exists(path_ / "jobs") && !fs::is_empty(path_ / "jobs"))
+    if (fresh && holds_anything(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
-    if (!there && fs::exists(path_) && !fs::is_empty(path_) && !fs::exists(path_ / "jobs"))
+    if (!there && holds_anything(path_) && !is_there(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
     // The file that says whose folder it is comes first: without room for the rest the sweep can still go on.
     make_folder(path_);
@@ -133,18 +152,18 @@ fs::path SweepFolder::trajectory(std::uint32_t index) const {
 
 std::optional<JobRecord> SweepFolder::record(std::uint32_t index) const {
     const fs::path file = path_ / "jobs" / (number(index) + ".json");
-    const auto text = content(file);
-    if (!text) return std::nullopt;
-    const Json::Value json = parsed(*text, file);
-    JobRecord record{index, json["exit_code"].asInt(), json["message"].asString(), json["seconds"].asDouble()};
+    if (!is_there(file)) return std::nullopt;
+    const Json::Value json = read_json(file, record_rules);
+    JobRecord record{index, static_cast<int>(json["exit_code"].asUInt()), json["message"].asString(),
+                     json["seconds"].asDouble()};
     for (const std::string& name : json["values"].getMemberNames())
         record.values[name] = json["values"][name].asDouble();
     return record;
 }
 
 void SweepFolder::write(JobRecord record, bool dataset) const {
-    const fs::path manifest = run_folder(record.index) / "manifest.json";
-    if (const auto text = content(manifest)) record.values = manifest_values(parsed(*text, manifest));
+    if (const fs::path run = run_folder(record.index); is_there(run / manifest_file_name))
+        record.values = manifest_values(read_manifest(run));
     if (dataset && record.done()) {
         make_folder(path_ / "dataset");
         give_file(run_folder(record.index) / "trajectory.npz", trajectory(record.index));
@@ -157,7 +176,7 @@ void SweepFolder::write(JobRecord record, bool dataset) const {
     json["seconds"] = record.seconds;
     json["parameters"] = Json::Value(Json::objectValue);
     for (const auto& [pointer, value] : spec_.parameters_of(record.index))
-        json["parameters"][pointer] = parsed(value, manifest);
+        json["parameters"][pointer] = *parse_json(value);
     json["values"] = Json::Value(Json::objectValue);
     for (const auto& [name, value] : record.values) json["values"][name] = value;
     write_file(path_ / "jobs" / (number(record.index) + ".json"), json_text(json));
@@ -175,7 +194,7 @@ Tally SweepFolder::collect(bool dataset) const {
         }
         for (const auto& [name, value] : found->values) {
             names[name];
-            if (name == "bytes") tally.bytes += static_cast<std::uint64_t>(value);
+            if (name == "bytes") tally.bytes += value;
         }
         if (found->done())
             ++tally.done;
@@ -184,12 +203,12 @@ Tally SweepFolder::collect(bool dataset) const {
         records.push_back(*found);
     }
     std::string csv = "index,status,exit_code,message";
-    for (const auto& [pointer, distribution] : spec_.parameters) csv += "," + csv_field(pointer);
-    for (const auto& [name, unused] : names) csv += "," + name;
+    for (const auto& [pointer, distribution] : spec_.parameters) csv += "," + csv_text(pointer);
+    for (const auto& [name, unused] : names) csv += "," + csv_text(name);
     csv += ",seconds\n";
     for (const JobRecord& job : records) {
-        csv += fmt::format("{},{},{},{}", job.index, job.status(), job.exit_code, csv_field(job.message));
-        for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_field(plain(value));
+        csv += fmt::format("{},{},{},{}", job.index, job.status(), job.exit_code, csv_text(job.message));
+        for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_value(value);
         for (const auto& [name, unused] : names) {
             const auto value = job.values.find(name);
             csv += value == job.values.end() ? "," : fmt::format(",{}", value->second);
@@ -197,8 +216,13 @@ Tally SweepFolder::collect(bool dataset) const {
         csv += fmt::format(",{:.3f}\n", job.seconds);
     }
     write_file(path_ / "results.csv", csv);
-    if (dataset && tally.done > 0) write_meta(path_ / "dataset", spec_);
+    if (dataset) describe_dataset();
     return tally;
+}
+
+void SweepFolder::describe_dataset() const {
+    if (const fs::path folder = path_ / "dataset"; is_there(folder) && !is_there(folder / "meta.json"))
+        write_meta(folder, spec_);
 }
 
 }  // namespace drape::sweep

@@ -34,7 +34,7 @@ struct Tally {
     std::uint32_t done = 0;
     std::vector<JobRecord> failed;
     std::vector<std::uint32_t> missing;
-    std::uint64_t bytes = 0;  ///< bytes of the files of all runs
+    double bytes = 0;  ///< bytes of the files of all runs
 
     bool complete() const { return failed.empty() && missing.empty(); }
     /// Returns "996 done, 3 failed, 1 missing", and a line per failure, at most 20 of them.
@@ -55,6 +55,8 @@ class SweepFolder {
     /// Adds the numbers of the run's manifest, and with `dataset` gives the data set its trajectory.
     void write(JobRecord record, bool dataset) const;
 
+    /// Writes dataset/meta.json, unless it is there or there is no trajectory.
+    void describe_dataset() const;
     /// Writes results.csv, and with `dataset` dataset/meta.json, from the records that are there.
     Tally collect(bool dataset) const;
 

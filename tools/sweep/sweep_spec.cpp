@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <numbers>
 
+#include "output/atomic_file.h"
 #include "output/json_text.h"
 #include "scene/scene_value.h"
 
@@ -46,12 +46,25 @@ bool read_whole_numbers(const SceneNode& node, WholeNumber& range) {
     return true;
 }
 
+/// Which share of its draws is within the limits.
+double share_within(const Normal& normal) {
+    const auto below = [&](double limit) {  // of a deviation of 0 all are at the mean
+        const double distance = (limit - normal.mean) / std::max(normal.deviation, DBL_MIN);
+        return std::erfc(-distance / std::numbers::sqrt2) / 2;
+    };
+    return below(normal.high) - below(normal.low);
+}
+
 bool read_normal(const SceneNode& object, const SceneNode& node, Normal& normal) {
     bool fits = read_two(node, normal.mean, normal.deviation, "an array of 2 numbers, [mean, standard deviation]");
     if (fits && normal.deviation < 0) fits = node.fail_expected("a standard deviation of at least 0");
     normal.low = -FLT_MAX, normal.high = FLT_MAX;
-    if (const SceneNode within = object.member("within")) fits = read_range(within, normal.low, normal.high) && fits;
-    return fits;
+    const SceneNode within = object.member("within");
+    if (!within || !fits) return fits;
+    if (!read_range(within, normal.low, normal.high)) return false;
+    constexpr double least_share = 0.005;  // then 10,000 draws miss it once in 10^21 times
+    return share_within(normal) >= least_share ||
+           within.fail_expected("limits with at least 0.5 % of the normal distribution between them");
 }
 
 template <class Range>
@@ -207,18 +220,7 @@ SweepSpec read_sweep_text(std::string_view text, const std::string& path) {
     return spec;
 }
 
-SweepSpec read_sweep(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file || std::filesystem::is_directory(path)) {
-        SceneResult result;
-        result.errors.push_back({path, 0, 0, "", "cannot read"});
-        result.unreadable = true;
-        throw SceneFailure(std::move(result));
-    }
-    return read_sweep_text(text.str(), path);
-}
+SweepSpec read_sweep(const std::string& path) { return read_sweep_text(read_file(path), path); }
 
 std::map<std::string, std::string> SweepSpec::parameters_of(std::uint32_t index) const {
     std::map<std::string, std::string> values;

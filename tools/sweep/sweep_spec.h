@@ -26,7 +26,8 @@ struct SweepSpec {
     std::vector<std::string> overrides_of(std::uint32_t index) const;
 };
 
-/// Reads a specification. Throws SceneFailure with every error, at its place.
+/// Reads a specification. Throws SceneFailure with every error, at its place, and OutputError when there is no such
+/// file.
 SweepSpec read_sweep(const std::string& path);
 SweepSpec read_sweep_text(std::string_view text, const std::string& path);
 

@@ -30,7 +30,8 @@ struct FrameEffort {
     /// Method `auto` sets false where motion_error is above its limit and more substeps do not reduce it. Cloth that
     /// crumples parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;
-    /// Method `auto` found that everything lies still: the frame is the one before it, and nothing was simulated.
+    /// Method `auto` found that everything lies still: the frame is the one before it, nothing was simulated, and
+    /// velocities and kinetic energies are 0.
     bool asleep = false;
     /// Method `auto` sets false where its largest number of substeps misses a limit (only without keep_promises).
     bool within_limits = true;

@@ -106,7 +106,7 @@ struct Pin {
     IndexBox particles;
     std::optional<double> release;  ///< s; from then on the particle is free and keeps its velocity
     MotionPath path;
-    std::optional<Vec3> pivot;  ///< m; rotation centre; default: centroid of the pinned particles
+    std::optional<Vec3> pivot;  ///< m; rotation centre; default: centroid of the particles that no later pin holds
     bool operator==(const Pin&) const = default;
 };
 

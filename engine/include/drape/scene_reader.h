@@ -21,7 +21,7 @@ struct SceneError {
     std::string pointer;       ///< JSON pointer; empty for the document itself and for syntax errors
     std::string message;
 
-    /// Returns `file:line:column: /json/pointer: message`, without the parts that are not known.
+    /// Returns `file:line:column: /json/pointer: message` on one line, without the parts that are not known.
     std::string text() const;
     bool operator==(const SceneError&) const = default;
 };

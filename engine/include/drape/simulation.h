@@ -25,6 +25,12 @@ namespace drape {
 /// FinishedFrame::timings tells the device's time this finely. Each bracket costs about 10 us on a CPU.
 enum class Timings { none, stages, passes };
 
+/// What method `auto` is about to simulate.
+struct FrameAttempt {
+    std::uint32_t frame, substeps;
+    std::uint32_t number;  ///< from 1: frames that miss a limit are done again
+};
+
 struct SimulationOptions {
     bool draw = false;  ///< make pictures of the scene's size and samples
     PictureView view;   ///< the pictures' view
@@ -38,6 +44,7 @@ struct SimulationOptions {
     Timings timings = Timings::stages;
     Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
+    std::function<void(const FrameAttempt&)> on_attempt;  ///< told of before each
 };
 
 /// These facts tell how a simulation runs its scene.
@@ -109,8 +116,9 @@ class Simulation {
 
     /// Computes all frames from the next one to `last`, which may be after the scene's, and throws like `step`. The
     /// device computes frames while `finished` is told of those before, in order; frames that are not `wanted` are not
-    /// read back. What `finished` gets is valid during the call. `stop` is asked before each frame; true ends after
-    /// what has begun. Returns whether it came to `last`.
+    /// read back. What `finished` gets is valid during the call. `stop` is asked before each frame, and under method
+    /// `auto` before each attempt at one; true ends after what the device has begun, and the attempt is forgotten.
+    /// Returns whether it came to `last`.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 

@@ -56,7 +56,7 @@ def main():
     if count == 0:
         raise ValueError(f"no trajectory in {folder}")
     shapes = {field: feature["shape"] for field, feature in meta["features"].items()}
-    print(f"{count} trajectories of {meta['trajectory_length']} frames, {meta['dt']} s apart: {shapes}")
+    print(f"{count} trajectories of {meta['trajectory_length']} frames, {meta.get('dt', 'not the same')} s apart: {shapes}")
 
 
 main()
