@@ -26,7 +26,8 @@ void remember_signal(int number) {
     if (has_deadline != 0) alarm(most_seconds);
 }
 
-/// What is under way has not come to where it asks. Calls only what a handler may; files are whole at any moment.
+/// Ends a program whose work has not come to where it asks for a stop. It calls only what a handler may; files are
+/// whole at any moment.
 void end_at_once(int) {
     for (const char* part : {on_terminal != 0 ? "\n" : "", "drape: stopped by ", signal_name(),
                              ", without waiting for a step that takes longer than two seconds: what came before it is "

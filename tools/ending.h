@@ -15,7 +15,7 @@ void catch_signals(bool waits_for_processes = false);
 /// Returns whether SIGINT or SIGTERM came.
 bool stop_requested();
 
-/// What is left to do may take longer.
+/// Says that the work left may take longer than two seconds.
 void take_time();
 
 /// Says which signal it was and what became of the work.

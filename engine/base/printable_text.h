@@ -25,7 +25,7 @@ inline std::size_t utf8_length(std::string_view text) {
     return length;
 }
 
-/// What `printable` writes as `\x1b`; each one with those before it.
+/// The bytes that `printable` writes as `\x1b`: each value stands for its own and those of the values before it.
 enum class Escaped {
     not_utf8,       ///< bytes that are no character
     controls,       ///< control characters that are no line feeds

@@ -14,7 +14,7 @@ namespace drape {
 // Nothing when the text is no JSON, or nested too deeply.
 std::optional<Json::Value> parse_json(std::string_view text);
 
-// What a value has to be where there is one.
+// The kind that a value must have where there is one.
 struct JsonRule {
     enum class Kind { object, list, text, number, whole_number, boolean };
     std::string_view pointer;  // of it; `*`: every element of a list, or member of an object

@@ -263,7 +263,7 @@ void put_manifest(const Manifest& manifest, const std::function<void(std::string
     append(whole.substr(inside));
 }
 
-// What is read of it.
+// The rules are for the values that are read of a manifest.
 static std::span<const JsonRule> manifest_rules() {
     using enum JsonRule::Kind;
     static constexpr JsonRule rules[] = {

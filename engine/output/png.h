@@ -26,7 +26,7 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
 // Throws OutputError when the bytes are no PNG, are damaged, exceed 16384 pixels a side, or say that they are a picture
 // that cannot be in so few, or not in memory.
 Picture decode_png(std::span<const std::uint8_t> png);
-// Of a file, which the error names.
+// Reads a picture from a file, which the error names.
 Picture read_png(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -73,7 +73,7 @@ void run(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationS
         told.met.emplace_back(report->first_unproved, report->most_pairs, report->truncated);
 }
 
-/// Likewise, but every frame that has so many attempts is stopped at one that its number says.
+/// Stops every frame that has so many attempts at the one that its number says.
 void run_stopped_within(Simulation& simulation, Told& told, std::map<std::uint32_t, SimulationState>& states) {
     std::optional<std::uint32_t> frame, stopped;
     std::uint32_t asked = 0;

@@ -72,7 +72,7 @@ std::vector<std::uint64_t> shape_of(const std::string& text, const std::string& 
 /// Reads so many bytes, or fewer where there are no more.
 using Read = std::function<std::size_t(char* to, std::size_t count)>;
 
-/// Of a file of `size` bytes, which need not be in memory: what its header says is checked before its values are read.
+/// Reads an array of `size` bytes, which need not be in memory: its header is checked before its values are read.
 /// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 Array read_array(const Read& read, std::uint64_t size, const std::string& where) {
     constexpr std::size_t most_header = std::size_t{1} << 16;
@@ -116,7 +116,7 @@ Array load_array(const std::filesystem::path& path) {
     return read_array(read, size, path.string());
 }
 
-/// Of the archive.
+/// Reads an array of an archive.
 Array load_part(zip_t* archive, zip_uint64_t index, const std::filesystem::path& path) {
     zip_stat_t stat;
     zip_stat_index(archive, index, 0, &stat);

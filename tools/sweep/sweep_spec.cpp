@@ -46,7 +46,7 @@ bool read_whole_numbers(const SceneNode& node, WholeNumber& range) {
     return true;
 }
 
-/// Which share of its draws is within the limits.
+/// Returns the share of the draws that is within the limits.
 double share_within(const Normal& normal) {
     const auto below = [&](double limit) {  // of a deviation of 0 all are at the mean
         const double distance = (limit - normal.mean) / std::max(normal.deviation, DBL_MIN);

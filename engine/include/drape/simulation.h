@@ -25,7 +25,7 @@ namespace drape {
 /// FinishedFrame::timings tells the device's time this finely. Each bracket costs about 10 us on a CPU.
 enum class Timings { none, stages, passes };
 
-/// What method `auto` is about to simulate.
+/// An attempt at a frame that method `auto` is about to simulate.
 struct FrameAttempt {
     std::uint32_t frame, substeps;
     std::uint32_t number;  ///< from 1: frames that miss a limit are done again
