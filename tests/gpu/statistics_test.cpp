@@ -460,7 +460,7 @@ TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
     EXPECT_GT(full.stretch.rms, 0.3 * truly);
     scene.solver.substeps = 4;
     const ClothModel softened(scene, 0);
-    const double share = softened.plan.used_stiffness[1] / softened.stiffness_constant.spring[1];
+    const double share = softened.scheme.used_stiffness[1] / softened.stiffness_constant.spring[1];
     ASSERT_LT(share, 0.5);
     const ClothStatistics soft = at_rest();
     EXPECT_NEAR(soft.stretch_error_rms, (1 - share) * soft.stretch.rms, 0.02 * soft.stretch.rms);
