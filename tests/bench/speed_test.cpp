@@ -131,11 +131,11 @@ TEST(SpeedReport, PlotsHaveUnitsAndASeriesPerSide) {
     const auto plots = speed_plots(report_of({sheet_result(64, 4, 2), sheet_result(128, 8, 1, 0.5)}));
     ASSERT_EQ(plots.size(), 1u);
     EXPECT_EQ(plots[0].first, "speed_line.svg");
-    const LogPlot& plot = plots[0].second;
+    const plot::Plot& plot = plots[0].second;
     EXPECT_EQ(plot.y_label, "ns per particle and substep");
-    ASSERT_EQ(plot.series.size(), 2u);
-    EXPECT_NEAR(plot.series[0].points[0][1], 1e6 * 4 / 8 / 4096, 1e-9);
-    EXPECT_EQ(plot.series[0].doubtful, (std::vector<bool>{false, true}));
+    ASSERT_EQ(plot.curves.size(), 2u);
+    EXPECT_NEAR(plot.curves[0].points[0][1], 1e6 * 4 / 8 / 4096, 1e-9);
+    EXPECT_EQ(plot.curves[0].doubtful, (std::vector<bool>{false, true}));
     EXPECT_TRUE(speed_plots(report_of({sheet_result(64, 4, 2)})).empty()) << "one point is no line";
 }
 

@@ -206,7 +206,7 @@ void write_files(AccuracyRequest request, const Report& report, const std::vecto
     if (request.svg.empty()) return;
     make_folder(request.svg);
     for (const auto& [name, plot] : report_plots(report, problems))
-        write_file(fs::path(request.svg) / name, svg_text(plot));
+        write_file(fs::path(request.svg) / name, plot::svg_of(plot));
 }
 
 /// The benchmark's, or the user's scene, whose reference tells `run` what it does once there is one.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,10 @@ struct CaseResult {
     Metrics metrics;
     double seconds = 0;  ///< the whole case took, a new reference included
 
+    std::optional<double> metric(const std::string& name_of_it) const {
+        const auto found = metrics.find(name_of_it);
+        return found == metrics.end() ? std::nullopt : std::optional(found->second);
+    }
     std::string family() const { return family_name(method, substeps, iterations); }
     bool operator==(const CaseResult&) const = default;
 };

@@ -18,8 +18,6 @@ namespace {
 
 using namespace model_scenes;
 
-constexpr double gravity = 9.81;
-
 /// Times (in samples) at which a sampled signal crosses zero, by the cubic through the four samples around.
 std::vector<double> zero_crossings(std::span<const double> signal) {
     std::vector<double> times;

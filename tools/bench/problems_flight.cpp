@@ -11,8 +11,6 @@ namespace {
 
 using namespace model_scenes;
 
-constexpr double gravity = 9.81;
-
 std::vector<Sweep> every_method(std::uint32_t size, std::initializer_list<std::uint32_t> counts) {
     std::vector<Sweep> sweeps;
     for (const Method& method : methods()) sweeps.push_back({size, substep_settings(method.method, counts), 1});

@@ -8,7 +8,7 @@
 
 #include "bench/claims.h"
 #include "bench/fit.h"
-#include "bench/plot.h"
+#include "plot/plot.h"
 
 namespace drape::bench {
 
@@ -39,6 +39,6 @@ std::string report_json(const Report& report);
 std::string report_csv(const Report& report);
 /// File names and plots: per timed problem and size the errors against time and against passes; for the
 /// others the error against substeps or size. Only of what has two points or more.
-std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report, const std::vector<Problem>& problems);
+plot::Plots report_plots(const Report& report, const std::vector<Problem>& problems);
 
 }  // namespace drape::bench

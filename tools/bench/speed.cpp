@@ -126,7 +126,7 @@ SpeedSummary run_speed(const SpeedRequest& request) {
     if (!request.svg.empty()) {
         make_folder(request.svg);
         for (const auto& [name, plot] : speed_plots(report))
-            write_file(std::filesystem::path(request.svg) / name, svg_text(plot));
+            write_file(std::filesystem::path(request.svg) / name, plot::svg_of(plot));
     }
     summary.text = speed_text(report);
     return summary;

@@ -172,18 +172,18 @@ Json::Value json_of(const ScalingFit& fit) {
 }
 
 /// Points of one time of a group.
-PlotSeries series_of(const std::vector<const SpeedResult*>& group, const char* time, const std::string& name,
+plot::Curve curve_of(const std::vector<const SpeedResult*>& group, const char* time, const std::string& name,
                      bool per_particle) {
-    PlotSeries series{name, {}, {}};
+    plot::Curve curve{name};
     for (const SpeedResult* r : group) {
         const SpeedTime* found = r->find(time);
         if (!found) continue;
         const double ms = per_substep(*r, time);
-        series.points.push_back(per_particle ? std::array{r->about.particles(), 1e6 * ms / r->about.particles()}
-                                             : std::array{double(r->about.variable), ms});
-        series.doubtful.push_back(found->doubtful());
+        curve.points.push_back(per_particle ? std::array{r->about.particles(), 1e6 * ms / r->about.particles()}
+                                            : std::array{double(r->about.variable), ms});
+        curve.doubtful.push_back(found->doubtful());
     }
-    return series;
+    return curve;
 }
 
 std::string file_name(const std::string& group) {
@@ -239,7 +239,7 @@ std::string speed_csv(const SpeedReport& report) {
     return text;
 }
 
-std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& report) {
+plot::Plots speed_plots(const SpeedReport& report) {
     std::vector<std::pair<std::string, std::vector<const SpeedResult*>>> groups;
     for (const SpeedResult& r : report.results) {
         if (r.about.kind != SpeedKind::solve) continue;
@@ -247,22 +247,19 @@ std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& repo
         if (group == groups.end()) group = groups.insert(groups.end(), {r.about.group, {}});
         group->second.push_back(&r);
     }
-    std::vector<std::pair<std::string, LogPlot>> plots;
+    plot::Plots plots;
     for (const auto& [name, group] : groups) {
         if (group.size() < 2) continue;
         const bool of_sheets = group[0]->about.cloths == 1 && group[0]->about.colliders == 0;
         const bool of_cloths = group[0]->about.cloths > 1;
-        LogPlot plot{"Speed: " + name,
-                     of_sheets   ? "particles"
-                     : of_cloths ? "cloths"
-                                 : "colliders",
-                     of_sheets ? "ns per particle and substep" : "ms per substep",
-                     {},
-                     {},
-                     {}};
-        plot.series.push_back(series_of(group, "frame", "Drape", of_sheets));
-        for (const Side& side : sides) plot.series.push_back(series_of(group, side.time, side.time, of_sheets));
-        std::erase_if(plot.series, [](const PlotSeries& series) { return series.points.empty(); });
+        plot::Plot plot{"Speed: " + name,
+                        of_sheets   ? "particles"
+                        : of_cloths ? "cloths"
+                                    : "colliders",
+                        of_sheets ? "ns per particle and substep" : "ms per substep"};
+        plot.curves.push_back(curve_of(group, "frame", "Drape", of_sheets));
+        for (const Side& side : sides) plot.curves.push_back(curve_of(group, side.time, side.time, of_sheets));
+        std::erase_if(plot.curves, [](const plot::Curve& curve) { return curve.points.empty(); });
         plots.emplace_back(file_name(name), plot);
     }
     return plots;

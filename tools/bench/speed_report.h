@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/plot.h"
 #include "bench/speed_result.h"
+#include "plot/plot.h"
 
 namespace drape::bench {
 
@@ -26,6 +26,6 @@ std::string speed_json(const SpeedReport& report);
 std::string speed_csv(const SpeedReport& report);
 /// File names and plots: per group of sheets ns per particle and substep against particles, of cloths and colliders
 /// ms per substep against their number. Only of what has two points or more.
-std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& report);
+plot::Plots speed_plots(const SpeedReport& report);
 
 }  // namespace drape::bench

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "bench/stability_result.h"
+#include "plot/plot.h"
 
 namespace drape::bench {
 
@@ -21,8 +22,8 @@ std::string rectangle(double x, double y, const Look& look, const std::string& t
         fmt::format("<g><title>{}</title><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>",
                     title, x, y, cell - 1, cell - 1, look.colour);
     if (*look.letter)
-        text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#ffffff\">{}</text>",
-                            x + 0.5 * (cell - 1), y + 0.8 * cell, look.letter);
+        text += plot::svg_text(x + 0.5 * (cell - 1), y + 0.8 * cell, look.letter,
+                               "text-anchor=\"middle\" fill=\"#ffffff\"");
     return text + "</g>\n";
 }
 
@@ -31,7 +32,7 @@ std::string legend(double x) {
     for (std::size_t k = 0; k < std::size(looks); ++k) {
         const double y = 20 + 16 * static_cast<double>(k);
         text += rectangle(x, y, looks[k], std::string(verdict_spellings[k].name));
-        text += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x + 16, y + 9, verdict_spellings[k].name);
+        text += plot::svg_text(x + 16, y + 9, std::string(verdict_spellings[k].name));
     }
     return text;
 }
@@ -45,15 +46,12 @@ std::string stability_map(const StabilityReport& report, SolverMethod method) {
     std::map<std::size_t, double> place;
     for (std::size_t k = 0; k < shown.size(); ++k) place[shown[k]] = cell * static_cast<double>(k);
     const double side = cell * static_cast<double>(shown.size());
-    std::string text = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"sans-serif\" font-size=\"9\" fill=\"#202020\">\n<title>{2}</title>\n"
-        "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n<text x=\"16\" y=\"20\" font-size=\"14\">{2}</text>\n",
-        left + side + 20, top + side + 20, fmt::format("Extremes alone and in pairs, method {}", named(method).name));
+    const std::string title = fmt::format("Extremes alone and in pairs, method {}", named(method).name);
+    std::string text = plot::svg_begin(left + side + 20, top + side + 20, title, 9) +
+                       plot::svg_text(16, 20, title, "font-size=\"14\"");
     text += legend(16 + left + 0.6 * side);
     for (const auto& [index, at] : place) {
-        text += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", left - 4, top + at + 9,
-                            extremes()[index].name);
+        text += plot::svg_text(left - 4, top + at + 9, extremes()[index].name, "text-anchor=\"end\"");
         text += fmt::format("<text transform=\"translate({} {}) rotate(-90)\">{}</text>\n", left + at + 9, top + at - 4,
                             extremes()[index].name);
     }
