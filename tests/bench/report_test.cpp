@@ -47,8 +47,7 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
 }
 
 Report report() {
-    Report report{
-        .program_version = "1.2.3", .created = "2026-01-01T00:00:00Z", .device = "a device", .driver = "a driver 5"};
+    Report report{{"1.2.3", "2026-01-01T00:00:00Z", "a device", "a driver 5"}};
     for (const std::uint32_t n : {10u, 20u, 40u})
         report.results.push_back(test::swing_result(SolverMethod::relax, n, n, 1.0 / n, 1.0 / n));
     for (const std::uint32_t n : {32u, 64u})

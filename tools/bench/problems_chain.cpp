@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "bench/problem.h"
-#include "bench/sheet_sweeps.h"
 #include "reference/closed_forms.h"
 #include "reference/model_scenes.h"
 

@@ -1,7 +1,7 @@
 // Rows without springs at work: flight, the incline, momentum. Exact to rounding at every number of substeps.
 #include <cmath>
 
-#include "bench/sheet_sweeps.h"
+#include "bench/problem.h"
 #include "reference/closed_forms.h"
 #include "reference/model_scenes.h"
 

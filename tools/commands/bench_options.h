@@ -1,21 +1,28 @@
 // The options that benchmarks share.
 #pragma once
 
-#include "bench/bench_request.h"
+#include "bench/bench_run.h"
 #include "options.h"
+#include "program.h"
 
 namespace drape::cli {
 
 /// --device, --validate, -q
 void add_bench_options(CLI::App& command, bench::BenchRequest& request);
 
-/// What a benchmark's help says of its cases; lines of at most 80 columns.
+/// The words of a benchmark's help on its cases.
 struct CaseWords {
     const char *names,  ///< of --filter: what case names are like
         *is_short,      ///< of --short
         *json, *csv, *svg;
 };
-/// Those and --filter, --short, --budget, --json, --csv, --svg.
+/// The same and --filter, --short, --budget, --json, --csv, --svg.
 void add_case_options(CLI::App& command, const CaseWords& words, bench::SelectedCases& request);
+
+/// Runs a benchmark, prints its tables and says how it ended. `kept`: what becomes of a benchmark that is stopped.
+ExitCode run_benchmark(bench::BenchRequest& request, const std::string& kept,
+                       const std::function<bench::BenchSummary()>& run);
+/// The words on benchmarks that go on with what they find in a folder.
+std::string kept_in(const std::string& folder);
 
 }  // namespace drape::cli

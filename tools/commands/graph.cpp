@@ -27,13 +27,9 @@ Examples:
                                     run);
     add_scene_options(command, options->scene);
     add_image_options(command, options->scene);
-    add_option(command, "--format", "text|json|dot", "dot is for Graphviz; default: text",
-               [=](const std::string& text) {
-                   if (text != "text" && text != "json" && text != "dot")
-                       return "expected text, json or dot, got '" + text + "'";
-                   options->format = text;
-                   return std::string();
-               });
+    const std::vector<std::string> formats{"text", "json", "dot"};
+    add_choice(command, "--format", formats, "dot is for Graphviz; default: text",
+               [=](std::size_t place) { options->format = formats[place]; });
     add_flag(command, "--simulate", "As `drape simulate` runs it: nothing is drawn", options->simulate);
 }
 

@@ -233,4 +233,10 @@ std::string svg_text(double x, double y, const std::string& content, const char*
 
 std::string svg_of(const Plot& plot) { return Drawing(plot).svg(); }
 
+std::map<std::string, std::string> svg_of(const Plots& plots) {
+    std::map<std::string, std::string> drawn;
+    for (const auto& [name, plot] : plots) drawn[name] = svg_of(plot);
+    return drawn;
+}
+
 }  // namespace drape::plot

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,12 +33,13 @@ struct Plot {
     double x_last = 0;        ///< linear: where the axis ends at least, so that plots beside each other agree
 };
 
+/// Plots by their file names.
+using Plots = std::vector<std::pair<std::string, Plot>>;
+
 /// A picture 640 units wide on white, its text readable by programs. Every curve has a group of its own with its name
 /// as title, even without a point.
 std::string svg_of(const Plot& plot);
-
-/// Plots by their file names.
-using Plots = std::vector<std::pair<std::string, Plot>>;
+std::map<std::string, std::string> svg_of(const Plots& plots);
 
 /// The parts of other drawings: the opening tag, title and white ground of a picture; a line of text.
 std::string svg_begin(double width, double height, const std::string& title, int font_size);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "output/atomic_file.h"
+#include "output/csv_text.h"
 #include "output/json_text.h"
 #include "output/output_error.h"
 #include "run/run.h"
@@ -67,14 +68,6 @@ std::map<std::string, double> manifest_values(const Json::Value& manifest) {
     values["frames"] = static_cast<double>(frames.size());
     for (const Json::Value& file : manifest["files"]) values["bytes"] += file["bytes"].asDouble();
     return values;
-}
-
-/// By RFC 4180.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string field = "\"";
-    for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return field + "\"";
 }
 
 /// A value as a table has it: words without the quotes of JSON.
