@@ -4,8 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "output/frame_writer.h"
@@ -49,17 +47,6 @@ std::string format_help(bool drawn) {
     return text;
 }
 
-std::string set_checkpoint(const std::string& text, RunRequest& request) {
-    request.checkpoint_interval.reset();
-    if (text == "never") return {};
-    double seconds = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-    if (error != std::errc{} || end != text.data() + text.size() || !(seconds >= 0 && seconds < 1e9))
-        return fmt::format("expected seconds, 0 or more, or never, got '{}'", text);
-    request.checkpoint_interval = seconds;
-    return {};
-}
-
 void add_formats(CLI::App& command, const std::string& help, bool drawn,
                  const std::function<void(const std::vector<std::string>&)>& set) {
     const auto check = [drawn](const std::string& name) {
@@ -90,39 +77,26 @@ void add_export_option(CLI::App& command, RunRequest& request) {
                 drawn, set);
 }
 
-std::string set_range(const std::string& text, double& range) {
-    double percent = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
-    if (error != std::errc{} || end != text.data() + text.size() || !(percent > 0 && percent <= 1000))
-        return fmt::format("expected a strain in percent, above 0 and at most 1000, got '{}'", text);
-    range = percent / 100;
-    return {};
-}
-
 /// Adds --view, --view-range.
 void add_view_options(CLI::App& command, PictureView& view) {
-    std::string words;
-    for (const auto& [name, kind] : view_spellings) words += (words.empty() ? "" : "|") + std::string(name);
-    add_option(command, "--view", words.c_str(),
+    std::vector<std::string> words;
+    for (const auto& [name, kind] : view_spellings) words.emplace_back(name);
+    add_choice(command, "--view", words,
                "What pictures show of the cloths. stretch: the largest strain of the springs at each particle, as a "
                "heat map with its legend; warp, weft: strain along the cloth's u (growing column) or v (growing row), "
                "also when pressed together; wire: triangles; normals: 0.5 + 0.5 n of the side in view, in world axes, "
                "as sRGB. Default: shaded",
-               [&view, words](const std::string& text) {
-                   const auto* found = std::ranges::find(view_spellings, text, &Spelling<View>::name);
-                   if (found == std::end(view_spellings)) return fmt::format("expected {}, got '{}'", words, text);
-                   view.kind = found->value;
-                   return std::string();
-               });
+               [&view](std::size_t place) { view.kind = view_spellings[place].value; });
     add_option(command, "--view-range", "PERCENT",
                "Strain at the end of the heat map, the same in every frame; what is beyond it has the end's colour. "
                "Default: by weight, wind and stiffness of the scene",
-               [&view](const std::string& text) { return set_range(text, view.range); });
+               number("a strain in percent, above 0 and at most 1000", above_zero, 1000,
+                      [&view](double percent) { view.range = percent / 100; }));
 }
 
 }  // namespace
 
-SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
+SetText whole_number(std::uint32_t least, const std::function<void(std::uint32_t)>& set) {
     return [=](const std::string& text) {
         const auto value = parse_whole(text, least, UINT32_MAX);
         if (!value) return fmt::format("expected a whole number from {} to {}, got '{}'", least, UINT32_MAX, text);
@@ -131,15 +105,32 @@ SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set
     };
 }
 
-SetText not_negative(std::optional<double>& value) {
-    return [&value](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double number = std::strtod(text.c_str(), &end);
-        if (end == text.c_str() || *end != 0 || !std::isfinite(number) || number < 0)
-            return "expected a number, not negative, got '" + text + "'";
-        value = number;
-        return {};
+SetText number(const std::string& expected, double least, double most, const std::function<void(double)>& set) {
+    return [=](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_number = error == std::errc{} && end == text.data() + text.size();
+        if (!is_number || !(value >= least && value <= most))
+            return fmt::format("expected {}, got '{}'", expected, text);
+        set(value);
+        return std::string();
     };
+}
+
+SetText not_negative(std::optional<double>& value) {
+    return number("a number, not negative", 0, std::numeric_limits<double>::max(),
+                  [&value](double taken) { value = taken; });
+}
+
+void add_choice(CLI::App& command, const std::string& names, const std::vector<std::string>& words,
+                const std::string& help, const std::function<void(std::size_t)>& set) {
+    const auto take = [=](const std::string& text) {
+        const auto found = std::ranges::find(words, text);
+        if (found == words.end()) return fmt::format("expected {}, got '{}'", fmt::join(words, " or "), text);
+        set(static_cast<std::size_t>(found - words.begin()));
+        return std::string();
+    };
+    add_option(command, names, fmt::format("{}", fmt::join(words, "|")).c_str(), help, take);
 }
 
 void add_flag(CLI::App& command, const std::string& names, const std::string& help, bool& value) {
@@ -253,12 +244,8 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
                "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720",
                [&scene](const std::string& text) { return set_size(text, scene); });
     add_view_options(command, scene.view);
-    add_option(command, "--samples", "1|4", "Samples per pixel; default: the scene's, else 4",
-               [&scene](const std::string& text) {
-                   if (text != "1" && text != "4") return fmt::format("expected 1 or 4, got '{}'", text);
-                   scene.samples = text == "1" ? 1 : 4;
-                   return std::string();
-               });
+    add_choice(command, "--samples", {"1", "4"}, "Samples per pixel; default: the scene's, else 4",
+               [&scene](std::size_t place) { scene.samples = place == 0 ? 1 : 4; });
 }
 
 void add_run_options(CLI::App& command, RunRequest& request) {
@@ -274,20 +261,16 @@ void add_run_options(CLI::App& command, RunRequest& request) {
         ->type_name("DIR");
     add_option(command, "-s,--start", "FRAME",
                "First frame to write; default: 0, the initial state. Frame n shows the time n/fps seconds",
-               whole(0, [&request](std::uint32_t value) { request.start = value; }));
+               whole(0, request.start));
     add_option(command, "-e,--end", "FRAME", "Last frame to write, inclusive; default, and at most: the scene's last",
-               whole(0, [&request](std::uint32_t value) { request.end = value; }));
+               whole(0, request.end));
     add_option(command, "-j,--step", "N",
                "Write every N-th frame, counted from --start; default: 1. All frames up to the last one are simulated",
-               whole(1, [&request](std::uint32_t value) { request.step = value; }));
-    add_option(command, "--on-failure", "stop|keep",
+               whole(1, request.step));
+    add_choice(command, "--on-failure", {"stop", "keep"},
                "At a frame that is not plausible or misses its tolerance: stop, or keep it and go on to the end, with "
                "the same exit code; default: stop",
-               [&request](const std::string& text) {
-                   if (text != "stop" && text != "keep") return fmt::format("expected stop or keep, got '{}'", text);
-                   request.keep_failed = text == "keep";
-                   return std::string();
-               });
+               [&request](std::size_t place) { request.keep_failed = place == 1; });
     add_export_option(command, request);
     CLI::Option* overwrite = command.add_flag_callback(
         "--overwrite", [&request] { request.existing = ExistingFiles::overwrite; },
@@ -307,7 +290,12 @@ void add_run_options(CLI::App& command, RunRequest& request) {
     add_option(command, "--checkpoint", "SECONDS|never",
                "How often what it takes to go on is written beside the results, and where the run is stopped by a "
                "signal; --resume goes on from there. Gone when the run is done. Default: 60",
-               [&request](const std::string& text) { return set_checkpoint(text, request); });
+               [&request](const std::string& text) {
+                   request.checkpoint_interval.reset();
+                   if (text == "never") return std::string();
+                   const auto set = [&request](double seconds) { request.checkpoint_interval = seconds; };
+                   return number("seconds, 0 or more, or never", 0, 1e9, set)(text);
+               });
     CLI::Option* quiet = command.add_flag("-q,--quiet", request.quiet, "No progress, only warnings and errors");
     command.add_flag("-v,--verbose", request.verbose, "Say which device, driver, plan and how much memory")
         ->excludes(quiet);

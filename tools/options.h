@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,11 +28,23 @@ void add_option(CLI::App& command, const std::string& names, const char* type, c
 void add_option(CLI::App& command, const std::string& names, const char* type, const std::string& help,
                 std::string& value);
 
-/// Takes a whole number, at least `least`; else says what was expected.
-SetText whole(std::uint32_t least, const std::function<void(std::uint32_t)>& set);
+/// Takes a whole number, at least `least`, or says what was expected.
+SetText whole_number(std::uint32_t least, const std::function<void(std::uint32_t)>& set);
+/// Takes the same for a variable, which must outlive the parser.
+template <class Value>
+SetText whole(std::uint32_t least, Value& value) {
+    return whole_number(least, [&value](std::uint32_t number) { value = number; });
+}
 
-/// Takes a number, not negative; else says what was expected. `value` must outlive the parser.
+inline constexpr double above_zero = std::numeric_limits<double>::min();
+/// Takes a number from `least` to `most`, or says that it `expected` another.
+SetText number(const std::string& expected, double least, double most, const std::function<void(double)>& set);
+/// Takes any number that is not negative, for a variable, which must outlive the parser.
 SetText not_negative(std::optional<double>& value);
+
+/// Adds an option that is one of a few words; `set` is told its place among them.
+void add_choice(CLI::App& command, const std::string& names, const std::vector<std::string>& words,
+                const std::string& help, const std::function<void(std::size_t)>& set);
 
 /// Takes any number of words by their place on the command line.
 void add_word_list(CLI::App& command, const char* name, const std::string& help, std::vector<std::string>& words);

@@ -86,6 +86,12 @@ void append_value(std::string& text, const Json::Value& value, const std::string
 
 }  // namespace
 
+Json::Value json_object(std::initializer_list<std::pair<const char*, Json::Value>> members) {
+    Json::Value object(Json::objectValue);
+    for (const auto& [name, value] : members) object[name] = value;
+    return object;
+}
+
 std::string json_text(const Json::Value& value) {
     std::string text;
     append_value(text, value, "", 0, 0);

@@ -2,9 +2,22 @@
 
 #include <json/value.h>
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 namespace drape {
+
+/// Returns an object of these members.
+Json::Value json_object(std::initializer_list<std::pair<const char*, Json::Value>> members);
+
+/// Returns an array of what `make` makes of each item.
+template <class Items, class Make>
+Json::Value json_array(const Items& items, const Make& make) {
+    Json::Value array(Json::arrayValue);
+    for (const auto& item : items) array.append(make(item));
+    return array;
+}
 
 // Returns the JSON text of a value: two spaces of indentation, what fits on one line stays on one line, keys sorted,
 // bytes that are not UTF-8 as \xff, doubles with the fewest digits that read back as the same double (JsonCpp's own

@@ -52,11 +52,12 @@ inline SceneDescription swing(std::uint32_t links, double wave_speed, double deg
     return scene;
 }
 
-inline constexpr double cantilever_length = 0.1, cantilever_gravity = 9.81;  ///< m, m/s^2
+inline constexpr double gravity = 9.81;           ///< m/s^2
+inline constexpr double cantilever_length = 0.1;  ///< m
 
 /// Slowest angular frequency (rad/s) of the cantilever below, about its first mode as beam and pendulum together.
 inline double cantilever_frequency(double gamma) {
-    return std::sqrt((12.36 / gamma + 1.4) * cantilever_gravity / cantilever_length);
+    return std::sqrt((12.36 / gamma + 1.4) * gravity / cantilever_length);
 }
 
 /// A strip clamped level at one end, of the rigidity that makes gamma = w L^3/B: `segments` cells from the clamp to the
@@ -65,7 +66,7 @@ inline double cantilever_frequency(double gamma) {
 inline SceneDescription cantilever(std::uint32_t segments, double gamma, SolverMethod method) {
     constexpr double density = 0.2, stretch = 500, length = cantilever_length;
     const double cell = length / (segments + 0.5), mass = density * cell * cell;
-    const double rigidity = density * cantilever_gravity * length * length * length / gamma;
+    const double rigidity = density * gravity * length * length * length / gamma;
     const double bend = rigidity / (cell * cell);
     // Relaxation takes steps of m/(b h^2) = 60, explicit steps are a little shorter than their limit.
     const double steps_per_second = method == SolverMethod::relax

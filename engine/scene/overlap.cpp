@@ -68,7 +68,7 @@ StartOverlap overlap(const std::vector<Vec3>& places, const Collider& collider, 
     const double reach = shape_geometry(collider.shape).reach;
     StartOverlap found;
     for (const Vec3& at : places) {
-        if (exact::norm(exact::minus(at, pose.center)) > reach) continue;  // spares the costly distance
+        if (length(minus(at, pose.center)) > reach) continue;  // spares the costly distance
         const Vec3 local = exact::to_local(pose, at);
         const double distance =
             std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape);

@@ -12,9 +12,6 @@
 
 namespace drape::exact {
 
-inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
-
 inline Vec3 to_local(const ColliderPose& pose, const Vec3& world) {
     const Vec3 r = minus(world, pose.center);
     Vec3 local{};
@@ -52,7 +49,7 @@ inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
 // A shape's `local` is a point in its own frame, about its centre.
 inline double shape_distance(const Plane& plane, const Vec3& local) { return dot(local, plane.normal); }
 
-inline double shape_distance(const Sphere& sphere, const Vec3& local) { return norm(local) - sphere.radius; }
+inline double shape_distance(const Sphere& sphere, const Vec3& local) { return length(local) - sphere.radius; }
 
 inline double shape_distance(const Box& box, const Vec3& local) {
     Vec3 outside{};
@@ -62,11 +59,11 @@ inline double shape_distance(const Box& box, const Vec3& local) {
         outside[k] = std::max(beyond, 0.0);
         inside = std::max(inside, beyond);
     }
-    return inside > 0 ? norm(outside) : inside;
+    return inside > 0 ? length(outside) : inside;
 }
 
 inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
-    const double gap = norm(minus(local, ellipsoid_foot(local, ellipsoid.radii)));
+    const double gap = length(minus(local, ellipsoid_foot(local, ellipsoid.radii)));
     double level = -1;
     for (std::size_t k = 0; k < 3; ++k) level += std::pow(local[k] / ellipsoid.radii[k], 2);
     return level < 0 ? -gap : gap;
@@ -74,10 +71,10 @@ inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
 
 /// Finds the ball of the sweep whose surface is nearest: the distance is convex along the segment.
 inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foot = nullptr) {
-    const double half = 0.5 * norm(minus(capsule.to, capsule.from));
+    const double half = 0.5 * length(minus(capsule.to, capsule.from));
     const auto radius = [&](double t) { return capsule.radii[0] + t * (capsule.radii[1] - capsule.radii[0]); };
     const auto from_center = [&](double t) { return Vec3{local[0], local[1] + half - 2 * half * t, local[2]}; };
-    const auto distance = [&](double t) { return norm(from_center(t)) - radius(t); };
+    const auto distance = [&](double t) { return length(from_center(t)) - radius(t); };
     double low = 0, high = 1;
     for (int step = 0; step < 200; ++step) {
         const double a = low + (high - low) / 3, b = high - (high - low) / 3;
@@ -89,7 +86,7 @@ inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foo
     if (foot) {
         const Vec3 out = from_center(best);
         for (std::size_t k = 0; k < 3; ++k)
-            (*foot)[k] = local[k] - out[k] + radius(best) * out[k] / std::max(norm(out), 1e-300);
+            (*foot)[k] = local[k] - out[k] + radius(best) * out[k] / std::max(length(out), 1e-300);
     }
     return distance(best);
 }

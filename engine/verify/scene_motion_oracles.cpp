@@ -13,18 +13,9 @@
 
 namespace drape::verify {
 
-using exact::minus;
-using exact::norm;
-
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-
-Vec3 plus(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vec3 times(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Returns the way of damped ballistic flight: v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
 Vec3 flown(const SceneDescription& scene, const Cloth& cloth, double t) {
@@ -44,11 +35,11 @@ Verdict falls(const SceneRun& run, const Limits& limits) {
         for (std::size_t particle = limits.index("from_row") * cloth.grid[0];
              particle < run.frames[frame][index].size(); ++particle) {
             const Vec3 moved = minus(run.at(frame, index, particle), run.at(0, index, particle));
-            worst = std::max(worst, norm(minus(moved, flown(run.scene, cloth, run.time(frame)))));
+            worst = std::max(worst, length(minus(moved, flown(run.scene, cloth, run.time(frame)))));
         }
     return {worst <= limits["error"],
             fmt::format("{} off by {:.2e} m after falling {:.3f} m, allowed {:.2e} m", cloth.name, worst,
-                        norm(flown(run.scene, cloth, run.time(last))), limits["error"])};
+                        length(flown(run.scene, cloth, run.time(last))), limits["error"])};
 }
 
 struct Energy {
@@ -106,7 +97,7 @@ double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corner
                                                                           run.at(frame - 1, 0, corners[first + k]))));
         }
         const Vec3 relative = minus(air, velocity), doubled = cross(minus(x[1], x[0]), minus(x[2], x[0]));
-        const double area = 0.5 * norm(doubled);
+        const double area = 0.5 * length(doubled);
         if (area == 0) continue;
         Vec3 normal = times(0.5 / area, doubled);
         if (dot(normal, relative) < 0) normal = times(-1, normal);
@@ -195,7 +186,7 @@ Verdict mirror(const SceneRun& run, const Limits& limits) {
             for (std::uint32_t column = 0; column < grid.columns(); ++column) {
                 Vec3 image = run.at(frame, 0, grid.particle(grid.columns() - 1 - column, row));
                 image[0] = -image[0];
-                gaps.push_back(norm(minus(run.at(frame, 0, grid.particle(column, row)), image)));
+                gaps.push_back(length(minus(run.at(frame, 0, grid.particle(column, row)), image)));
             }
         worst = std::max(worst, root_mean_square(gaps));
     }

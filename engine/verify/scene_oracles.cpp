@@ -18,8 +18,6 @@
 
 namespace drape::verify {
 
-using exact::minus;
-using exact::norm;
 using exact::surface_distance;
 
 double Limits::operator[](const std::string& name) const {
@@ -131,8 +129,8 @@ Verdict pins_follow(const SceneRun& run, const Limits& limits) {
         for (std::size_t frame = 1; frame < run.frames.size(); ++frame) {
             if (pin.release && run.time(frame) > *pin.release) break;
             const Vec3 wanted = followed(run, cloth, pin, rest, run.time(frame));
-            worst = std::max(worst, norm(minus(run.at(frame, cloth, particle), wanted)));
-            farthest = std::max(farthest, norm(minus(wanted, rest)));
+            worst = std::max(worst, length(minus(run.at(frame, cloth, particle), wanted)));
+            farthest = std::max(farthest, length(minus(wanted, rest)));
         }
     });
     return {worst <= limits["error"] && farthest > 0,
@@ -183,7 +181,7 @@ Verdict released(const SceneRun& run, const Limits& limits) {
             static_cast<std::size_t>(std::lround((*pin.release + limits["seconds"]) * run.scene.time.fps));
         const double dropped =
             run.at(0, cloth, particle)[1] - run.at(std::min(then, run.last_frame()), cloth, particle)[1];
-        const double ratio = dropped / (0.5 * norm(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
+        const double ratio = dropped / (0.5 * length(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
         slowest = std::min(slowest, ratio);
         fastest = std::max(fastest, ratio);
     });
@@ -248,7 +246,7 @@ double deepest(const SceneRun& run, const Collider& collider) {
             for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
                 const Vec3 x = run.at(frame, cloth, particle);
-                if (norm(minus(x, center)) > reach + thickness) continue;  // spares the costly distance
+                if (length(minus(x, center)) > reach + thickness) continue;  // spares the costly distance
                 depth = std::max(depth, (thickness - surface_distance(kept, time, x)) / size);
             }
         }

@@ -10,9 +10,6 @@
 
 namespace drape::verify {
 
-using exact::minus;
-using exact::norm;
-
 Vec3 SceneRun::at(std::size_t frame, std::size_t cloth, std::size_t particle) const {
     const glsl::vec4& x = frames.at(frame).at(cloth).at(particle);
     return {x.x, x.y, x.z};
@@ -99,7 +96,7 @@ std::vector<double> spring_strains(const SceneRun& run, std::size_t frame, std::
             if ((down ? shares.y : shares.x) == 0) continue;
             const Vec3 first = run.at(frame, cloth, grid.particle(column, row));
             const Vec3 second = run.at(frame, cloth, grid.particle(column + (down ? 0 : 1), row + (down ? 1 : 0)));
-            strains.push_back(norm(minus(second, first)) / measure.spacing[down ? 1 : 0] - 1);
+            strains.push_back(length(minus(second, first)) / measure.spacing[down ? 1 : 0] - 1);
         }
     return strains;
 }
@@ -119,7 +116,7 @@ double root_mean_square(const std::vector<double>& values) {
 double stretch_law(const SceneDescription& scene, std::size_t cloth) {
     const double links = scene.cloths[cloth].grid[1] - 1.0;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    return links * links * norm(scene.gravity) * h * h / (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
+    return links * links * length(scene.gravity) * h * h / (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
 }
 
 }  // namespace drape::verify

@@ -1,7 +1,7 @@
 // The fewest substeps that keep a limit are found, and nothing is measured twice or for nothing.
-#include "bench/bisection.h"
-
 #include <gtest/gtest.h>
+
+#include "bench/claims.h"
 
 namespace drape::bench {
 namespace {

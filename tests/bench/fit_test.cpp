@@ -1,10 +1,9 @@
 // Orders of convergence are fitted by least squares.
-#include "bench/fit.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "bench/claims.h"
 #include "results.h"
 
 namespace drape::bench {

@@ -9,7 +9,6 @@
 #include <regex>
 #include <set>
 
-#include "bench/plot.h"
 #include "results.h"
 
 namespace drape::bench {
@@ -48,8 +47,7 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
 }
 
 Report report() {
-    Report report{
-        .program_version = "1.2.3", .created = "2026-01-01T00:00:00Z", .device = "a device", .driver = "a driver 5"};
+    Report report{{"1.2.3", "2026-01-01T00:00:00Z", "a device", "a driver 5"}};
     for (const std::uint32_t n : {10u, 20u, 40u})
         report.results.push_back(test::swing_result(SolverMethod::relax, n, n, 1.0 / n, 1.0 / n));
     for (const std::uint32_t n : {32u, 64u})
@@ -63,13 +61,13 @@ Report report() {
 }
 
 TEST(PlotTest, IsWellFormedAndHoldsEverySeries) {
-    LogPlot plot{"a < b & \"c\"", "time, ms", "error, m", {}, {-1, -2}, {{"1 %", 0.01}}};
+    plot::Plot plot{"a < b & \"c\"", "time, ms", "error, m", {}, {-1, -2}, {{"1 %", 0.01}}};
     std::set<std::string> colours;
     for (int k = 0; k < 8; ++k)
-        plot.series.push_back(
+        plot.curves.push_back(
             {"series <" + std::to_string(k) + ">", {{1, 0.1}, {10, 1e-3 * (k + 1)}, {0, 1}, {5, -1}}});
-    plot.series.push_back({"empty", {}});
-    const std::string svg = svg_text(plot);
+    plot.curves.push_back({"empty", {}});
+    const std::string svg = plot::svg_of(plot);
     EXPECT_GT(element_count(svg), 60u);
     for (int k = 0; k < 8; ++k) EXPECT_THAT(svg, HasSubstr("<title>series &lt;" + std::to_string(k) + "&gt;</title>"));
     EXPECT_THAT(svg, HasSubstr("<title>empty</title>"));
@@ -78,8 +76,8 @@ TEST(PlotTest, IsWellFormedAndHoldsEverySeries) {
     EXPECT_THAT(svg, testing::AllOf(HasSubstr(">time, ms<"), HasSubstr(">error, m<"), HasSubstr(">1 %<")));
     EXPECT_THAT(svg, testing::Not(HasSubstr("nan")));
     EXPECT_THAT(svg, testing::Not(HasSubstr("doubtful")));
-    plot.series[2].doubtful = {false, true, false, false};
-    const std::string marked = svg_text(plot);
+    plot.curves[2].doubtful = {false, true, false, false};
+    const std::string marked = plot::svg_of(plot);
     EXPECT_EQ(occurrences(marked, "class=\"doubtful\""), 1u);
     EXPECT_THAT(marked, HasSubstr(">hollow: time doubtful<"));
     EXPECT_GT(element_count(marked), element_count(svg));
@@ -87,7 +85,7 @@ TEST(PlotTest, IsWellFormedAndHoldsEverySeries) {
 
 TEST(PlotTest, PutsPointsWhereTheLogarithmsAre) {
     // From 1 to 100 and 1e-4 to 1 the middle decade's point stands in the middle of the frame.
-    const std::string svg = svg_text({"t", "x", "y", {{"s", {{1, 1}, {10, 1e-2}, {100, 1e-4}}}}, {}, {}});
+    const std::string svg = plot::svg_of({"t", "x", "y", {{"s", {{1, 1}, {10, 1e-2}, {100, 1e-4}}}}, {}, {}});
     std::smatch match;
     const std::regex line("<polyline points=\"([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) ([0-9.]+),([0-9.]+) \"");
     ASSERT_TRUE(std::regex_search(svg, match, line));
@@ -103,12 +101,12 @@ TEST(ReportTest, PlotsHoldEveryFamily) {
     std::set<std::string> names;
     for (const auto& [name, plot] : plots) {
         names.insert(name);
-        EXPECT_GT(element_count(svg_text(plot)), 20u) << name;
-        ASSERT_EQ(plot.series.size(), 2u) << name;
-        EXPECT_EQ(plot.series[0].name, "explicit");
-        EXPECT_EQ(plot.series[0].points.size(), 2u);
-        EXPECT_EQ(plot.series[1].name, "relax");
-        EXPECT_EQ(plot.series[1].points.size(), 3u);
+        EXPECT_GT(element_count(plot::svg_of(plot)), 20u) << name;
+        ASSERT_EQ(plot.curves.size(), 2u) << name;
+        EXPECT_EQ(plot.curves[0].name, "explicit");
+        EXPECT_EQ(plot.curves[0].points.size(), 2u);
+        EXPECT_EQ(plot.curves[1].name, "relax");
+        EXPECT_EQ(plot.curves[1].points.size(), 3u);
     }
     EXPECT_EQ(names, (std::set<std::string>{"swing_64_position_time.svg", "swing_64_position_passes.svg",
                                             "swing_64_stretch_time.svg", "swing_64_stretch_passes.svg"}));

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "bench/bench_request.h"
+#include "bench/bench_run.h"
 #include "bench/speed_report.h"
 #include "native/native_run.h"
 
@@ -28,7 +28,7 @@ SpeedResult sheet_result(std::uint32_t size, double frame, double native, double
 }
 
 SpeedReport report_of(std::vector<SpeedResult> results) {
-    return {"0", "today", "device", "driver", 2, 1e10, false, true, std::move(results)};
+    return {{"0", "today", "device", "driver"}, 2, 1e10, std::move(results)};
 }
 
 TEST(SpeedCases, HaveNamesOfTheirOwnAndScenesThatTheYardstickKnows) {
@@ -124,18 +124,18 @@ TEST(SpeedReport, JsonAndCsvHaveEveryTime) {
     const SpeedReport report = report_of({sheet_result(64, 4, 2)});
     EXPECT_THAT(speed_json(report), AllOf(HasSubstr("\"format\": \"drape bench speed 1\""),
                                           HasSubstr("\"frame_over_this\": 2"), HasSubstr("\"flops_per_frame\"")));
-    EXPECT_THAT(speed_csv(report), HasSubstr("line/64,solve,4096,8,1,0,\"native\",1.8,2,2.2,0.1,0,2\n"));
+    EXPECT_THAT(speed_csv(report), HasSubstr("line/64,solve,4096,8,1,0,native,1.8,2,2.2,0.1,0,2\n"));
 }
 
 TEST(SpeedReport, PlotsHaveUnitsAndASeriesPerSide) {
     const auto plots = speed_plots(report_of({sheet_result(64, 4, 2), sheet_result(128, 8, 1, 0.5)}));
     ASSERT_EQ(plots.size(), 1u);
     EXPECT_EQ(plots[0].first, "speed_line.svg");
-    const LogPlot& plot = plots[0].second;
+    const plot::Plot& plot = plots[0].second;
     EXPECT_EQ(plot.y_label, "ns per particle and substep");
-    ASSERT_EQ(plot.series.size(), 2u);
-    EXPECT_NEAR(plot.series[0].points[0][1], 1e6 * 4 / 8 / 4096, 1e-9);
-    EXPECT_EQ(plot.series[0].doubtful, (std::vector<bool>{false, true}));
+    ASSERT_EQ(plot.curves.size(), 2u);
+    EXPECT_NEAR(plot.curves[0].points[0][1], 1e6 * 4 / 8 / 4096, 1e-9);
+    EXPECT_EQ(plot.curves[0].doubtful, (std::vector<bool>{false, true}));
     EXPECT_TRUE(speed_plots(report_of({sheet_result(64, 4, 2)})).empty()) << "one point is no line";
 }
 

@@ -168,11 +168,11 @@ TEST(StabilityResultTest, ALineGivesBackEverything) {
                            "what",
                            "line",
                            {{"frames", 61}, {"stretch", std::numeric_limits<double>::infinity()}}};
-    const std::string line = stability_line(result);
+    const std::string line = json_line(json_of(result));
     EXPECT_THAT(line, Not(HasSubstr("\n")));
-    EXPECT_EQ(parsed_stability(line), result);
-    EXPECT_FALSE(parsed_stability(line.substr(0, line.size() - 3)));
-    EXPECT_FALSE(parsed_stability("{}"));
+    EXPECT_EQ(parsed_result<StabilityResult>(line), result);
+    EXPECT_FALSE(parsed_result<StabilityResult>(line.substr(0, line.size() - 3)));
+    EXPECT_FALSE(parsed_result<StabilityResult>("{}"));
 }
 
 TEST(StabilityResultTest, EachTierHasItsShortfalls) {
@@ -197,7 +197,7 @@ TEST(StabilityResultTest, EachTierHasItsShortfalls) {
 }
 
 TEST(StabilityResultTest, TheMapHasAPlaceForEveryPairAndVerdict) {
-    StabilityReport report{"1", "device", {}, {}};
+    StabilityReport report;
     for (const StabilityCase& each : stability_cases({})) {
         if (each.method != SolverMethod::relax || !each.name.starts_with("pair/")) continue;
         report.cases.push_back(each);

@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/trial_result.h"
-
 namespace drape::bench {
 namespace {
 
@@ -34,13 +32,12 @@ TEST(TrialTest, ALineGivesBackEverything) {
     TrialResult result = scene_result("b/1/7");
     result.outcome = TrialOutcome::tolerance;
     result.reason = "in frame 3, \"cloth\"";
-    const std::string line = trial_line(result);
-    EXPECT_THAT(line, Not(HasSubstr("\n")));
-    EXPECT_EQ(parsed_trial(line), result);
-    EXPECT_FALSE(parsed_trial(line.substr(0, line.size() - 5)));
-    EXPECT_FALSE(parsed_trial("{}"));
     result.numbers["worst_spring"] = INFINITY;
-    EXPECT_FALSE(parsed_trial(trial_line(result))->numbers.contains("worst_spring")) << "JSON has no such number";
+    const std::string line = json_line(json_of(result));
+    EXPECT_THAT(line, Not(HasSubstr("\n")));
+    EXPECT_EQ(parsed_result<TrialResult>(line), result);
+    EXPECT_FALSE(parsed_result<TrialResult>(line.substr(0, line.size() - 5)));
+    EXPECT_FALSE(parsed_result<TrialResult>("{}"));
 }
 
 TEST(TrialTest, OnePerCentMayBeRefusedButNothingSilently) {

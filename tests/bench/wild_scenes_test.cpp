@@ -1,6 +1,4 @@
 // The scenes that `auto` is judged by are the same every time, hold all that a scene may hold, and nothing impossible.
-#include "bench/wild_scenes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <map>
 #include <set>
 
-#include "bench/auto_trial.h"
+#include "bench/random_scenes.h"
+#include "bench/trial.h"
 #include "cloth/simulation_model.h"
 
 namespace drape::bench {
@@ -20,15 +19,12 @@ constexpr std::uint32_t scene_count = 1500;
 double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 TEST(WildScenesTest, ASeedAndAnIndexAreAScene) {
-    for (const char* generator : {"a", "b"}) {
-        const auto scene = find_generator(generator)->scene;
+    for (auto* scene : {full_random_scene, wild_scene})
         for (const std::uint32_t index : {0u, 1u, 77u}) {
-            EXPECT_EQ(scene(3, index), scene(3, index)) << generator;
-            EXPECT_NE(scene(3, index), scene(3, index + 1)) << generator;
-            EXPECT_NE(scene(3, index), scene(4, index)) << generator;
+            EXPECT_EQ(scene(3, index), scene(3, index)) << index;
+            EXPECT_NE(scene(3, index), scene(3, index + 1)) << index;
+            EXPECT_NE(scene(3, index), scene(4, index)) << index;
         }
-    }
-    EXPECT_EQ(find_generator("c"), nullptr);
 }
 
 TEST(WildScenesTest, HoldAllThatASceneMayHold) {
@@ -114,12 +110,11 @@ std::size_t buried_count(const SceneDescription& scene) {
 }
 
 TEST(WildScenesTest, CanBeModelledAndStartClearOfColliders) {
-    for (const char* generator : {"a", "b"})
-        for (std::uint32_t index = 0; index < 40; ++index) {
-            const SceneDescription scene = find_generator(generator)->scene(1, index);
-            EXPECT_NO_THROW(SimulationModel{scene}) << generator << index;
-            EXPECT_TRUE(*generator == 'a' || buried_count(scene) == 0) << index;
-        }
+    for (std::uint32_t index = 0; index < 40; ++index) {
+        EXPECT_NO_THROW(SimulationModel{full_random_scene(1, index)}) << index;
+        EXPECT_NO_THROW(SimulationModel{wild_scene(1, index)}) << index;
+        EXPECT_EQ(buried_count(wild_scene(1, index)), 0u) << index;
+    }
 }
 
 }  // namespace

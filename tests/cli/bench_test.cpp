@@ -26,8 +26,8 @@ TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
     EXPECT_EQ(first.code, 0) << first.err;
     EXPECT_THAT(first.out, AllOf(HasSubstr("free fall/2/relax/16"), HasSubstr("met"), Not(HasSubstr("NOT MET")),
                                  Not(HasSubstr("swing"))));
-    EXPECT_THAT(first.err, AllOf(HasSubstr("6/6 free fall/2/relax/16"), HasSubstr("ETA 0:00"),
-                                 HasSubstr("6 cases measured, 0 kept")));
+    EXPECT_THAT(first.err,
+                AllOf(HasSubstr("6/6 free fall/2/relax/16"), HasSubstr("ETA 0:00"), HasSubstr("6 cases run, 0 kept")));
     EXPECT_THAT(read_text(folder / "a.json"), HasSubstr("\"format\": \"drape bench accuracy 1\""));
     EXPECT_THAT(read_text(folder / "a.csv"), HasSubstr("\nfree fall/2/explicit/1,free fall,2,explicit,1,1,1,"));
     EXPECT_EQ(names_in(folder / "plots"), std::set<std::string>{"free_fall_substeps.svg"});
@@ -37,9 +37,9 @@ TEST(BenchAccuracy, WritesEverythingAndGoesOnWhereItEnded) {
     write_text(folder / "b/results.jsonl", kept.substr(0, kept.size() - 20));
     const Outcome second = drape(arguments);
     EXPECT_EQ(second.code, 0) << second.err;
-    EXPECT_THAT(second.err, HasSubstr("1 cases measured, 5 kept"));
+    EXPECT_THAT(second.err, HasSubstr("1 cases run, 5 kept"));
     const Outcome third = drape(arguments);
-    EXPECT_THAT(third.err, HasSubstr("0 cases measured, 6 kept"));
+    EXPECT_THAT(third.err, HasSubstr("0 cases run, 6 kept"));
     EXPECT_EQ(third.out.substr(third.out.find('\n')), second.out.substr(second.out.find('\n')));
 }
 
@@ -52,7 +52,7 @@ TEST(BenchAccuracy, AReferenceIsComputedOnce) {
     EXPECT_THAT(first.err, HasSubstr("reference motion of 4 particles"));
     std::filesystem::remove(folder / "results.jsonl");
     const Outcome second = drape(arguments);
-    EXPECT_THAT(second.err, AllOf(HasSubstr("1 cases measured"), Not(HasSubstr("reference motion"))));
+    EXPECT_THAT(second.err, AllOf(HasSubstr("1 cases run"), Not(HasSubstr("reference motion"))));
 }
 
 TEST(BenchAccuracy, ABudgetLeavesOutWhatItCannotPay) {
@@ -60,7 +60,7 @@ TEST(BenchAccuracy, ABudgetLeavesOutWhatItCannotPay) {
     const Outcome outcome =
         drape({"bench", "accuracy", "--filter", "^swing/512/", "--budget", "0.001", "--folder", folder / "b"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("0 cases measured, 0 kept from before, 36 left out by --budget"));
+    EXPECT_THAT(outcome.err, HasSubstr("0 cases run, 0 kept from before, 36 left out"));
     EXPECT_THAT(outcome.out, HasSubstr("The budget of time left cases out."));
 }
 
@@ -93,14 +93,14 @@ TEST(BenchAccuracy, AUsersSceneIsMeasuredAgainstItsOwnRefinedRuns) {
                 AllOf(HasSubstr("scene/7/line/8"), HasSubstr("scene/7/auto/chosen"), HasSubstr("Reference: "),
                       HasSubstr("Richardson"), HasSubstr("Cheapest measured setting"),
                       HasSubstr("cannot be told: the reference's own error is")));
-    EXPECT_THAT(first.err, AllOf(HasSubstr("reference: line at "), HasSubstr("2 cases measured, 0 kept")));
+    EXPECT_THAT(first.err, AllOf(HasSubstr("reference: line at "), HasSubstr("2 cases run, 0 kept")));
     EXPECT_THAT(names_in(folder.out()), testing::IsSupersetOf({"accuracy.csv", "accuracy.json", "results.jsonl"}));
     EXPECT_THAT(read_text(folder.out() + "/accuracy.csv"),
                 AllOf(HasSubstr(",position_rms,"), HasSubstr(",worst_spring")));
     EXPECT_THAT(read_text(folder.out() + "/accuracy.json"), HasSubstr("\"compared_with\""));
     const Outcome second = drape(arguments);
     EXPECT_EQ(second.code, 0) << second.err;
-    EXPECT_THAT(second.err, AllOf(HasSubstr("0 cases measured, 2 kept"), Not(HasSubstr("reference: line at "))));
+    EXPECT_THAT(second.err, AllOf(HasSubstr("0 cases run, 2 kept"), Not(HasSubstr("reference: line at "))));
     EXPECT_EQ(second.out.substr(second.out.find('\n')), first.out.substr(first.out.find('\n')));
 }
 
@@ -126,16 +126,16 @@ TEST(BenchAuto, JudgesScenesAndGoesOnWhereItEnded) {
     std::vector<std::string> arguments = {"bench",      "auto", "--first",        "8", "--count", "1",
                                           "--validate", "-o",   folder / "scenes"};
     const Outcome first = drape(arguments);
-    EXPECT_THAT(first.err, AllOf(HasSubstr("1/1 b/1/8: "), HasSubstr("1 scenes run, 0 kept"), Not(HasSubstr("VUID"))));
+    EXPECT_THAT(first.err, AllOf(HasSubstr("1/1 b/1/8: "), HasSubstr("1 cases run, 0 kept"), Not(HasSubstr("VUID"))));
     EXPECT_THAT(first.out, AllOf(HasSubstr("1 scenes: "), HasSubstr("substeps per frame, most")));
     EXPECT_THAT(first.code, testing::AnyOf(0, 7)) << first.err;
     EXPECT_THAT(read_text(folder / "scenes/scenes.jsonl"), HasSubstr("\"name\": \"b/1/8\""));
     const Outcome second = drape(arguments);
-    EXPECT_THAT(second.err, HasSubstr("0 scenes run, 1 kept"));
+    EXPECT_THAT(second.err, HasSubstr("0 cases run, 1 kept"));
     EXPECT_EQ(second.out, first.out);
     EXPECT_EQ(second.code, first.code);
     arguments.insert(arguments.end(), {"--tolerance", "0.5"});
-    EXPECT_THAT(drape(arguments).err, HasSubstr("1 scenes run, 0 kept")) << "other scenes";
+    EXPECT_THAT(drape(arguments).err, HasSubstr("1 cases run, 0 kept")) << "other scenes";
 }
 
 TEST(BenchAuto, RefusesWhatItCannotDo) {
@@ -207,8 +207,8 @@ TEST(BenchSpeed, MeasuresAndWritesEverything) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("a copy moves"), HasSubstr("\nline/32 "), HasSubstr("\nskip/statistics "),
                                    HasSubstr("cold: pipelines and memory"), HasSubstr("warm: all")));
-    EXPECT_THAT(outcome.err,
-                AllOf(HasSubstr("5/5 "), HasSubstr("5 cases measured, 0 left out"), Not(HasSubstr("VUID"))));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("5/5 "), HasSubstr("5 cases run, 0 kept from before, 0 left out"),
+                                   Not(HasSubstr("VUID"))));
     EXPECT_THAT(read_text(folder.out("s.json")), HasSubstr("\"format\": \"drape bench speed 1\""));
     EXPECT_THAT(read_text(folder.out("s.csv")), HasSubstr("\nexplicit/64,solve,4096,66,1,0,\"native, scalar\","));
     EXPECT_EQ(names_in(folder.out("plots")), std::set<std::string>{"speed_explicit.svg"});

@@ -142,7 +142,7 @@ const WrongUsage wrong_usages[] = {
     {"Samples", {"render", "SCENE", "-o", "OUT", "--samples", "2"}, "--samples: expected 1 or 4, got '2'"},
     {"View",
      {"render", "SCENE", "-o", "OUT", "--view", "heat"},
-     "--view: expected shaded|stretch|warp|weft|wire|normals, got 'heat'"},
+     "--view: expected shaded or stretch or warp or weft or wire or normals, got 'heat'"},
     {"ViewRange",
      {"render", "SCENE", "-o", "OUT", "--view", "warp", "--view-range", "0"},
      "--view-range: expected a strain in percent, above 0 and at most 1000, got '0'"},
@@ -175,7 +175,7 @@ const WrongUsage wrong_usages[] = {
     {"StreamOfArrays", {"simulate", "SCENE", "-o", "-"}, "only `drape render` writes to stdout"},
     {"ResumedStream", {"render", "SCENE", "-o", "-", "--resume"}, "a stream cannot be overwritten or resumed"},
     {"VerifyLimit", {"verify", "SCENE", "--stretch", "-1"}, "--stretch: expected a number, not negative, got '-1'"},
-    {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text, json or dot, got 'svg'"},
+    {"Format", {"graph", "SCENE", "--format", "svg"}, "--format: expected text or json or dot, got 'svg'"},
 };
 INSTANTIATE_TEST_SUITE_P(Wrong, Usage, testing::ValuesIn(wrong_usages),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -40,7 +40,7 @@ TEST(CapsuleTest, FootPointsMatchDoublePrecision) {
         const double distance = exact::capsule_sweep(capsule, point, &exact);
         const glsl::SurfacePoint surface = glsl::capsule_surface(p, size);
         worst_distance = std::max(worst_distance, std::abs(double(surface.distance) - distance) / extent);
-        worst_foot = std::max(worst_foot, exact::norm(exact::minus(foot_of(p, surface), exact)) / extent);
+        worst_foot = std::max(worst_foot, length(minus(foot_of(p, surface), exact)) / extent);
         inside += distance < 0;
         on_side += std::abs(exact[1]) < 0.9 * half;
         swallowed += std::abs(capsule.radii[0] - capsule.radii[1]) >= 2 * half;
@@ -60,7 +60,7 @@ TEST(CapsuleTest, PointsOnTheAxisHaveAUnitNormal) {
                                   glsl::vec3{0.1f, 0.1f, 0.4f}, glsl::vec3{0.1f, 0.3f, 0.1f}})
         for (const float y : {-2.0f, -0.5f, -0.1f, 0.0f, 0.3f, 0.5f, 2.0f}) {
             const glsl::SurfacePoint surface = glsl::capsule_surface({0, y, 0}, size);
-            EXPECT_NEAR(exact::norm({double(surface.normal.x), double(surface.normal.y), double(surface.normal.z)}), 1,
+            EXPECT_NEAR(length({double(surface.normal.x), double(surface.normal.y), double(surface.normal.z)}), 1,
                         1e-6);
             EXPECT_NEAR(double(surface.distance), exact::shape_distance(upright(size), {0, double(y), 0}), 1e-6) << y;
         }

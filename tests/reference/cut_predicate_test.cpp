@@ -10,7 +10,6 @@
 namespace drape {
 namespace {
 
-using exact::minus;
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -25,7 +24,7 @@ struct Decision {
 
 Decision crosses(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
     const Vec3 normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-    const double size = exact::norm(normal);
+    const double size = length(normal);
     if (size == 0) return {false, 0};
     const double hp = dot(normal, minus(p, t[0])) / size, hq = dot(normal, minus(q, t[0])) / size;
     double margin = std::min(std::abs(hp), std::abs(hq));
@@ -39,7 +38,7 @@ Decision crosses(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
         // The distance between the two lines is the volume over the area that they span.
         const Vec3 span = cross(along, edge);
         const double volume = dot(along, cross(minus(a, p), minus(b, p)));
-        margin = std::min(margin, exact::norm(span) > 0 ? std::abs(volume) / exact::norm(span) : 0);
+        margin = std::min(margin, length(span) > 0 ? std::abs(volume) / length(span) : 0);
         positive = positive && volume >= 0;
         negative = negative && volume <= 0;
     }

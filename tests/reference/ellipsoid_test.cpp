@@ -18,7 +18,7 @@ TEST(EllipsoidTest, FootPointsMatchDoublePrecision) {
         const Vec3 radii{ratio(random), ratio(random), ratio(random)};
         const double size = std::max({radii[0], radii[1], radii[2]});
         Vec3 direction{unit(random), unit(random), unit(random)};
-        if (exact::norm(direction) < 0.1) continue;
+        if (length(direction) < 0.1) continue;
         // A surface point is moved along its normal: outside by up to the size, inside by up to half the least radius
         // of curvature, where the foot is unique.
         double level = 0;
@@ -30,14 +30,14 @@ TEST(EllipsoidTest, FootPointsMatchDoublePrecision) {
         const double shift = unit(random) > 0 ? std::abs(unit(random)) * size
                                               : -std::abs(unit(random)) * 0.5 * smallest * smallest / size;
         Vec3 point;
-        for (std::size_t k = 0; k < 3; ++k) point[k] = surface[k] + shift * normal[k] / exact::norm(normal);
+        for (std::size_t k = 0; k < 3; ++k) point[k] = surface[k] + shift * normal[k] / length(normal);
         const glsl::vec3 p{float(point[0]), float(point[1]), float(point[2])};
         const glsl::vec3 r{float(radii[0]), float(radii[1]), float(radii[2])};
         const glsl::vec3 foot = glsl::ellipsoid_foot(p, r);
         const Vec3 exact =
             exact::ellipsoid_foot({double(p.x), double(p.y), double(p.z)}, {double(r.x), double(r.y), double(r.z)});
         worst =
-            std::max(worst, exact::norm(exact::minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
+            std::max(worst, length(minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
         ++checked;
     }
     std::printf("[ measured ] worst foot error over %d points: %.2e of the largest radius\n", checked, worst);

@@ -140,14 +140,14 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     const auto direction = [&] {
         for (;;) {
             const Vec3 v{unit(random), unit(random), unit(random)};
-            const double length = exact::norm(v);
+            const double length = length(v);
             if (length > 0.1 && length < 1) return Vec3{v[0] / length, v[1] / length, v[2] / length};
         }
     };
     const Vec3 u = direction(), w = direction();
     Vec3 aside;
     for (std::size_t k = 0; k < 3; ++k) aside[k] = w[k] - dot(w, u) * u[k];
-    const double length = exact::norm(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
+    const double length = length(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
     double dx, dy, bend;
     do {
         dx = x * stretch(random);
@@ -181,7 +181,7 @@ double deepest_between_corners(const Cloth& cloth, const Collider& collider, int
                 for (std::size_t k = 0; k < 3; ++k) corner[k] += t * from[k] - (triangle[1][k] + triangle[2][k]) / 3;
             return moved;
         };
-        double inside = 0, outside = 4 / exact::norm(from);
+        double inside = 0, outside = 4 / length(from);
         for (int step = 0; step < 30; ++step) {
             const double middle = 0.5 * (inside + outside);
             const bool out = std::ranges::all_of(at(middle), [&](const Vec3& x) { return distance(kept, x) >= 0; });

@@ -41,8 +41,8 @@ inline DrawnDepth drawn_depth(const Grid& grid, const std::vector<Vec3>& positio
                                           positions[triangles[k + 2]]};
         double longest = 0;
         for (std::size_t n = 0; n < 3; ++n)
-            longest = std::max(longest, exact::norm(exact::minus(corners[n], corners[(n + 1) % 3])));
-        if (exact::norm(exact::minus(corners[0], pose.center)) > reach + longest) continue;
+            longest = std::max(longest, length(minus(corners[n], corners[(n + 1) % 3])));
+        if (length(minus(corners[0], pose.center)) > reach + longest) continue;
         const auto distance = [&](const Vec3& point) {
             return std::visit(
                 [&](const auto& shape) { return exact::shape_distance(shape, exact::to_local(pose, point)); },

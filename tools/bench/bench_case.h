@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "drape/scene.h"
+#include "bench/record.h"
 
 namespace drape::bench {
 
@@ -24,17 +24,14 @@ std::string setting_name(const Setting& setting);
 /// "relax, 1 substep x iterations", "explicit".
 std::string family_name(SolverMethod method, std::uint32_t substeps, std::uint32_t iterations);
 
-/// Errors and other numbers by name, SI units.
-using Metrics = std::map<std::string, double>;
-
-/// Over repetitions, ms per frame.
+/// The time of a frame over repetitions, ms.
 struct Timing {
     double median = 0, least = 0;
     double spread = 0;  ///< greatest less least, over the median
     bool operator==(const Timing&) const = default;
 };
 
-/// Of at least one repetition.
+/// There must be a repetition.
 Timing timing_of(std::vector<double> repetitions);
 
 /// A limit that a setting is wanted for.
@@ -58,8 +55,23 @@ struct CaseResult {
     Metrics metrics;
     double seconds = 0;  ///< the whole case took, a new reference included
 
+    std::optional<double> metric(const std::string& name_of_it) const {
+        const auto found = metrics.find(name_of_it);
+        return found == metrics.end() ? std::nullopt : std::optional(found->second);
+    }
     std::string family() const { return family_name(method, substeps, iterations); }
     bool operator==(const CaseResult&) const = default;
+
+    template <class Self>
+    static void members(Self& self, const auto& see) {
+        see("name", self.name), see("key", self.key), see("problem", self.problem), see("size", self.size);
+        see("method", self.method), see("substeps", self.substeps), see("iterations", self.iterations);
+        see("diverged", self.diverged), see("metrics", self.metrics), see("seconds", self.seconds);
+        see("passes_per_frame", self.passes), see("stiffness_share", self.stiffness_share);
+        see("device_ms_per_frame", self.device.median), see("device_ms_least", self.device.least);
+        see("device_ms_spread", self.device.spread), see("wall_ms_per_frame", self.wall.median);
+        see("wall_ms_least", self.wall.least), see("wall_ms_spread", self.wall.spread);
+    }
 };
 
 /// The time that a case goes by: the device's, or the wall's where the device has no timestamps or claims more than

@@ -14,8 +14,8 @@ namespace {
 constexpr double position_floor = 5e-5;  // m; below it single precision is allowed its own error
 constexpr double two_digits = 1.05;      // the tables round to two digits
 
-/// Of the sheets, at the same passes (explicit: 2.6 N, the fewest that soften nothing): RMS stretch, and
-/// position error at 0.25 and 0.5 s.
+/// What the prototype keeps on a sheet at the same passes (explicit: 2.6 N, the fewest that soften nothing): RMS
+/// stretch, and position error at 0.25 and 0.5 s.
 struct TableRow {
     const char* name;
     double stretch, early, late;
@@ -32,7 +32,7 @@ constexpr TableRow table_rows[] = {
     {"drape/256/relax/80", 0.030, 0.071, 0.13},     {"drape/64/explicit/167", 1.8e-3, 6e-7, 3e-4},
     {"drape/256/explicit/668", 1.9e-3, 1e-5, 1e-3}};
 
-/// Of every case whose name starts so, up to a number of substeps.
+/// A limit of every case whose name starts so, up to a number of substeps.
 struct GeneralLimit {
     const char* prefix;
     std::uint32_t most_substeps;
@@ -62,35 +62,49 @@ constexpr GeneralLimit general_limits[] = {
     {"cantilever", 1000000, "ratio_error", 0.1}};
 
 void add_check(const CaseResult& result, const char* metric, double limit, std::vector<LimitCheck>& checks) {
-    if (const auto found = result.metrics.find(metric); found != result.metrics.end())
-        checks.push_back({result.name, metric, limit, found->second});
+    if (const auto value = result.metric(metric)) checks.push_back({result.name, metric, limit, *value});
 }
 
 using Group = std::map<std::string, std::vector<const CaseResult*>>;  ///< results by family
 
 Soonest soonest_of(const std::vector<const CaseResult*>& results, const Target& target) {
-    Soonest best{results[0]->problem,
-                 results[0]->size,
-                 target.metric,
-                 target.limit,
-                 results[0]->family(),
-                 {},
-                 INFINITY,
-                 INFINITY,
-                 0,
-                 0,
-                 0};
+    Soonest best{results[0]->problem, results[0]->size, target.metric, target.limit, results[0]->family()};
     for (const CaseResult* result : results) {
-        const auto metric = result->metrics.find(target.metric);
-        if (metric == result->metrics.end() || metric->second > target.limit) continue;
+        const std::optional<double> measured = result->metric(target.metric);
+        if (!measured || *measured > target.limit) continue;
         if (!best.name.empty() && result->passes >= best.passes) continue;
         best.name = result->name;
         best.milliseconds = case_milliseconds(*result);
         best.passes = result->passes;
-        best.measured = metric->second;
+        best.measured = *measured;
     }
-    if (best.name.empty()) best.milliseconds = best.passes = 0;
     return best;
+}
+
+/// What `auto` does again only the wall's clock sees, so that its rivals are held against the same clock.
+double wall_milliseconds(const CaseResult& result) {
+    return result.wall.median > 0 ? result.wall.median : result.device.median;
+}
+
+double variable_of(const OrderClaim& claim, const CaseResult& result) {
+    return claim.variable == OrderClaim::Variable::size ? result.size : result.substeps;
+}
+
+/// Variable and value of the cases that a claim is about, by growing variable.
+std::vector<std::array<double, 2>> points_of(const OrderClaim& claim, std::span<const CaseResult> results) {
+    std::map<double, const CaseResult*> chosen;
+    for (const CaseResult& result : results) {
+        const std::optional<double> value = result.metric(claim.metric);
+        if (result.problem != claim.problem || result.family() != claim.family || !value) continue;
+        if (claim.variable != OrderClaim::Variable::size && result.size != claim.size) continue;
+        if (variable_of(claim, result) < claim.least_variable) continue;
+        if (!(std::abs(*value) >= claim.floor && std::abs(*value) <= claim.ceiling)) continue;
+        const CaseResult*& best = chosen[variable_of(claim, result)];
+        if (!best || result.substeps > best->substeps) best = &result;
+    }
+    std::vector<std::array<double, 2>> points;
+    for (const auto& [variable, result] : chosen) points.push_back({variable, result->metrics.at(claim.metric)});
+    return points;
 }
 
 }  // namespace
@@ -129,23 +143,13 @@ std::vector<LimitCheck> check_limits(std::span<const CaseResult> results) {
     return checks;
 }
 
-namespace {
-
-/// What auto does again only the wall's clock sees, so that its rivals are held against the same clock.
-double wall_milliseconds(const CaseResult& result) {
-    return result.wall.median > 0 ? result.wall.median : result.device.median;
-}
-
-}  // namespace
-
 std::vector<AutoRatio> auto_ratios(std::span<const CaseResult> results) {
     std::vector<AutoRatio> ratios;
     for (const CaseResult& chosen : results) {
         if (chosen.method != SolverMethod::automatic) continue;
-        const auto asked = chosen.metrics.find("tolerance");
         AutoRatio ratio{chosen.problem,
                         chosen.size,
-                        asked == chosen.metrics.end() ? default_tolerance : asked->second,
+                        chosen.metric("tolerance").value_or(default_tolerance),
                         chosen.diverged ? INFINITY : chosen.metrics.at("worst_stretch_error"),
                         wall_milliseconds(chosen),
                         {},
@@ -185,6 +189,53 @@ std::vector<Soonest> find_soonest(std::span<const CaseResult> results,
             }
         }
     return all;
+}
+
+std::optional<double> log_slope(std::span<const std::array<double, 2>> points) {
+    double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
+    for (const auto& [x, y] : points) {
+        if (!(x > 0 && y > 0)) continue;
+        const double u = std::log(x), v = std::log(y);
+        ++n;
+        sum_x += u;
+        sum_y += v;
+        sum_xx += u * u;
+        sum_xy += u * v;
+    }
+    const double spread = n * sum_xx - sum_x * sum_x;
+    if (n < 2 || spread <= 1e-12 * n * sum_xx) return std::nullopt;
+    return (n * sum_xy - sum_x * sum_y) / spread;
+}
+
+std::vector<std::array<double, 2>> differences(std::span<const std::array<double, 2>> points) {
+    std::vector<std::array<double, 2>> result;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+        result.push_back({points[k][0], std::abs(points[k][1] - points[k + 1][1])});
+    return result;
+}
+
+std::optional<std::uint32_t> next_count(std::vector<SweepPoint> points) {
+    std::ranges::sort(points, {}, &SweepPoint::count);
+    const auto first = std::ranges::find(points, true, &SweepPoint::keeps);
+    if (first == points.end()) return std::nullopt;
+    const std::uint32_t high = first->count, low = first == points.begin() ? 0 : std::prev(first)->count;
+    if (high - low <= std::max(1u, high / 50)) return std::nullopt;
+    return low + (high - low) / 2;
+}
+
+std::vector<OrderFit> fit_orders(std::span<const OrderClaim> claims, std::span<const CaseResult> results) {
+    std::vector<OrderFit> fits;
+    for (const OrderClaim& claim : claims) {
+        OrderFit fit{claim, points_of(claim, results), 0, false};
+        if (fit.points.size() < 3) continue;
+        if (claim.kind == OrderClaim::Kind::differences) fit.points = differences(fit.points);
+        const std::optional<double> slope = log_slope(fit.points);
+        if (!slope) continue;
+        fit.slope = *slope;
+        fit.met = std::abs(fit.slope - claim.expected) <= claim.tolerance;
+        fits.push_back(std::move(fit));
+    }
+    return fits;
 }
 
 }  // namespace drape::bench

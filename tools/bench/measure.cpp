@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -28,10 +27,6 @@ constexpr int measuring_version = 4;
 constexpr int repetition_count = 5;
 constexpr double repetition_seconds = 0.6;   // about as long is measured at a time
 constexpr std::uint32_t warm_up_frames = 2;  // compile shaders, fill caches
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 SceneDescription scene_of(const Problem& problem, std::uint32_t size, const Setting& setting) {
     SceneDescription scene = problem.scene(size, setting);
@@ -93,7 +88,7 @@ RecordedRun record(const Device& device, const Problem& problem, const SceneDesc
     RecordedRun run;
     const std::uint32_t last = scene.time.frame_count - 1;
     const auto wanted = [&](std::uint32_t frame) { return frame == last || frame % problem.record_every == 0; };
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const auto finished = [&](const FinishedFrame& frame) {
         Sample sample{frame.frame, {}, joined(frame.statistics), frame.effort};
         run.diverged = run.diverged || sample.statistics.non_finite_count > 0;
@@ -105,7 +100,7 @@ RecordedRun record(const Device& device, const Problem& problem, const SceneDesc
     };
     const bool complete = simulation.run(last, wanted, finished, [&] { return run.diverged || stop(); });
     if (!complete && !run.diverged) throw Stopped{};
-    run.wall_ms = 1000 * seconds_since(start) / std::max(last, 1u);
+    run.wall_ms = 1000 * watch.seconds() / std::max(last, 1u);
     return run;
 }
 
@@ -131,16 +126,16 @@ void measure_time(const Device& device, const SceneDescription& scene, const std
     for (int repetition = 0; repetition < (is_long ? 2 : repetition_count); ++repetition) {
         Simulation simulation(scene, options, device);
         std::vector<double> device_ms;
-        Clock::time_point start{};
+        Stopwatch watch;
         const bool complete = simulation.run(
             frames + warm_up_frames, [](std::uint32_t frame) { return frame > 0; },
             [&](const FinishedFrame& frame) {
-                if (frame.frame == warm_up_frames) start = Clock::now();
+                if (frame.frame == warm_up_frames) watch = Stopwatch();
                 if (frame.frame > warm_up_frames) device_ms.push_back(simulate_ms(frame.timings));
             },
             stop);
         if (!complete) throw Stopped{};
-        on_wall.push_back(1000 * seconds_since(start) / frames);
+        on_wall.push_back(1000 * watch.seconds() / frames);
         on_device.push_back(typical(device_ms, frames_differ));
     }
     result.device = timing_of(on_device);
@@ -269,7 +264,7 @@ double case_work(const DeviceInfo& device, const Problem& problem, std::uint32_t
 
 CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t size, const Setting& setting,
                     References& references, const std::function<bool()>& stop) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const SimulationModel model = model_of(device.info(), problem, size, setting);
     CaseResult result;
     result.name = case_name(problem, size, setting);
@@ -298,7 +293,7 @@ CaseResult run_case(const Device& device, const Problem& problem, std::uint32_t 
         for (const auto& [name, value] : result.metrics) result.diverged = result.diverged || !std::isfinite(value);
         if (result.diverged) result.metrics.clear();
     }
-    result.seconds = seconds_since(start);
+    result.seconds = watch.seconds();
     return result;
 }
 

@@ -4,17 +4,14 @@
 #include <functional>
 #include <string>
 
+#include "bench/bench_run.h"
 #include "bench/problem.h"
-#include "drape/device.h"
 
 namespace drape::bench {
 
-/// Thrown when `stop` said so.
-struct Stopped {};
-
-/// Of the program itself: what `auto` decides is in it, and changes without a new version.
+/// A hash of the program itself, which changes without a new version where what `auto` decides does.
 const std::string& program_hash();
-/// Of all shader modules.
+/// A hash of all shader modules.
 std::string shaders_hash();
 
 /// "swing/64/relax/20"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "bench/bench_case.h"
 #include "bench/references.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/method.h"
 #include "drape/simulation.h"
 
 namespace drape::bench {
@@ -61,7 +63,7 @@ struct Problem {
 
 /// The order in which `metric` falls as a problem is refined, fitted over the cases of one family.
 struct OrderClaim {
-    enum class Variable { substeps, iterations, size };
+    enum class Variable { substeps, size };
     enum class Kind {
         errors,      ///< slope of log metric against log variable
         differences  ///< of the metric's differences between neighbours, whose variable doubles: for values,
@@ -81,13 +83,31 @@ struct OrderClaim {
 
 /// Every problem with its sweeps: the full benchmark's, or the short one's.
 std::vector<Problem> all_problems(bool is_short);
-/// What theory says about them.
+/// The orders of convergence that theory gives them.
 std::vector<OrderClaim> order_claims();
+
+// --- Sweeps: how coarse, how fine, in what steps
+
+/// Settings of one iteration per substep.
+std::vector<Setting> substep_settings(SolverMethod method, std::initializer_list<std::uint32_t> substeps);
+/// Settings of one substep and many iterations.
+std::vector<Setting> slides_settings(std::initializer_list<std::uint32_t> iterations);
+/// Explicit micro-steps, `per_link` times the number of links per frame; from 2.61 on nothing is softened at
+/// wave speed 100 m/s and 60 frames/s.
+std::vector<Setting> explicit_settings(std::uint32_t links, std::initializer_list<double> per_link);
+
+/// The method's own sweep (cloth/method.h) for `links` links along the cloth.
+std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, bool quick);
+
+/// The sweeps of every method and `auto`, for `links` links over 1 m. Relaxation needs very many substeps for the
+/// position error that the others reach: those cases take longest and have a priority of their own.
+std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority);
+/// The same in a few settings.
+std::vector<Sweep> short_sweeps(std::uint32_t links, int priority);
 
 // One function per group of rows; all_problems joins them.
 std::vector<Problem> flight_problems(bool is_short);  ///< falls, incline, momentum
 std::vector<Problem> chain_problems(bool is_short);  ///< pendulum, chain modes, catenary, law of the column, cantilever
-std::vector<Problem> random_problems(bool is_short);  ///< what `auto` chooses
-std::vector<Problem> sheet_problems(bool is_short);   ///< swing, drum, drape, strip, hanging sheet, energy
+std::vector<Problem> sheet_problems(bool is_short);  ///< swing, drum, drape, strip, hanging sheet, energy
 
 }  // namespace drape::bench

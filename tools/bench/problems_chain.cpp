@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "bench/problem.h"
-#include "bench/sheet_sweeps.h"
 #include "reference/closed_forms.h"
 #include "reference/model_scenes.h"
 
@@ -17,8 +16,6 @@ namespace drape::bench {
 namespace {
 
 using namespace model_scenes;
-
-constexpr double gravity = 9.81;
 
 /// Times (in samples) at which a sampled signal crosses zero, by the cubic through the four samples around.
 std::vector<double> zero_crossings(std::span<const double> signal) {

@@ -1,7 +1,7 @@
 // Rows without springs at work: flight, the incline, momentum. Exact to rounding at every number of substeps.
 #include <cmath>
 
-#include "bench/sheet_sweeps.h"
+#include "bench/problem.h"
 #include "reference/closed_forms.h"
 #include "reference/model_scenes.h"
 
@@ -10,8 +10,6 @@ namespace drape::bench {
 namespace {
 
 using namespace model_scenes;
-
-constexpr double gravity = 9.81;
 
 std::vector<Sweep> every_method(std::uint32_t size, std::initializer_list<std::uint32_t> counts) {
     std::vector<Sweep> sweeps;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bench/problem.h"
-#include "bench/sheet_sweeps.h"
 #include "reference/model_scenes.h"
 
 namespace drape::bench {

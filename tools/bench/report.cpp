@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "bench/result_json.h"
 #include "output/json_text.h"
 
 namespace drape::bench {
@@ -16,15 +15,7 @@ namespace drape::bench {
 namespace {
 
 std::string variable_name(const OrderClaim& claim) {
-    switch (claim.variable) {
-        case OrderClaim::Variable::substeps:
-            return "substeps";
-        case OrderClaim::Variable::iterations:
-            return "iterations";
-        case OrderClaim::Variable::size:
-            break;
-    }
-    return "N";
+    return claim.variable == OrderClaim::Variable::size ? "N" : "substeps";
 }
 
 std::string order_subject(const OrderClaim& claim) {
@@ -56,13 +47,8 @@ std::vector<Column> columns_of(const Problem& problem, const std::vector<const C
     return columns;
 }
 
-std::optional<double> metric_of(const CaseResult& result, const std::string& name) {
-    const auto found = result.metrics.find(name);
-    return found == result.metrics.end() ? std::nullopt : std::optional(found->second);
-}
-
 bool below_reference(const Problem& problem, const CaseResult& result) {
-    const std::optional<double> error = metric_of(result, problem.metric), own = metric_of(result, "reference_error");
+    const std::optional<double> error = result.metric(problem.metric), own = result.metric("reference_error");
     return error && own && *error < *own;
 }
 
@@ -71,7 +57,7 @@ std::string case_row(const Problem& problem, const CaseResult& result, const std
     std::string text = fmt::format("{:<34}{:>9}{:>11.3f}{:>11.3f}", result.name, passes_text(result.passes),
                                    result.device.median, result.wall.median);
     for (const Column& column : columns) {
-        const std::optional<double> value = metric_of(result, column.metric);
+        const std::optional<double> value = result.metric(column.metric);
         text += fmt::format("{:>13}", value                                          ? number(*value)
                                       : result.diverged && &column == columns.data() ? "diverged"
                                                                                      : "-");
@@ -109,13 +95,13 @@ std::string problem_table(const Problem& problem, const Report& report) {
     return text;
 }
 
-/// Of all families, the one that meets each target of a user's scene soonest.
+/// The setting of any family that meets each target of a user's scene soonest.
 std::string cheapest_text(const Report& report, const Problem& problem) {
     std::string text = "\nCheapest measured setting for a wanted error\n";
     double own_error = 0;
     for (const CaseResult& result : report.results)
         if (result.problem == problem.name)
-            own_error = std::max(own_error, metric_of(result, "reference_error").value_or(0));
+            own_error = std::max(own_error, result.metric("reference_error").value_or(0));
     for (const Target& target : problem.targets) {
         const Soonest* best = nullptr;
         for (const Soonest& s : report.soonest)
@@ -187,14 +173,13 @@ std::string auto_text(const Report& report) {
     return text;
 }
 
-Json::Value json_of(const AutoRatio& ratio) {
-    Json::Value value(Json::objectValue);
-    value["problem"] = ratio.problem;
-    value["size"] = ratio.size;
-    if (std::isfinite(ratio.worst_error)) value["worst_stretch_error"] = ratio.worst_error;  // nothing: diverged
-    value["tolerance"] = ratio.tolerance;
-    value["kept"] = ratio.met();
-    value["ms_per_frame"] = ratio.milliseconds;
+Json::Value ratio_json(const AutoRatio& ratio) {
+    Json::Value value = json_object({{"problem", ratio.problem},
+                                     {"size", ratio.size},
+                                     {"tolerance", ratio.tolerance},
+                                     {"kept", ratio.met()},
+                                     {"ms_per_frame", ratio.milliseconds}});
+    if (std::isfinite(ratio.worst_error)) value["worst_stretch_error"] = ratio.worst_error;  // else it diverged
     if (ratio.best.empty()) return value;
     value["soonest"] = ratio.best;
     value["soonest_ms_per_frame"] = ratio.best_milliseconds;
@@ -202,46 +187,37 @@ Json::Value json_of(const AutoRatio& ratio) {
     return value;
 }
 
-Json::Value json_of(const OrderFit& fit) {
-    Json::Value value(Json::objectValue);
-    value["problem"] = fit.claim.problem;
-    value["family"] = fit.claim.family;
-    value["metric"] = fit.claim.metric;
-    value["variable"] = variable_name(fit.claim);
-    if (fit.claim.size) value["size"] = fit.claim.size;
-    value["of_differences"] = fit.claim.kind == OrderClaim::Kind::differences;
-    value["slope"] = fit.slope;
-    value["expected"] = fit.claim.expected;
-    value["tolerance"] = fit.claim.tolerance;
-    value["met"] = fit.met;
-    value["points"] = Json::Value(Json::arrayValue);
-    for (const auto& [x, y] : fit.points) {
-        Json::Value point(Json::arrayValue);
-        point.append(x);
-        point.append(y);
-        value["points"].append(point);
-    }
+Json::Value fit_json(const OrderFit& fit) {
+    const OrderClaim& claim = fit.claim;
+    Json::Value value = json_object({{"problem", claim.problem},
+                                     {"family", claim.family},
+                                     {"metric", claim.metric},
+                                     {"variable", variable_name(claim)},
+                                     {"of_differences", claim.kind == OrderClaim::Kind::differences},
+                                     {"slope", fit.slope},
+                                     {"expected", claim.expected},
+                                     {"tolerance", claim.tolerance},
+                                     {"met", fit.met},
+                                     {"points", points_json(fit.points)}});
+    if (claim.size) value["size"] = claim.size;
     return value;
 }
 
-Json::Value json_of(const LimitCheck& check) {
-    Json::Value value(Json::objectValue);
-    value["case"] = check.name;
-    value["metric"] = check.metric;
-    value["limit"] = check.limit;
-    value["measured"] = check.measured;
-    value["met"] = check.met();
-    return value;
+Json::Value limit_json(const LimitCheck& check) {
+    return json_object({{"case", check.name},
+                        {"metric", check.metric},
+                        {"limit", check.limit},
+                        {"measured", check.measured},
+                        {"met", check.met()}});
 }
 
-Json::Value json_of(const Soonest& soonest) {
-    Json::Value value(Json::objectValue);
-    value["problem"] = soonest.problem;
-    value["size"] = soonest.size;
-    value["metric"] = soonest.metric;
-    value["limit"] = soonest.limit;
-    value["family"] = soonest.family;
-    value["meets"] = !soonest.name.empty();
+Json::Value soonest_json(const Soonest& soonest) {
+    Json::Value value = json_object({{"problem", soonest.problem},
+                                     {"size", soonest.size},
+                                     {"metric", soonest.metric},
+                                     {"limit", soonest.limit},
+                                     {"family", soonest.family},
+                                     {"meets", !soonest.name.empty()}});
     if (soonest.name.empty()) return value;
     value["case"] = soonest.name;
     value["ms_per_frame"] = soonest.milliseconds;
@@ -250,13 +226,6 @@ Json::Value json_of(const Soonest& soonest) {
     if (soonest.passes_ratio > 0) value["relax_passes_over_these"] = soonest.passes_ratio;
     if (soonest.time_ratio > 0) value["relax_time_over_this"] = soonest.time_ratio;
     return value;
-}
-
-template <class T>
-Json::Value json_list(const std::vector<T>& items) {
-    Json::Value list(Json::arrayValue);
-    for (const T& item : items) list.append(json_of(item));
-    return list;
 }
 
 }  // namespace
@@ -278,8 +247,7 @@ std::size_t missed_count(const Report& report) {
 }
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems) {
-    std::string text =
-        fmt::format("drape {} on {} ({}), {}\n", report.program_version, report.device, report.driver, report.created);
+    std::string text = fmt::format("{}, {}\n", report.text(), report.created);
     if (!report.complete) text += "The budget of time left cases out.\n";
     for (const Problem& problem : problems) text += problem_table(problem, report);
     text += orders_text(report) + limits_text(report) + soonest_text(report) + auto_text(report);
@@ -289,47 +257,47 @@ std::string report_text(const Report& report, const std::vector<Problem>& proble
 }
 
 std::string report_json(const Report& report) {
-    Json::Value value(Json::objectValue);
-    value["format"] = "drape bench accuracy 1";
-    value["program_version"] = report.program_version;
-    value["created"] = report.created;
-    value["device"] = report.device;
-    value["driver"] = report.driver;
-    value["short"] = report.is_short;
-    value["complete"] = report.complete;
+    Json::Value value = report.json("drape bench accuracy 1");
     value["compared_with"] = Json::Value(Json::objectValue);
     for (const auto& [problem, note] : report.notes) value["compared_with"][problem] = note;
-    value["results"] = json_list(report.results);
-    value["orders"] = json_list(report.orders);
-    value["limits"] = json_list(report.limits);
-    value["soonest"] = json_list(report.soonest);
-    value["auto"] = json_list(report.auto_ratios);
+    value["results"] = json_array(report.results, json_of<CaseResult>);
+    value["orders"] = json_array(report.orders, fit_json);
+    value["limits"] = json_array(report.limits, limit_json);
+    value["soonest"] = json_array(report.soonest, soonest_json);
+    value["auto"] = json_array(report.auto_ratios, ratio_json);
     return json_text(value);
 }
 
 std::string report_csv(const Report& report) {
+    std::vector<std::string> columns{"case",
+                                     "problem",
+                                     "size",
+                                     "method",
+                                     "substeps",
+                                     "iterations",
+                                     "passes_per_frame",
+                                     "stiffness_share",
+                                     "device_ms_per_frame",
+                                     "device_ms_least",
+                                     "device_ms_spread",
+                                     "wall_ms_per_frame",
+                                     "wall_ms_least",
+                                     "wall_ms_spread",
+                                     "time_doubtful",
+                                     "diverged"};
     std::set<std::string> metrics;
-    for (const CaseResult& result : report.results)
-        for (const auto& [name, value] : result.metrics) metrics.insert(name);
-    std::string text =
-        "case,problem,size,method,substeps,iterations,passes_per_frame,stiffness_share,"
-        "device_ms_per_frame,device_ms_least,device_ms_spread,wall_ms_per_frame,wall_ms_least,wall_ms_spread,"
-        "time_doubtful,diverged";
-    for (const std::string& name : metrics) text += "," + name;
-    text += "\n";
-    for (const CaseResult& r : report.results) {
-        text += fmt::format("{},{},{},{},{},{},{},{}", r.name, r.problem, r.size, named(r.method).name, r.substeps,
-                            r.iterations, r.passes, r.stiffness_share);
-        for (const Timing& timing : {r.device, r.wall})
-            text += fmt::format(",{},{},{}", timing.median, timing.least, timing.spread);
-        text += fmt::format(",{},{}", report.doubtful.contains(r.name) ? 1 : 0, r.diverged ? 1 : 0);
-        for (const std::string& name : metrics) {
-            const auto metric = r.metrics.find(name);
-            text += metric == r.metrics.end() ? "," : fmt::format(",{}", metric->second);
+    std::vector<Json::Value> rows;
+    for (const CaseResult& result : report.results) {
+        Json::Value& row = rows.emplace_back(json_of(result));
+        row["case"] = result.name;
+        row["time_doubtful"] = report.doubtful.contains(result.name);
+        for (const auto& [name, value] : result.metrics) {
+            row[name] = value;
+            metrics.insert(name);
         }
-        text += "\n";
     }
-    return text;
+    columns.insert(columns.end(), metrics.begin(), metrics.end());
+    return csv_table(rows, columns);
 }
 
 }  // namespace drape::bench

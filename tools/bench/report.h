@@ -6,17 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "bench/bench_run.h"
 #include "bench/claims.h"
-#include "bench/fit.h"
-#include "bench/plot.h"
+#include "plot/plot.h"
 
 namespace drape::bench {
 
-struct Report {
-    std::string program_version, created;  ///< UTC
-    std::string device, driver;            ///< driver with its version
-    bool is_short = false;
-    bool complete = true;  ///< false: the budget of time left cases out
+struct Report : ReportHead {
     std::vector<CaseResult> results{};
     std::map<std::string, std::string> notes{};            ///< by problem: what it is compared with
     std::map<std::string, std::vector<Target>> targets{};  ///< by problem: errors wanted soonest
@@ -30,7 +26,7 @@ struct Report {
 /// Orders, limits and ratios of the results that the report holds.
 void evaluate(Report& report);
 
-/// Of those, the orders and limits that are not met and the scenes where `auto` did not keep its tolerance.
+/// How many orders and limits are not met and on how many scenes `auto` did not keep its tolerance.
 std::size_t missed_count(const Report& report);
 
 std::string report_text(const Report& report, const std::vector<Problem>& problems);
@@ -39,6 +35,6 @@ std::string report_json(const Report& report);
 std::string report_csv(const Report& report);
 /// File names and plots: per timed problem and size the errors against time and against passes; for the
 /// others the error against substeps or size. Only of what has two points or more.
-std::vector<std::pair<std::string, LogPlot>> report_plots(const Report& report, const std::vector<Problem>& problems);
+plot::Plots report_plots(const Report& report, const std::vector<Problem>& problems);
 
 }  // namespace drape::bench

@@ -8,102 +8,52 @@
 #include <filesystem>
 
 #include "bench/measure.h"
-#include "bench/sheet_sweeps.h"
-#include "cloth/directions.h"
-#include "cloth/grid.h"
 #include "cloth/solver_choice.h"
 #include "output/atomic_file.h"
+#include "reference/spring_network.h"
 #include "run/run.h"
+#include "scene/vectors.h"
 
 namespace drape::bench {
 
 namespace {
 
-/// What positions are turned into, beside their difference: cloth by cloth, in the samples' order.
-class SceneMeasures {
-  public:
-    explicit SceneMeasures(const SceneDescription& scene) {
-        std::size_t first = 0;
-        for (const Cloth& cloth : scene.cloths) {
-            const Grid grid(cloth.grid[0], cloth.grid[1], cloth.holes);
-            add_masses(cloth, grid);
-            add_springs(cloth, grid, first);
-            first += grid.particle_count();
-        }
-    }
-
-    Vec3 center(std::span<const Vec3> position) const {
-        Vec3 sum{};
-        double mass = 0;
-        for (std::size_t p = 0; p < position.size(); ++p) {
-            mass += mass_[p];
-            for (std::size_t k = 0; k < 3; ++k) sum[k] += mass_[p] * position[p][k];
-        }
-        for (double& x : sum) x /= mass;
-        return sum;
-    }
-
-    /// RMS over the stretch springs.
-    double strain(std::span<const Vec3> x) const {
-        double sum = 0;
-        for (const Spring& spring : springs_) {
-            const Vec3 &a = x[spring.first], &b = x[spring.second];
-            const double strain = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / spring.rest_length - 1;
-            sum += strain * strain;
-        }
-        return std::sqrt(sum / std::max<double>(static_cast<double>(springs_.size()), 1));
-    }
-
-  private:
-    struct Spring {
-        std::size_t first, second;
-        double rest_length;
-    };
-
-    void add_masses(const Cloth& cloth, const Grid& grid) {
-        const double inner =
-            cloth.areal_density * cloth.size[0] / (cloth.grid[0] - 1) * cloth.size[1] / (cloth.grid[1] - 1);
-        for (std::uint32_t row = 0; row < grid.rows(); ++row)
-            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-                const auto inverse = static_cast<double>(grid.relative_inverse_mass(column, row));
-                mass_.push_back(inverse > 0 ? inner / inverse : 0);
-            }
-    }
-
-    void add_springs(const Cloth& cloth, const Grid& grid, std::size_t first) {
-        for (std::uint32_t row = 0; row < grid.rows(); ++row)
-            for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-                const glsl::vec4 share = grid.spring_shares(column, row);
-                const std::size_t here = first + grid.particle(column, row);
-                if (share.x > 0) springs_.push_back({here, here + 1, cloth.size[0] / (cloth.grid[0] - 1)});
-                if (share.y > 0) springs_.push_back({here, here + grid.columns(), cloth.size[1] / (cloth.grid[1] - 1)});
-            }
-    }
-
-    std::vector<double> mass_;
-    std::vector<Spring> springs_;
-};
-
-double largest_side(const SceneDescription& scene) {
-    double side = 0;
-    for (const Cloth& cloth : scene.cloths) side = std::max({side, cloth.size[0], cloth.size[1]});
-    return side;
+/// The networks of all cloths, for their masses and stretch springs: colliders, bending and stiffness do not matter.
+std::vector<SpringNetwork> networks_of(SceneDescription scene) {
+    std::vector<SpringNetwork> networks;
+    for (Cloth& cloth : scene.cloths) cloth.stiffness.rigid = false, cloth.stiffness.bend = 0;
+    for (std::size_t k = 0; k < scene.cloths.size(); ++k)
+        networks.emplace_back(scene, k, NetworkOptions{.ignore_colliders = true});
+    return networks;
 }
 
-std::uint32_t largest_links(const SceneDescription& scene) {
-    std::uint32_t links = 1;
-    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
-    return links;
+Vec3 center(const std::vector<SpringNetwork>& networks, std::span<const Vec3> position) {
+    Vec3 sum{};
+    double all = 0;
+    auto at = position.begin();
+    for (const SpringNetwork& network : networks)
+        for (const double mass : network.mass) {
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += mass * (*at)[k];
+            all += mass;
+            ++at;
+        }
+    return {sum[0] / all, sum[1] / all, sum[2] / all};
 }
 
-double squared_distance(const Vec3& a, const Vec3& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sum;
+/// RMS over the stretch springs.
+double strain(const std::vector<SpringNetwork>& networks, std::span<const Vec3> position) {
+    double squares = 0, count = 0;
+    for (const SpringNetwork& network : networks) {
+        const NetworkStrain one = network.strain(position.first(network.mass.size()), SpringFamily::stretch);
+        squares += one.rms * one.rms * static_cast<double>(one.count);
+        count += static_cast<double>(one.count);
+        position = position.subspan(network.mass.size());
+    }
+    return std::sqrt(squares / std::max(count, 1.0));
 }
 
 Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
-    const SceneMeasures measures(run.scene);
+    const std::vector<SpringNetwork> networks = networks_of(run.scene);
     const std::size_t agreeing = agreeing_count(reference, agreement_share * largest_side(run.scene));
     const auto frames = static_cast<double>(reference.times.size());
     Metrics m{{"position_rms", 0},  {"worst_position", 0},      {"center_error", 0}, {"stretch_rms", 0},
@@ -117,12 +67,13 @@ Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
             m["position_rms"] += rms / static_cast<double>(agreeing);
             m["worst_position"] = std::max(m["worst_position"], rms);
         }
-        m["center_error"] += squared_distance(measures.center(sample.position), measures.center(exact)) / frames;
+        const Vec3 apart = minus(center(networks, sample.position), center(networks, exact));
+        m["center_error"] += dot(apart, apart) / frames;
         m["stretch_rms"] += sample.statistics.stretch.rms / frames;
         m["stretch_error"] += sample.statistics.stretch_error_rms / frames;
         m["worst_stretch_error"] = std::max(m["worst_stretch_error"], sample.statistics.stretch_error_rms);
         m["worst_spring"] = std::max(m["worst_spring"], sample.statistics.stretch_error_max);
-        true_strain += measures.strain(exact) / frames;
+        true_strain += strain(networks, exact) / frames;
     }
     m["center_error"] = std::sqrt(m["center_error"]);
     if (run.scene.cutters.empty()) m["stretch_rms_reference"] = true_strain;
@@ -134,7 +85,7 @@ Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
     return m;
 }
 
-/// What the reference is, and how far it can be trusted.
+/// Lines on the reference, and on how far it can be trusted.
 std::string about_reference(const ReferenceRun& reference, double distance) {
     const std::size_t agreeing = agreeing_count(reference, distance), count = reference.times.size();
     std::string text = fmt::format("Reference: {}\n", reference.method);
@@ -173,6 +124,18 @@ std::string row_name(const std::string& path) {
 }
 
 }  // namespace
+
+double largest_side(const SceneDescription& scene) {
+    double side = 0;
+    for (const Cloth& cloth : scene.cloths) side = std::max({side, cloth.size[0], cloth.size[1]});
+    return side;
+}
+
+std::uint32_t largest_links(const SceneDescription& scene) {
+    std::uint32_t links = 1;
+    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
+    return links;
+}
 
 UserScene read_user_scene(const std::string& path, const std::vector<std::string>& overrides, std::uint32_t frames) {
     SceneResult result = read_scene(path, overrides);

@@ -8,10 +8,42 @@
 #include <vector>
 
 #include "bench/problem.h"
-#include "bench/scene_reference.h"
-#include "drape/device.h"
+#include "drape/simulation.h"
+#include "reference/reference_run.h"
 
 namespace drape::bench {
+
+// --- The reference: refined runs on the device
+
+/// x y z of every particle of a frame, and the RMS distance of two frames' particles, m.
+std::vector<float> positions_of(const FinishedFrame& frame);
+double rms_between(const std::vector<float>& a, const std::vector<float>& b);
+
+/// The scene by a method with so many substeps of one iteration, without a tolerance.
+SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps);
+
+struct RefinementOptions {
+    double wanted_error = 1e-5;          ///< m: refine until the estimate is below
+    std::uint32_t most_substeps = 1280;  ///< per frame, of the finest run
+    std::function<void(const std::string&)> say;
+    ReferenceProgress progress;  ///< of one run; may throw to stop
+};
+
+/// The scene's frames after the first, by the method that converges best and with so many substeps that the estimate of
+/// its error is below what is wanted, or the most. Two methods are refined, `line` and `explicit` (where it can follow
+/// the stiffness), three runs each at doubled substeps; the better one goes on. The estimate of a frame is Richardson's
+/// from the last three runs, raised to what the other method's finest run is off beyond its own estimate. Velocities
+/// are zero. Throws Diverged when no method stays finite, DeviceError, and what `progress` throws.
+ReferenceRun refined_scene(const Device& device, const SceneDescription& scene, const RefinementOptions& options);
+
+/// Index behind the last time until which the two finest runs agree within `distance` (m, RMS): later positions of a
+/// chaotic motion mean nothing.
+std::size_t agreeing_count(const ReferenceRun& run, double distance);
+
+/// Over the frames [0, count): the mean of the estimates, m.
+double mean_error(const ReferenceRun& run, std::size_t count);
+
+// --- The problem
 
 struct UserScene {
     std::string path;  ///< for the row's name
@@ -22,6 +54,10 @@ struct UserScene {
 /// The scene of a file, of at most `frames` frames after the first (0: all). Throws SceneFailure, and UsageError when
 /// there is no frame after the first.
 UserScene read_user_scene(const std::string& path, const std::vector<std::string>& overrides, std::uint32_t frames);
+
+/// The longest side of any cloth, m, and the most links along one.
+double largest_side(const SceneDescription& scene);
+std::uint32_t largest_links(const SceneDescription& scene);
 
 /// Positions count until the two finest references are this share of the largest cloth's side apart.
 inline constexpr double agreement_share = 0.01;

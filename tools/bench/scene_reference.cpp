@@ -1,13 +1,11 @@
-#include "bench/scene_reference.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bench/scene_problem.h"
 #include "cloth/simulation_model.h"
-#include "drape/simulation.h"
 
 namespace drape::bench {
 
@@ -18,10 +16,7 @@ using Frames = std::vector<std::vector<float>>;  ///< per frame after the first:
 /// Nothing when it is no longer finite.
 std::optional<Frames> frames_of(const Device& device, SceneDescription scene, SolverMethod method,
                                 std::uint32_t substeps, const ReferenceProgress& progress) {
-    scene.solver.method = method;
-    scene.solver.substeps = substeps;
-    scene.solver.iterations = 1;
-    scene.solver.tolerance = 0;
+    scene = fixed(std::move(scene), method, substeps);
     scene.solver.strain_damping = 0;  // no part of the cloth
     Simulation simulation(scene, {}, device);
     Frames frames;
@@ -30,22 +25,13 @@ std::optional<Frames> frames_of(const Device& device, SceneDescription scene, So
         simulation.run(
             last, [](std::uint32_t frame) { return frame > 0; },
             [&](const FinishedFrame& frame) {
-                std::vector<float>& all = frames.emplace_back();
-                for (const std::span<const float> cloth : frame.positions)
-                    for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
-                        all.insert(all.end(), {cloth[i], cloth[i + 1], cloth[i + 2]});
+                frames.push_back(positions_of(frame));
                 progress(static_cast<double>(frame.frame) / last);
             });
     } catch (const Diverged&) {
         return std::nullopt;
     }
     return frames;
-}
-
-double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
-    return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.size()), 1));
 }
 
 double mean(const std::vector<double>& values) {
@@ -111,9 +97,7 @@ class Refinement {
 /// that is more than `most` or no substeps would do.
 std::optional<std::uint32_t> full_substeps(SceneDescription scene, SolverMethod method, std::uint32_t least,
                                            std::uint32_t most) {
-    scene.solver.method = method;
-    scene.solver.substeps = least;
-    scene.solver.iterations = 1;
+    scene = fixed(std::move(scene), method, least);
     scene.solver.strain_damping = 0;
     std::uint32_t enough = least;
     for (const Compromise& each : SimulationModel(scene).compromises()) {
@@ -129,7 +113,7 @@ std::vector<Refinement> candidates(const Device& device, const SceneDescription&
     std::vector<Refinement> all;
     for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps}) {
         std::optional<std::uint32_t> start = full_substeps(scene, method, coarsest, options.most_substeps / 4);
-        // What no allowed run of `line` follows is left out of the reference too: it is the last resort.
+        // Stiffness that no allowed run of `line` follows is left out of the reference too, as a last resort.
         if (!start && method == SolverMethod::line) {
             options.say("reference: no allowed substeps follow all of the scene's stiffness and bending");
             start = options.most_substeps / 4;
@@ -141,7 +125,8 @@ std::vector<Refinement> candidates(const Device& device, const SceneDescription&
     return all;
 }
 
-/// What the others' finest runs are off beyond their own estimates cannot be theirs.
+/// The best one's estimate, raised by what the others' finest runs are off beyond their own estimates: that cannot be
+/// theirs.
 std::vector<double> honest_estimate(const Refinement& best, const std::vector<Refinement>& all) {
     std::vector<double> estimate = best.estimate();
     for (const Refinement& other : all)
@@ -161,6 +146,28 @@ NetworkState state_of(const std::vector<float>& frame) {
 }
 
 }  // namespace
+
+std::vector<float> positions_of(const FinishedFrame& frame) {
+    std::vector<float> all;
+    for (const std::span<const float> cloth : frame.positions)
+        for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
+            all.insert(all.end(), {cloth[i], cloth[i + 1], cloth[i + 2]});
+    return all;
+}
+
+double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
+    return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.size()), 1));
+}
+
+SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
+    scene.solver.method = method;
+    scene.solver.substeps = substeps;
+    scene.solver.iterations = 1;
+    scene.solver.tolerance = 0;
+    return scene;
+}
 
 ReferenceRun refined_scene(const Device& device, const SceneDescription& scene, const RefinementOptions& options) {
     std::vector<Refinement> all = candidates(device, scene, options);

@@ -1,29 +1,17 @@
-#include "bench/speed.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <thread>
 
-#include "bench/measure.h"
+#include "bench/benchmarks.h"
 #include "bench/speed_measure.h"
 #include "bench/speed_report.h"
-#include "output/atomic_file.h"
-#include "output/manifest.h"
 #include "run/run.h"
 
 namespace drape::bench {
 
 namespace {
-
-std::vector<SpeedCase> chosen(const SpeedRequest& request) {
-    const CaseFilter filter(request.filter);
-    std::vector<SpeedCase> cases = request.tune ? kernel_cases(request.is_short) : speed_cases(request.is_short);
-    std::erase_if(cases, [&](const SpeedCase& each) { return !filter.accepts(each.name); });
-    if (cases.empty()) filter.refuse(request.tune ? "kernels/line/256" : "line/256");
-    return cases;
-}
 
 class SpeedRun {
   public:
@@ -32,40 +20,31 @@ class SpeedRun {
           cases_(std::move(cases)),
           effort_(request.is_short ? SpeedEffort{5, 0.03} : SpeedEffort{}),
           devices_(request),
-          budget_(request.budget_minutes, 1) {
-        for (const SpeedCase& each : cases_) budget_.left(speed_work(each, effort_));
+          loop_(request, request.budget_minutes, 1) {
+        for (const SpeedCase& each : cases_) loop_.plan(speed_work(each, effort_));
     }
 
     /// Throws Stopped.
-    void run(SpeedSummary& summary) {
-        for (std::size_t k = 0; k < cases_.size(); ++k) {
-            const double work = speed_work(cases_[k], effort_), before = budget_.spent();
-            budget_.left_out(work);
-            if (request_.stopped()) throw Stopped{};
-            if (!budget_.allows(work) || !measure(cases_[k])) {
-                ++summary.left_out_count;
-                continue;
-            }
-            budget_.done(work, budget_.spent() - before);
-            ++summary.measured_count;
-            request_.say(fmt::format("{}/{} {}: {:.1f} s, ETA {}", k + 1, cases_.size(), cases_[k].name,
-                                     budget_.spent() - before, duration_text(budget_.seconds_left())));
+    void run() {
+        for (const SpeedCase& each : cases_) {
+            if (!loop_.begin(speed_work(each, effort_))) continue;
+            if (measure(each))
+                loop_.done(speed_work(each, effort_), each.name);
+            else
+                loop_.leave_out();
         }
-        summary.validation_count = devices_.validation_count();
     }
 
-    SpeedReport report(bool complete) {
+    SpeedReport report() {
         const Device& device = devices_.of(scene_of({.size = 64}), true);
-        const DeviceInfo& info = device.info();
-        return {program_version(),
-                utc_timestamp(),
-                info.name,
-                info.driver + " " + info.driver_version,
-                static_cast<int>(std::thread::hardware_concurrency()),
-                device.copy_bandwidth(),
-                request_.is_short,
-                complete,
-                results_};
+        return {report_head(device.info(), request_.is_short, loop_.summary().left_out_count == 0),
+                static_cast<int>(std::thread::hardware_concurrency()), device.copy_bandwidth(), results_};
+    }
+
+    BenchSummary summary() const {
+        BenchSummary summary = loop_.summary();
+        summary.validation_count = devices_.validation_count();
+        return summary;
     }
 
   private:
@@ -105,29 +84,20 @@ class SpeedRun {
     std::vector<SpeedCase> cases_;
     SpeedEffort effort_;
     SpeedDevices devices_;
-    Budget budget_;
+    CaseLoop loop_;
     std::vector<SpeedResult> results_;
 };
 
 }  // namespace
 
-SpeedSummary run_speed(const SpeedRequest& request) {
-    SpeedRun run(request, chosen(request));
-    SpeedSummary summary;
-    try {
-        run.run(summary);
-    } catch (const Stopped&) {
-        summary.stopped = true;
-        return summary;
-    }
-    const SpeedReport report = run.report(summary.left_out_count == 0);
-    if (!request.json.empty()) write_file(request.json, speed_json(report));
-    if (!request.csv.empty()) write_file(request.csv, speed_csv(report));
-    if (!request.svg.empty()) {
-        make_folder(request.svg);
-        for (const auto& [name, plot] : speed_plots(report))
-            write_file(std::filesystem::path(request.svg) / name, svg_text(plot));
-    }
+BenchSummary run_speed(const SpeedRequest& request) {
+    SpeedRun run(request, CaseFilter(request.filter)
+                              .chosen(request.tune ? kernel_cases(request.is_short) : speed_cases(request.is_short),
+                                      request.tune ? "kernels/line/256" : "line/256"));
+    run.run();
+    const SpeedReport report = run.report();
+    BenchSummary summary = run.summary();
+    write_results(request, speed_json(report), speed_csv(report), plot::svg_of(speed_plots(report)));
     summary.text = speed_text(report);
     return summary;
 }

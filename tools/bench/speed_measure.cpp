@@ -17,7 +17,6 @@ namespace drape::bench {
 namespace {
 
 using Times = std::vector<double>;
-using Clock = std::chrono::steady_clock;
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
@@ -68,13 +67,13 @@ class DeviceSide {
                 stages[0].milliseconds += time.milliseconds;
             }
         };
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         last_ += count;
         const bool complete = simulation_.run(
             last_, [this](std::uint32_t frame) { return frame % every_ == 0; }, finished,
             [this] { return request_.stopped(); });
         if (!complete) throw Stopped{};
-        put("frame", std::chrono::duration<double, std::milli>(Clock::now() - start).count() / count);
+        put("frame", 1e3 * watch.seconds() / count);
         if (stages.size() == 1) return;
         for (const StageTime& stage : stages) put(stage.name, stage.milliseconds / count);
     }

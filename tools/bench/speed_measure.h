@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "bench/bench_request.h"
-#include "bench/speed_result.h"
+#include "bench/bench_run.h"
+#include "bench/speed_report.h"
 #include "drape/device.h"
 
 namespace drape::bench {

@@ -1,14 +1,48 @@
 #include "bench/speed_report.h"
 
 #include <fmt/format.h>
-#include <json/value.h>
 
 #include <algorithm>
 
-#include "output/json_text.h"
+#include "bench/claims.h"
 #include "solver/kernel_choice.h"
 
 namespace drape::bench {
+
+const SpeedTime* SpeedResult::find(const std::string& name) const {
+    const auto found = std::ranges::find(times, name, &SpeedTime::name);
+    return found == times.end() ? nullptr : &*found;
+}
+
+double SpeedResult::ratio(const std::string& name, const std::string& to) const {
+    const SpeedTime *above = find(name), *below = find(to);
+    return above && below && below->statistics.median > 0 ? above->statistics.median / below->statistics.median : 0;
+}
+
+std::vector<ScalingFit> fit_scaling(const std::vector<SpeedResult>& results) {
+    constexpr std::uint32_t least_size = 64;  // smaller cloths pay for dispatches
+    std::vector<ScalingFit> fits;
+    for (const SpeedResult& result : results) {
+        const SpeedCase& about = result.about;
+        if (about.kind != SpeedKind::solve || about.colliders > 0) continue;
+        const bool of_cloths = about.cloths > 1;
+        if (!of_cloths && about.size < least_size) continue;
+        for (const SpeedTime& time : result.times) {
+            const auto same = [&](const ScalingFit& fit) { return fit.group == about.group && fit.time == time.name; };
+            auto fit = std::ranges::find_if(fits, same);
+            if (fit == fits.end())
+                fit = fits.insert(fits.end(), {about.group, time.name, of_cloths ? "cloths" : "particles", {}});
+            fit->points.push_back(
+                {of_cloths ? about.cloths : about.particles(), time.statistics.median / about.substeps()});
+        }
+    }
+    std::erase_if(fits, [](ScalingFit& fit) {
+        const std::optional<double> slope = log_slope(fit.points);
+        fit.exponent = slope.value_or(0);
+        return fit.points.size() < 3 || !slope;
+    });
+    return fits;
+}
 
 namespace {
 
@@ -31,7 +65,7 @@ bool is_doubtful(const SpeedResult& result) { return std::ranges::any_of(result.
 
 const char* mark(const SpeedResult& result) { return is_doubtful(result) ? "  time doubtful" : ""; }
 
-/// Of a solver case, per second of the device's time, or the frame's where that is not known.
+/// An amount of a solver case per second of the device's time, or of the frame's where that is not known.
 double rate(const SpeedResult& result, double amount) {
     const SpeedTime* time = result.find(result.find("device") ? "device" : "frame");
     return time && time->statistics.median > 0 ? amount / (1e-3 * time->statistics.median) : 0;
@@ -63,7 +97,7 @@ std::string solver_table(const SpeedReport& report) {
     return any ? text : std::string();
 }
 
-/// Of pictures and starts: every time by its name.
+/// Every time of pictures or starts by its name.
 std::string parts_table(const SpeedReport& report, SpeedKind kind, const char* head) {
     std::string text;
     for (const SpeedResult& r : report.results) {
@@ -127,62 +161,62 @@ const char* kind_name(SpeedKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-Json::Value json_of(const SpeedResult& result) {
-    Json::Value value(Json::objectValue);
-    const SpeedCase& about = result.about;
-    value["case"] = about.name;
-    value["kind"] = kind_name(about.kind);
-    if (!result.note.empty()) value[about.kind == SpeedKind::kernels ? "taken" : "skipped"] = result.note;
-    if (about.kind != SpeedKind::skip) {
-        value["method"] = std::string(named(about.method).name);
-        value["particles"] = about.particles();
-        value["substeps_per_frame"] = about.substeps();
-        value["cloths"] = about.cloths;
-        value["colliders"] = about.colliders;
-    }
-    if (result.bytes > 0) value["bytes_per_frame"] = result.bytes;
-    if (result.flops > 0) value["flops_per_frame"] = result.flops;
-    for (const SpeedTime& time : result.times) {
-        Json::Value& entry = value["ms"][time.name];
-        const profile::Statistics& s = time.statistics;
-        for (const auto& [name, number] :
-             {std::pair{"min", s.minimum}, {"median", s.median}, {"p95", s.p95}, {"iqr_over_median", s.spread}})
-            entry[name] = number;
-        entry["doubtful"] = time.doubtful();
-        const double ratio = result.ratio("frame", time.name);
-        if (time.name != "frame" && ratio > 0) entry["frame_over_this"] = ratio;
-    }
+/// The case and how much it works.
+Json::Value about_json(const SpeedCase& about) {
+    return json_object({{"case", about.name},
+                        {"kind", kind_name(about.kind)},
+                        {"method", std::string(named(about.method).name)},
+                        {"particles", about.particles()},
+                        {"substeps_per_frame", about.substeps()},
+                        {"cloths", about.cloths},
+                        {"colliders", about.colliders}});
+}
+
+Json::Value time_json(const SpeedResult& result, const SpeedTime& time) {
+    const profile::Statistics& s = time.statistics;
+    Json::Value value = json_object({{"min", s.minimum},
+                                     {"median", s.median},
+                                     {"p95", s.p95},
+                                     {"iqr_over_median", s.spread},
+                                     {"doubtful", time.doubtful()}});
+    const double ratio = result.ratio("frame", time.name);
+    if (time.name != "frame" && ratio > 0) value["frame_over_this"] = ratio;
     return value;
 }
 
-Json::Value json_of(const ScalingFit& fit) {
-    Json::Value value(Json::objectValue);
-    value["group"] = fit.group;
-    value["time"] = fit.time;
-    value["variable"] = fit.variable;
-    value["exponent"] = fit.exponent;
-    for (const auto& [x, y] : fit.points) {
-        Json::Value point(Json::arrayValue);
-        point.append(x);
-        point.append(y);
-        value["ms_per_substep"].append(point);
-    }
+Json::Value result_json(const SpeedResult& result) {
+    Json::Value value = about_json(result.about);
+    if (result.about.kind == SpeedKind::skip)
+        for (const char* name : {"method", "particles", "substeps_per_frame", "cloths", "colliders"})
+            value.removeMember(name);
+    if (!result.note.empty()) value[result.about.kind == SpeedKind::kernels ? "taken" : "skipped"] = result.note;
+    if (result.bytes > 0) value["bytes_per_frame"] = result.bytes;
+    if (result.flops > 0) value["flops_per_frame"] = result.flops;
+    for (const SpeedTime& time : result.times) value["ms"][time.name] = time_json(result, time);
     return value;
+}
+
+Json::Value scaling_json(const ScalingFit& fit) {
+    return json_object({{"group", fit.group},
+                        {"time", fit.time},
+                        {"variable", fit.variable},
+                        {"exponent", fit.exponent},
+                        {"ms_per_substep", points_json(fit.points)}});
 }
 
 /// Points of one time of a group.
-PlotSeries series_of(const std::vector<const SpeedResult*>& group, const char* time, const std::string& name,
+plot::Curve curve_of(const std::vector<const SpeedResult*>& group, const char* time, const std::string& name,
                      bool per_particle) {
-    PlotSeries series{name, {}, {}};
+    plot::Curve curve{name};
     for (const SpeedResult* r : group) {
         const SpeedTime* found = r->find(time);
         if (!found) continue;
         const double ms = per_substep(*r, time);
-        series.points.push_back(per_particle ? std::array{r->about.particles(), 1e6 * ms / r->about.particles()}
-                                             : std::array{double(r->about.variable), ms});
-        series.doubtful.push_back(found->doubtful());
+        curve.points.push_back(per_particle ? std::array{r->about.particles(), 1e6 * ms / r->about.particles()}
+                                            : std::array{double(r->about.variable), ms});
+        curve.doubtful.push_back(found->doubtful());
     }
-    return series;
+    return curve;
 }
 
 std::string file_name(const std::string& group) {
@@ -195,8 +229,7 @@ std::string file_name(const std::string& group) {
 }  // namespace
 
 std::string speed_text(const SpeedReport& report) {
-    std::string text = fmt::format("drape {} on {} ({}), {} cores, {}\n", report.program_version, report.device,
-                                   report.driver, report.cores, report.created);
+    std::string text = fmt::format("{}, {} cores, {}\n", report.text(), report.cores, report.created);
     if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
     if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
     return text + solver_table(report) + kernel_table(report) + fit_table(report) +
@@ -205,40 +238,31 @@ std::string speed_text(const SpeedReport& report) {
 }
 
 std::string speed_json(const SpeedReport& report) {
-    Json::Value value(Json::objectValue);
-    value["format"] = "drape bench speed 1";
-    value["program_version"] = report.program_version;
-    value["created"] = report.created;
-    value["device"] = report.device;
-    value["driver"] = report.driver;
+    Json::Value value = report.json("drape bench speed 1");
     value["cores"] = report.cores;
     if (report.copy_bandwidth > 0) value["copy_bytes_per_second"] = report.copy_bandwidth;
-    value["short"] = report.is_short;
-    value["complete"] = report.complete;
-    value["cases"] = value["scaling"] = Json::Value(Json::arrayValue);
-    for (const SpeedResult& result : report.results) value["cases"].append(json_of(result));
-    for (const ScalingFit& fit : fit_scaling(report.results)) value["scaling"].append(json_of(fit));
+    value["cases"] = json_array(report.results, result_json);
+    value["scaling"] = json_array(fit_scaling(report.results), scaling_json);
     return json_text(value);
 }
 
 std::string speed_csv(const SpeedReport& report) {
-    std::string text =
-        "case,kind,particles,substeps,cloths,colliders,time,min_ms,median_ms,p95_ms,iqr_over_median,doubtful,"
-        "frame_over_this\n";
-    for (const SpeedResult& r : report.results)
-        for (const SpeedTime& time : r.times) {
+    std::vector<Json::Value> rows;
+    for (const SpeedResult& result : report.results)
+        for (const SpeedTime& time : result.times) {
             const profile::Statistics& s = time.statistics;
-            text += fmt::format("{},{},{},{},{},{},\"{}\",{:.6g},{:.6g},{:.6g},{:.4g},{},", r.about.name,
-                                kind_name(r.about.kind), r.about.particles(), r.about.substeps(), r.about.cloths,
-                                r.about.colliders, time.name, s.minimum, s.median, s.p95, s.spread,
-                                time.doubtful() ? 1 : 0);
-            const double ratio = r.ratio("frame", time.name);
-            text += (ratio > 0 ? fmt::format("{:.4g}", ratio) : "") + "\n";
+            Json::Value& row = rows.emplace_back(about_json(result.about));
+            row["substeps"] = result.about.substeps();
+            row["time"] = time.name;
+            row["min_ms"] = s.minimum, row["median_ms"] = s.median, row["p95_ms"] = s.p95;
+            row["iqr_over_median"] = s.spread, row["doubtful"] = time.doubtful();
+            if (const double ratio = result.ratio("frame", time.name); ratio > 0) row["frame_over_this"] = ratio;
         }
-    return text;
+    return csv_table(rows, {"case", "kind", "particles", "substeps", "cloths", "colliders", "time", "min_ms",
+                            "median_ms", "p95_ms", "iqr_over_median", "doubtful", "frame_over_this"});
 }
 
-std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& report) {
+plot::Plots speed_plots(const SpeedReport& report) {
     std::vector<std::pair<std::string, std::vector<const SpeedResult*>>> groups;
     for (const SpeedResult& r : report.results) {
         if (r.about.kind != SpeedKind::solve) continue;
@@ -246,22 +270,19 @@ std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& repo
         if (group == groups.end()) group = groups.insert(groups.end(), {r.about.group, {}});
         group->second.push_back(&r);
     }
-    std::vector<std::pair<std::string, LogPlot>> plots;
+    plot::Plots plots;
     for (const auto& [name, group] : groups) {
         if (group.size() < 2) continue;
         const bool of_sheets = group[0]->about.cloths == 1 && group[0]->about.colliders == 0;
         const bool of_cloths = group[0]->about.cloths > 1;
-        LogPlot plot{"Speed: " + name,
-                     of_sheets   ? "particles"
-                     : of_cloths ? "cloths"
-                                 : "colliders",
-                     of_sheets ? "ns per particle and substep" : "ms per substep",
-                     {},
-                     {},
-                     {}};
-        plot.series.push_back(series_of(group, "frame", "Drape", of_sheets));
-        for (const Side& side : sides) plot.series.push_back(series_of(group, side.time, side.time, of_sheets));
-        std::erase_if(plot.series, [](const PlotSeries& series) { return series.points.empty(); });
+        plot::Plot plot{"Speed: " + name,
+                        of_sheets   ? "particles"
+                        : of_cloths ? "cloths"
+                                    : "colliders",
+                        of_sheets ? "ns per particle and substep" : "ms per substep"};
+        plot.curves.push_back(curve_of(group, "frame", "Drape", of_sheets));
+        for (const Side& side : sides) plot.curves.push_back(curve_of(group, side.time, side.time, of_sheets));
+        std::erase_if(plot.curves, [](const plot::Curve& curve) { return curve.points.empty(); });
         plots.emplace_back(file_name(name), plot);
     }
     return plots;

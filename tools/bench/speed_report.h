@@ -1,22 +1,53 @@
-// The results of `drape bench speed` for people and programs.
+// The results of `drape bench speed`, for people and programs.
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "bench/plot.h"
-#include "bench/speed_result.h"
+#include "bench/bench_run.h"
+#include "bench/speed_case.h"
+#include "plot/plot.h"
+#include "profile/profile.h"
 
 namespace drape::bench {
 
-struct SpeedReport {
-    std::string program_version, created;  ///< UTC
-    std::string device, driver;            ///< driver with its version
+/// Times of a case by name, ms per frame but for starts, statistics of the means of rounds. Cases of a solver: "frame"
+/// (from one frame's end to the next), "device" (of those, the device's own time, where it has timestamps), "native"
+/// (the same arithmetic in C++ on all cores), "native, one core", "native, scalar" (on one core, compiled without
+/// vectors). Pictures: "frame" and the device's stages. Skips: "frame", "without". Kernels: "frame", as `auto` runs
+/// it, and each by its name. Starts, cold and warm: their parts.
+struct SpeedTime {
+    std::string name;
+    profile::Statistics statistics;
+    /// Its repetitions are too far apart: interquartile range over the median above 30 %.
+    bool doubtful() const { return statistics.spread > 0.3; }
+};
+
+struct SpeedResult {
+    SpeedCase about;
+    std::string note{};  ///< what is skipped; the kernels that were taken
+    std::vector<SpeedTime> times{};
+    double bytes = 0, flops = 0;  ///< of a frame, by what its passes declare; 0: not known
+
+    const SpeedTime* find(const std::string& name) const;
+    /// Median of one over that of another; 0 where there is none.
+    double ratio(const std::string& name, const std::string& to) const;
+};
+
+/// How a time grows over the cases of a group: t ~ x^exponent.
+struct ScalingFit {
+    std::string group, time, variable;  ///< variable: "particles", "cloths"
+    std::vector<std::array<double, 2>> points;
+    double exponent = 0;
+};
+
+/// For sheets the growth of ms per substep with the particles, from 64x64 on; for several cloths with their number.
+/// There are three points at least.
+std::vector<ScalingFit> fit_scaling(const std::vector<SpeedResult>& results);
+
+struct SpeedReport : ReportHead {
     int cores = 1;
     double copy_bandwidth = 0;  ///< bytes/s; 0: not known
-    bool is_short = false;
-    bool complete = true;  ///< false: cases were left out
     std::vector<SpeedResult> results{};
 };
 
@@ -26,6 +57,6 @@ std::string speed_json(const SpeedReport& report);
 std::string speed_csv(const SpeedReport& report);
 /// File names and plots: per group of sheets ns per particle and substep against particles, of cloths and colliders
 /// ms per substep against their number. Only of what has two points or more.
-std::vector<std::pair<std::string, LogPlot>> speed_plots(const SpeedReport& report);
+plot::Plots speed_plots(const SpeedReport& report);
 
 }  // namespace drape::bench

@@ -24,11 +24,8 @@ constexpr int most_rounds = 3;  // a cold start takes a second or two
 
 /// To frame 1, the first that is simulated, and the one after it.
 Parts start(const SpeedCase& speed_case, const BenchRequest& request) {
-    std::chrono::steady_clock::time_point before = std::chrono::steady_clock::now();
-    const auto lap = [&before] {
-        const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double, std::milli>(now - std::exchange(before, now)).count();
-    };
+    Stopwatch watch;
+    const auto lap = [&watch] { return 1e3 * std::exchange(watch, Stopwatch()).seconds(); };
     const SceneDescription scene = scene_of(speed_case);
     Parts parts{};
     const Device device(request.device, validation_if(request.validate));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/wild_scenes.h"
+#include "bench/random_scenes.h"
 #include "scene/random.h"
 #include "solver/kernel_choice.h"
 

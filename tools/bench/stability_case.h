@@ -44,7 +44,7 @@ struct StabilityCase {
     std::uint32_t frames = 0;                  ///< that are run at least
     std::uint32_t recovery = recovery_frames;  ///< how many more may pass until it has recovered
     std::uint32_t seed = 0, index = 0;
-    bool random = false;  ///< `index` of `seed`, of the generator of wild_scenes.h
+    bool random = false;  ///< `index` of `seed`, of wild_scene
 };
 
 /// What `drape simulate` takes to run the case on the base scene.

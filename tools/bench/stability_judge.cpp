@@ -19,13 +19,9 @@ namespace {
 
 constexpr double calm_energy = 1e-3;  ///< J/kg, that of 4 cm/s
 
-Vec3 sum(const Vec3& a, double factor, const Vec3& b) {
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
 void raise_to(Metrics& numbers, const char* name, double value) {
     double& number = numbers[name];
-    // What is not a number is the worst there can be.
+    // A value that is not a number is the worst there can be.
     number = value <= number ? number : std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
@@ -77,7 +73,7 @@ StabilityJudge::StabilityJudge(const SimulationModel& model) : model_(model) {
         for (std::size_t i = 0; i < cloth.position.size(); ++i) {
             const glsl::vec4& x = cloth.position[i];
             start.distance = std::max(start.distance, length({x.x, x.y, x.z}));
-            start.mean = sum(start.mean, shares[i], {x.x, x.y, x.z});
+            start.mean = plus(start.mean, times(shares[i], {x.x, x.y, x.z}));
             start.mass += shares[i];
             start.flies = start.flies && (x.w != 0 || shares[i] == 0);
             start.held = start.held || (x.w == 0 && shares[i] > 0);
@@ -107,7 +103,8 @@ double StabilityJudge::bound_of_distance(std::size_t index, double time, const C
     const Start& start = starts_[index];
     const double stretched = cloth.reach() * (1 + std::max(statistics.stretch.largest, 0.0));
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
-    // What moves may have strained the cloth, which flies when it is let go: at that share of the speed of waves.
+    // Pins and colliders that move may have strained the cloth, which flies when it is let go, at that share of the
+    // speed of waves.
     const double recoil = std::min(travel_ / start.shorter, std::max(start.strained, 1.0)) * start.wave;
     // Lift turns what the cloth moves by against the wind around, and takes nothing off: twice the wind's speed.
     const double speed = length(cloth.velocity) + start.strain_speed + recoil + (model_.windy ? 2 * wind : 0) + drive_;
@@ -123,7 +120,7 @@ void StabilityJudge::see(const FinishedFrame& frame) {
     if (frame.frame > 0) {
         for (const Collider& collider : model_.scene.colliders) {
             const Vec3 now = collider_pose(collider, time).center, then = collider_pose(collider, before).center;
-            travel_ += length(sum(now, -1, then));
+            travel_ += length(minus(now, then));
         }
         for (const ClothModel& cloth : model_.cloths)
             for (const DynamicPin& pin : cloth.dynamic_pins) {
@@ -131,7 +128,7 @@ void StabilityJudge::see(const FinishedFrame& frame) {
                 double turned = 0;
                 for (std::size_t k = 0; k < 9; ++k) turned += std::abs(now.rotation[k] - then.rotation[k]);
                 travel_ +=
-                    length(sum(now.translation, -1, then.translation)) + turned * (cloth.reach() + length(pin.pivot));
+                    length(minus(now.translation, then.translation)) + turned * (cloth.reach() + length(pin.pivot));
             }
         drive_ = std::max(drive_, (travel_ - travelled) * model_.scene.time.fps);
         steps_ += frame.effort.substeps;
@@ -155,7 +152,7 @@ void StabilityJudge::see_cloth(std::size_t index, const FinishedFrame& frame, do
             penetration_.back() = std::max(penetration_.back(), statistics.penetration.value_or(0) / start.edge);
     }
     raise_to(worst_, "mass", std::abs(statistics.mass / start.mass - 1));
-    // What resolves an overlap works on the cloth.
+    // Resolving an overlap works on the cloth.
     if (frame.frame == 0 && statistics.penetration.value_or(0) > 0) passive_ = false;
     if (passive_) {
         const double gained = statistics.kinetic_energy + statistics.potential_energy - start.energy;
@@ -188,7 +185,7 @@ void StabilityJudge::see_pins(const ClothModel& cloth, std::span<const float> po
         if (pin.release && time >= *pin.release - 1e-9) continue;
         const RigidTransform motion = pin_transform(pin, time);
         const Vec3 rest{pinned.rest.x, pinned.rest.y, pinned.rest.z};
-        const Vec3 wanted = sum(rotate(motion.rotation, rest), 1, motion.translation);
+        const Vec3 wanted = plus(rotate(motion.rotation, rest), motion.translation);
         // Rotations in single precision are about the origin: products as large as the coordinates are added up.
         off(particle, wanted,
             8 * (1 + length(rest) + length(pin.pivot) + length(motion.translation)) / std::max(length(wanted), 1e-3));

@@ -1,14 +1,11 @@
 #include "bench/stability_result.h"
 
 #include <fmt/format.h>
-#include <json/value.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "bench/result_json.h"
-#include "output/json_text.h"
+#include "plot/plot.h"
 
 namespace drape::bench {
 
@@ -16,26 +13,7 @@ namespace {
 
 constexpr std::size_t verdict_count = std::size(verdict_spellings);
 
-std::string text_of(const Json::Value& value, const char* name) { return value[name].asString(); }
-
-Json::Value json_of(const StabilityResult& result) {
-    Json::Value value(Json::objectValue);
-    value["name"] = result.name;
-    value["key"] = result.key;
-    value["verdict"] = std::string(spelling(verdict_spellings, result.verdict));
-    value["reason"] = result.reason;
-    value["garbage"] = result.garbage;
-    value["method"] = result.method;
-    value["numbers"] = Json::Value(Json::objectValue);
-    for (const auto& [name, number] : result.numbers)
-        if (std::isfinite(number))
-            value["numbers"][name] = number;
-        else
-            value["numbers"][name] = "infinite";
-    return value;
-}
-
-/// Of the cases of a kind: "single", "pair", ...
+/// A line on the cases of a kind: "single", "pair", ...
 std::string counts_text(const StabilityReport& report, const std::string& kind) {
     std::array<std::size_t, verdict_count> counts{};
     std::size_t all = 0, garbage = 0;
@@ -78,43 +56,17 @@ std::string singles_text(const StabilityReport& report) {
 
 }  // namespace
 
-std::string stability_line(const StabilityResult& result) { return json_line(json_of(result)); }
-
-std::optional<StabilityResult> parsed_stability(const std::string& line) try {
-    const Json::Value value = parsed_line(line);
-    if (!value.isObject() || !value.isMember("numbers")) return std::nullopt;
-    StabilityResult result{text_of(value, "name"),
-                           text_of(value, "key"),
-                           Verdict::fails,
-                           text_of(value, "reason"),
-                           text_of(value, "garbage"),
-                           text_of(value, "method"),
-                           {}};
-    const std::string verdict = text_of(value, "verdict");
-    const auto found = std::ranges::find(verdict_spellings, verdict, &Spelling<Verdict>::name);
-    if (found == std::end(verdict_spellings)) return std::nullopt;
-    result.verdict = found->value;
-    for (const std::string& name : value["numbers"].getMemberNames()) {
-        const Json::Value& number = value["numbers"][name];
-        result.numbers[name] = number.isNumeric() ? number.asDouble() : INFINITY;
-    }
-    return result;
-} catch (const Json::Exception&) {
-    return std::nullopt;
-}
-
 std::string shortfall(const StabilityCase& each, const StabilityResult& result) {
     if (!result.garbage.empty()) return "silent garbage: " + result.garbage;
     if (each.tier == Tier::refused && result.verdict != Verdict::refuses) return "not refused";
-    if (each.tier == Tier::accurate && result.verdict != Verdict::holds)
-        return fmt::format("{}: {}", spelling(verdict_spellings, result.verdict), result.reason);
-    if (each.tier == Tier::bounded && (result.verdict == Verdict::fails || result.verdict == Verdict::unsettled))
-        return fmt::format("{}: {}", spelling(verdict_spellings, result.verdict), result.reason);
-    return {};
+    const bool fails = result.verdict == Verdict::fails || result.verdict == Verdict::unsettled;
+    if (each.tier == Tier::accurate ? result.verdict == Verdict::holds : each.tier == Tier::refused || !fails)
+        return {};
+    return fmt::format("{}: {}", spelling(verdict_spellings, result.verdict), result.reason);
 }
 
 std::string stability_text(const StabilityReport& report) {
-    std::string text = fmt::format("drape {} on {}\n\n", report.program, report.device) + singles_text(report);
+    std::string text = report.text() + "\n\n" + singles_text(report);
     for (const char* kind : {"single", "pair", "mix", "random", "soak"}) text += counts_text(report, kind);
     std::string short_of;
     for (std::size_t k = 0; k < report.results.size(); ++k)
@@ -125,43 +77,94 @@ std::string stability_text(const StabilityReport& report) {
     return text;
 }
 
-std::string stability_json(const StabilityReport& report) {
-    Json::Value root(Json::objectValue);
-    root["program"] = report.program;
-    root["device"] = report.device;
-    root["base_scene"] = base_scene();
-    root["cases"] = Json::Value(Json::arrayValue);
+/// Everything about the cases as rows of JSON.
+std::vector<Json::Value> rows_of(const StabilityReport& report) {
+    std::vector<Json::Value> rows;
     for (std::size_t k = 0; k < report.results.size(); ++k) {
-        Json::Value value = json_of(report.results[k]);
-        value["tier"] = std::string(spelling(tier_spellings, report.cases[k].tier));
-        value["shortfall"] = shortfall(report.cases[k], report.results[k]);
-        value["set"] = Json::Value(Json::arrayValue);
-        if (!report.cases[k].random)
-            for (const std::string& each : overrides_of(report.cases[k])) value["set"].append(each);
-        root["cases"].append(value);
+        const StabilityCase& each = report.cases[k];
+        Json::Value& row = rows.emplace_back(json_of(report.results[k]));
+        row["tier"] = std::string(spelling(tier_spellings, each.tier));
+        row["shortfall"] = shortfall(each, report.results[k]);
+        row["set"] = member_json(each.random ? std::vector<std::string>() : overrides_of(each));
     }
+    return rows;
+}
+
+std::string stability_json(const StabilityReport& report) {
+    Json::Value root = report.json("drape bench stability 1");
+    root["base_scene"] = base_scene();
+    root["cases"] = json_array(rows_of(report), [](const Json::Value& row) { return row; });
     return json_text(root);
 }
 
 std::string stability_csv(const StabilityReport& report) {
-    constexpr const char* columns[] = {
-        "frames", "substeps_max", "non_finite",        "pins",        "distance",    "energy",      "mass",
-        "flight", "stretch",      "stretch_sustained", "stretch_end", "stretch_law", "penetration", "penetration_end",
-        "wall_s"};
-    std::string text = "name,tier,verdict";
-    for (const char* column : columns) text += fmt::format(",{}", column);
-    text += "\n";
-    for (std::size_t k = 0; k < report.results.size(); ++k) {
-        const StabilityResult& result = report.results[k];
-        text += fmt::format("\"{}\",{},{}", result.name, spelling(tier_spellings, report.cases[k].tier),
-                            spelling(verdict_spellings, result.verdict));
-        for (const char* column : columns) {
-            const auto found = result.numbers.find(column);
-            text += found == result.numbers.end() ? "," : fmt::format(",{:.6g}", found->second);
-        }
-        text += "\n";
+    std::vector<Json::Value> rows = rows_of(report);
+    for (Json::Value& row : rows)
+        for (const std::string& name : row["numbers"].getMemberNames()) row[name] = row["numbers"][name];
+    return csv_table(rows, {"name", "tier", "verdict", "frames", "substeps_max", "non_finite", "pins", "distance",
+                            "energy", "mass", "flight", "stretch", "stretch_sustained", "stretch_end", "stretch_law",
+                            "penetration", "penetration_end", "wall_s"});
+}
+
+namespace {
+
+struct Look {
+    const char *colour, *letter;
+};
+/// By Verdict; of Okabe and Ito's colours, which the colour-blind tell apart.
+constexpr Look looks[] = {{"#009E73", ""}, {"#56B4E9", ""}, {"#E69F00", "r"}, {"#CC79A7", "u"}, {"#000000", "x"}};
+static_assert(std::size(looks) == std::size(verdict_spellings));
+constexpr double square = 11, left = 150, top = 150;
+
+std::string rectangle(double x, double y, const Look& look, const std::string& title) {
+    std::string text =
+        fmt::format("<g><title>{}</title><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>",
+                    title, x, y, square - 1, square - 1, look.colour);
+    if (*look.letter)
+        text += plot::svg_text(x + 0.5 * (square - 1), y + 0.8 * square, look.letter,
+                               "text-anchor=\"middle\" fill=\"#ffffff\"");
+    return text + "</g>\n";
+}
+
+std::string legend(double x) {
+    std::string text;
+    for (std::size_t k = 0; k < std::size(looks); ++k) {
+        const double y = 20 + 16 * static_cast<double>(k);
+        text += rectangle(x, y, looks[k], std::string(verdict_spellings[k].name));
+        text += plot::svg_text(x + 16, y + 9, std::string(verdict_spellings[k].name));
     }
     return text;
+}
+
+}  // namespace
+
+std::string stability_map(const StabilityReport& report, SolverMethod method) {
+    std::vector<std::size_t> shown;  // refused ones have no pairs
+    for (std::size_t k = 0; k < extremes().size(); ++k)
+        if (extremes()[k].tier != Tier::refused) shown.push_back(k);
+    std::map<std::size_t, double> place;
+    for (std::size_t k = 0; k < shown.size(); ++k) place[shown[k]] = square * static_cast<double>(k);
+    const double side = square * static_cast<double>(shown.size());
+    const std::string title = fmt::format("Extremes alone and in pairs, method {}", named(method).name);
+    std::string text = plot::svg_begin(left + side + 20, top + side + 20, title, 9) +
+                       plot::svg_text(16, 20, title, "font-size=\"14\"");
+    text += legend(16 + left + 0.6 * side);
+    for (const auto& [index, at] : place) {
+        text += plot::svg_text(left - 4, top + at + 9, extremes()[index].name, "text-anchor=\"end\"");
+        text += fmt::format("<text transform=\"translate({} {}) rotate(-90)\">{}</text>\n", left + at + 9, top + at - 4,
+                            extremes()[index].name);
+    }
+    for (std::size_t k = 0; k < report.results.size(); ++k) {
+        const StabilityCase& each = report.cases[k];
+        const bool is_alone = each.name.starts_with("single/"), is_pair = each.name.starts_with("pair/");
+        if (each.method != method || !each.kernels.is_automatic() || !(is_alone || is_pair)) continue;
+        const auto x = place.find(each.extremes.front()), y = place.find(each.extremes.back());
+        if (x == place.end() || y == place.end()) continue;
+        const StabilityResult& result = report.results[k];
+        text += rectangle(left + x->second, top + y->second, looks[static_cast<std::size_t>(result.verdict)],
+                          fmt::format("{}: {}", each.name, spelling(verdict_spellings, result.verdict)));
+    }
+    return text + "</svg>\n";
 }
 
 }  // namespace drape::bench

@@ -1,12 +1,10 @@
-// What one case of the stability benchmark came to, as a line of a file and in the report.
+// The results of the stability benchmark, and its report.
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "bench/bench_case.h"
+#include "bench/bench_run.h"
 #include "bench/stability_case.h"
 
 namespace drape::bench {
@@ -23,6 +21,7 @@ inline constexpr Spelling<Verdict> verdict_spellings[] = {{"holds", Verdict::hol
                                                           {"refuses", Verdict::refuses},
                                                           {"unsettled", Verdict::unsettled},
                                                           {"fails", Verdict::fails}};
+constexpr const auto& spellings_of(Verdict) { return verdict_spellings; }
 
 struct StabilityResult {
     std::string name, key;
@@ -32,18 +31,19 @@ struct StabilityResult {
     std::string method;   ///< in use
     Metrics numbers;      ///< stability_judge.h, and wall_s
     bool operator==(const StabilityResult&) const = default;
+
+    template <class Self>
+    static void members(Self& self, const auto& see) {
+        see("name", self.name), see("key", self.key), see("verdict", self.verdict), see("reason", self.reason);
+        see("garbage", self.garbage), see("method", self.method), see("numbers", self.numbers);
+    }
 };
 
-/// One line of JSON, and back; nothing when it is not one.
-std::string stability_line(const StabilityResult& result);
-std::optional<StabilityResult> parsed_stability(const std::string& line);
-
-/// What is wrong with a case for its tier: A may not bend, B may not fail or stay unsettled, C must be refused. Empty:
+/// Why a case falls short of its tier: A may not bend, B may not fail or stay unsettled, C must be refused. Empty:
 /// nothing.
 std::string shortfall(const StabilityCase& each, const StabilityResult& result);
 
-struct StabilityReport {
-    std::string program, device;
+struct StabilityReport : ReportHead {
     std::vector<StabilityCase> cases;  ///< those that were run
     std::vector<StabilityResult> results;
 };

@@ -1,23 +1,19 @@
-#include "bench/trial_run.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "bench/measure.h"
 #include "bench/scene_problem.h"
+#include "bench/trial.h"
 #include "cloth/solver_choice.h"
 #include "drape/simulation.h"
 
 namespace drape::bench {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct TrialFrame {
     FrameEffort effort;
@@ -38,10 +34,7 @@ TrialFrame frame_of(const FinishedFrame& frame, bool with_positions) {
     const ClothStatistics all = joined(frame.statistics);
     result.stretch_error = all.stretch_error_rms;
     result.worst_spring = all.stretch_error_max;
-    if (with_positions)
-        for (const std::span<const float> cloth : frame.positions)
-            for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
-                result.positions.insert(result.positions.end(), {cloth[i], cloth[i + 1], cloth[i + 2]});
+    if (with_positions) result.positions = positions_of(frame);
     return result;
 }
 
@@ -54,10 +47,10 @@ TrialRun run(const Device& device, const SceneDescription& scene, bool with_posi
         options.positions = with_positions;
         Simulation simulation(scene, options, device);
         bool is_enough = false;
-        const auto start = Clock::now();
+        const Stopwatch watch;
         const auto finished = [&](const FinishedFrame& frame) {
             if (frame.frame > 0) result.frames.push_back(frame_of(frame, with_positions));
-            result.wall = std::chrono::duration<double>(Clock::now() - start).count();
+            result.wall = watch.seconds();
             is_enough = is_enough || (enough && enough(result));
         };
         const auto always = [](std::uint32_t) { return true; };
@@ -78,35 +71,14 @@ TrialRun run(const Device& device, const SceneDescription& scene, bool with_posi
     return result;
 }
 
-SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
-    scene.solver.method = method;
-    scene.solver.substeps = substeps;
-    scene.solver.iterations = 1;
-    scene.solver.tolerance = 0;
-    return scene;
-}
+double rms_between(const TrialFrame& a, const TrialFrame& b) { return bench::rms_between(a.positions, b.positions); }
 
-double rms_between(const TrialFrame& a, const TrialFrame& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.positions.size(); ++k) {
-        const double difference = static_cast<double>(a.positions[k]) - static_cast<double>(b.positions[k]);
-        sum += difference * difference;
-    }
-    return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.positions.size()), 1));
-}
-
-double size_of(const SceneDescription& scene) {
-    double size = 0;
-    for (const Cloth& cloth : scene.cloths) size = std::max({size, cloth.size[0], cloth.size[1]});
-    return size;
-}
-
-/// What `auto` promises of a scene.
+/// The errors that `auto` promises to keep.
 struct Limits {
     explicit Limits(const SceneDescription& scene)
         : stretch(or_default(scene.solver.tolerance, default_tolerance)),
           spring(or_default(scene.solver.tolerance_worst, default_tolerance_worst)),
-          motion(or_default(scene.solver.tolerance_motion, default_motion_share * size_of(scene))) {}
+          motion(or_default(scene.solver.tolerance_motion, default_motion_share * largest_side(scene))) {}
 
     bool keeps(const TrialFrame& frame) const { return frame.stretch_error <= stretch && frame.worst_spring <= spring; }
 
@@ -122,7 +94,7 @@ void count_frames(const TrialRun& run, const SceneDescription& scene, Metrics& n
     const Limits limits(scene);
     numbers = {{"frames", count},
                {"seconds", count / scene.time.fps},
-               {"size", size_of(scene)},
+               {"size", largest_side(scene)},
                {"tolerance", limits.stretch},
                {"worst_stretch_error", 0},
                {"worst_spring", 0},
@@ -238,8 +210,7 @@ double least_wall(const Device& device, const SceneDescription& scene, double wa
 void time_fixed(const Device& device, const SceneDescription& scene, const Reference& reference,
                 const std::function<bool()>& stop, TrialResult& result) {
     std::optional<SceneDescription> best;
-    std::uint32_t links = 1;
-    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
+    const std::uint32_t links = largest_links(scene);
     sweep(device, scene, SolverMethod::line, {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}, reference, stop, best,
           result);
     std::vector<std::uint32_t> counts;
@@ -274,6 +245,33 @@ bool is_impossible(const Device& device, const SceneDescription& scene, std::siz
 }
 
 }  // namespace
+
+std::vector<std::string> tags_of(const SceneDescription& scene) {
+    std::vector<std::string> tags;
+    const auto add = [&tags](bool has, const char* tag) {
+        if (has) tags.emplace_back(tag);
+    };
+    const auto any_cloth = [&](auto is) { return std::ranges::any_of(scene.cloths, is); };
+    const auto any_pin = [&](auto is) {
+        return any_cloth([&](const Cloth& cloth) { return std::ranges::any_of(cloth.pins, is); });
+    };
+    const auto moves = [](const auto& each) { return each.path.moves(); };
+    const auto longest = [](const Cloth& cloth) { return std::max(cloth.grid[0], cloth.grid[1]); };
+    add(scene.wind.blows(), "wind");
+    add(scene.gravity == Vec3{0, 0, 0}, "weightless");
+    add(any_pin([](const Pin& pin) { return pin.release.has_value(); }), "release");
+    add(any_pin(moves), "moving pins");
+    add(any_cloth([](const Cloth& cloth) { return cloth.pins.empty(); }), "no pins");
+    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.rigid; }), "rigid");
+    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.bend > 0; }), "bending");
+    add(!scene.colliders.empty(), "colliders");
+    add(std::ranges::any_of(scene.colliders, moves), "moving colliders");
+    add(!scene.cutters.empty(), "cutters");
+    add(scene.cloths.size() > 1, "several cloths");
+    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) <= 8; }), "at most 8 a side");
+    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) >= 64; }), "at least 64 a side");
+    return tags;
+}
 
 TrialResult try_scene(const Device& device, const SceneDescription& scene, bool with_reference,
                       const std::function<bool()>& stop) {

@@ -1,12 +1,12 @@
-#include "bench/wild_scenes.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "bench/random_scenes.h"
 #include "scene/random.h"
+#include "scene/vectors.h"
 
 namespace drape::bench {
 
@@ -29,11 +29,10 @@ class Dice {
         const double z = uniform(-1, 1), angle = uniform(0, 2 * pi), r = std::sqrt(1 - z * z);
         return {r * std::cos(angle), r * std::sin(angle), z};
     }
-    /// Of log-uniform length, in any direction.
+    /// A vector of log-uniform length, in any direction.
     Vec3 vector(double shortest, double longest) {
         const double length = log_uniform(shortest, longest);
-        const Vec3 way = direction();
-        return {length * way[0], length * way[1], length * way[2]};
+        return times(length, direction());
     }
     /// A unit vector that leans away from `way` by up to `most` of its length.
     Vec3 leaning(const Vec3& way, double most) {
@@ -50,16 +49,7 @@ class Dice {
     std::uint64_t state_;
 };
 
-Vec3 along(const Vec3& from, double distance, const Vec3& direction) {
-    return {from[0] + distance * direction[0], from[1] + distance * direction[1], from[2] + distance * direction[2]};
-}
-double inner(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 scaled(const Vec3& a, double factor) { return {factor * a[0], factor * a[1], factor * a[2]}; }
-Vec3 unit_of(const Vec3& a) { return scaled(a, 1 / std::sqrt(inner(a, a))); }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Vec3 along(const Vec3& from, double distance, const Vec3& way) { return plus(from, times(distance, way)); }
 
 double duration(const SceneDescription& scene) { return (scene.time.frame_count - 1) / scene.time.fps; }
 
@@ -94,7 +84,7 @@ void draw_fabric(Cloth& cloth, Dice& dice) {
 void draw_place(Cloth& cloth, std::size_t number, Dice& dice) {
     const Vec3 u = dice.direction();
     Vec3 other = dice.direction();
-    while (std::abs(inner(u, other)) > 0.9) other = dice.direction();
+    while (std::abs(dot(u, other)) > 0.9) other = dice.direction();
     // Three of ten hang straight down or lie flat.
     const double kind = dice.uniform(0, 1);
     if (kind < 0.15)
@@ -102,7 +92,7 @@ void draw_place(Cloth& cloth, std::size_t number, Dice& dice) {
     else if (kind < 0.3)
         cloth.placement = {{}, {1, 0, 0}, {0, 0, 1}};
     else
-        cloth.placement = {{}, u, unit_of(along(other, -inner(u, other), u))};
+        cloth.placement = {{}, u, unit_of(along(other, -dot(u, other), u))};
     const Vec3 middle = {6.0 * static_cast<double>(number), dice.uniform(-0.5, 2), 0};
     cloth.placement.origin =
         along(along(middle, -0.5 * cloth.size[0], cloth.placement.u), -0.5 * cloth.size[1], cloth.placement.v);
@@ -130,7 +120,7 @@ MotionPath draw_path(double seconds, double speed, Dice& dice) {
 
 /// By `share` of its length over `seconds`, then still.
 MotionPath pull(const Vec3& direction, double length, double share, double seconds) {
-    return {{{0, {}, {}}, {seconds, scaled(direction, share * length), {}}}};
+    return {{{0, {}, {}}, {seconds, times(share * length, direction), {}}}};
 }
 
 void pin_taut(Cloth& cloth, double seconds, Dice& dice) {
@@ -206,7 +196,7 @@ void draw_forces(SceneDescription& scene, Dice& dice) {
     scene.wind.velocity = dice.vector(0.5, 60);
     scene.wind.drag = dice.uniform(0.3, 2);
     scene.wind.lift = dice.uniform(0, 1);
-    const double speed = std::sqrt(inner(scene.wind.velocity, scene.wind.velocity));
+    const double speed = length(scene.wind.velocity);
     if (dice.chance(0.6))
         scene.wind.gust = {speed * dice.uniform(0.1, 0.8), dice.uniform(0.1, 3),
                            static_cast<std::uint32_t>(dice.next() >> 40)};
@@ -220,11 +210,10 @@ struct Ball {
 /// Around a collider of any kind but a plane, about its own centre.
 double bounding_radius(const ColliderShape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-    if (const auto* box = std::get_if<Box>(&shape)) return std::sqrt(inner(box->half_extents, box->half_extents));
+    if (const auto* box = std::get_if<Box>(&shape)) return length(box->half_extents);
     if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) return std::ranges::max(ellipsoid->radii);
     const auto& capsule = std::get<Capsule>(shape);
-    const Vec3 axis = along(capsule.to, -1, capsule.from);
-    return 0.5 * std::sqrt(inner(axis, axis)) + std::ranges::max(capsule.radii);
+    return 0.5 * length(minus(capsule.to, capsule.from)) + std::ranges::max(capsule.radii);
 }
 
 /// A shape about the origin.
@@ -243,9 +232,9 @@ ColliderShape draw_solid(double size, Dice& dice) {
         }
         default: {
             const double length = side();
-            const Vec3 half = scaled(dice.direction(), length);
+            const Vec3 half = times(length, dice.direction());
             const double from = 0.5 * side(), to = 0.5 * side();
-            return Capsule{scaled(half, -1), half, {from, to}};
+            return Capsule{times(-1, half), half, {from, to}};
         }
     }
 }
@@ -267,7 +256,7 @@ bool clear_of(const std::vector<Cloth>& cloths, const Ball& ball) {
                 const Vec3 apart = along(point_of(cloth, i / 16.0, j / 16.0), -1, ball.center);
                 // The points are up to a 32nd of the sides from everything between them.
                 const double room = ball.radius + 0.02 + cloth.thickness + (cloth.size[0] + cloth.size[1]) / 32;
-                if (inner(apart, apart) < room * room) return false;
+                if (dot(apart, apart) < room * room) return false;
             }
     return true;
 }
@@ -277,7 +266,7 @@ void add_plane(SceneDescription& scene, Dice& dice) {
     double lowest = 1e300;
     for (const Cloth& cloth : scene.cloths)
         for (const double s : {0.0, 1.0})
-            for (const double t : {0.0, 1.0}) lowest = std::min(lowest, inner(up, point_of(cloth, s, t)));
+            for (const double t : {0.0, 1.0}) lowest = std::min(lowest, dot(up, point_of(cloth, s, t)));
     Collider plane{Plane{up, lowest - dice.uniform(0.05, 0.6)}};
     plane.friction = dice.uniform(0, 1);
     scene.colliders.push_back(plane);
@@ -287,7 +276,7 @@ void add_plane(SceneDescription& scene, Dice& dice) {
 void add_solid(SceneDescription& scene, Dice& dice) {
     const Cloth& cloth = scene.cloths[dice.below(static_cast<std::uint32_t>(scene.cloths.size()))];
     Collider solid{draw_solid(dice.log_uniform(0.1, 0.6) * std::max(cloth.size[0], cloth.size[1]), dice)};
-    const bool falls = inner(scene.gravity, scene.gravity) > 0 && dice.chance(0.7);
+    const bool falls = dot(scene.gravity, scene.gravity) > 0 && dice.chance(0.7);
     const Vec3 way = falls ? dice.leaning(unit_of(scene.gravity), 0.5) : dice.direction();
     const double s = dice.uniform(0, 1), t = dice.uniform(0, 1);
     Ball ball{point_of(cloth, s, t), bounding_radius(solid.shape)};
@@ -308,7 +297,7 @@ void add_cutter(SceneDescription& scene, Dice& dice) {
     const Vec3 middle = point_of(cloth, s, t), normal = unit_of(cross(cloth.placement.u, cloth.placement.v));
     const double reach = dice.uniform(0.1, 0.6) * std::max(cloth.size[0], cloth.size[1]),
                  turn = dice.uniform(0, 2 * pi);
-    const Vec3 edge = along(scaled(cloth.placement.u, std::cos(turn)), std::sin(turn), cloth.placement.v);
+    const Vec3 edge = along(times(std::cos(turn), cloth.placement.u), std::sin(turn), cloth.placement.v);
     Cutter cutter;
     cutter.triangle = {along(along(middle, -reach, edge), -0.4 * reach, normal),
                        along(along(middle, reach, edge), -0.4 * reach, normal), along(middle, reach, normal)};
@@ -320,7 +309,7 @@ void add_cutter(SceneDescription& scene, Dice& dice) {
 
 }  // namespace
 
-SceneDescription wild_scene(std::uint64_t seed, std::uint32_t index) {
+SceneDescription wild_scene(std::uint32_t seed, std::uint32_t index) {
     Dice dice(seed, index);
     SceneDescription scene;
     scene.name = fmt::format("wild_{}_{}", seed, index);

@@ -1,45 +1,17 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdlib>
-
-#include "bench/accuracy.h"
+#include "bench/benchmarks.h"
 #include "commands/bench_options.h"
-#include "ending.h"
-#include "program.h"
-#include "streams.h"
 
 namespace drape::cli {
 
 namespace {
 
-ExitCode measure(bench::AccuracyRequest request) {
-    catch_signals();
-    request.stop = stop_requested;
-    request.message = print_message;
-    const bench::AccuracySummary summary = bench::run_accuracy(request);
-    if (summary.stopped)
-        return report_stop(
-            fmt::format("the finished cases are kept in {}; the same command goes on from there", request.folder));
-    print_data(summary.text);
-    if (!request.quiet)
-        print_message(fmt::format("{} cases measured, {} kept from before, {} left out by --budget",
-                                  summary.measured_count, summary.kept_count, summary.left_out_count));
-    if (summary.validation_count > 0) return report_validation(summary.validation_count);
-    if (summary.missed_count == 0) return ExitCode::ok;
-    print_error(fmt::format("{} of the benchmark's limits, orders and promises not met", summary.missed_count));
-    return ExitCode::comparison;
-}
-
 std::string set_errors(const std::string& text, std::vector<double>& errors) {
     std::vector<double> wanted;
+    const SetText take =
+        number("metres above 0, separated by commas", above_zero, 1e6, [&](double error) { wanted.push_back(error); });
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find(',', at), text.size());
-        const std::string part = text.substr(at, end - at);
-        char* rest = nullptr;
-        wanted.push_back(std::strtod(part.c_str(), &rest));
-        if (part.empty() || *rest != 0 || !(wanted.back() > 0 && wanted.back() < 1e6))
-            return "expected metres above 0, separated by commas, got '" + text + "'";
+        if (const std::string wrong = take(text.substr(at, end - at)); !wrong.empty()) return wrong;
         at = end + 1;
     }
     errors = wanted;
@@ -53,13 +25,13 @@ void add_user_scene_options(CLI::App& command, bench::AccuracyRequest& request) 
         request.scene);
     add_override_option(command, request.overrides);
     add_option(command, "--frames", "N", "Of SCENE: at most N frames after the first; default: all",
-               whole(1, [&request](std::uint32_t value) { request.frames = value; }));
+               whole(1, request.frames));
     add_option(command, "--error", "METRES,...",
                "Of SCENE: RMS position errors whose cheapest setting is wanted; default: 0.1,0.01,0.001,0.0001",
                [&request](const std::string& text) { return set_errors(text, request.errors); });
     add_option(command, "--reference-substeps", "N",
                "Of SCENE: substeps per frame of the finest reference, at most, and at least 16; default: 1280",
-               whole(16, [&request](std::uint32_t value) { request.reference_substeps = value; }));
+               whole(16, request.reference_substeps));
 }
 
 void add_options(CLI::App& command, bench::AccuracyRequest& request) {
@@ -102,7 +74,10 @@ Examples:
   drape bench accuracy --filter '^(swing|drum)/(64|128)/' --json out/swing.json
   drape bench accuracy --budget 120 --json accuracy.json --csv accuracy.csv
 )text",
-                                    [=] { return measure(*request); });
+                                    [=] {
+                                        return run_benchmark(*request, kept_in(request->folder),
+                                                             [=] { return bench::run_accuracy(*request); });
+                                    });
     add_options(command, *request);
 }
 

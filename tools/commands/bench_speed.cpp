@@ -1,33 +1,13 @@
-#include <fmt/format.h>
-
-#include "bench/speed.h"
+#include "bench/benchmarks.h"
 #include "commands/bench_options.h"
-#include "ending.h"
-#include "program.h"
-#include "streams.h"
 
 namespace drape::cli {
 
-namespace {
-
-ExitCode measure(bench::SpeedRequest request) {
-    catch_signals();
-    request.stop = stop_requested;
-    request.message = print_message;
-    const bench::SpeedSummary summary = bench::run_speed(request);
-    if (summary.stopped) return report_stop("nothing was written");
-    print_data(summary.text);
-    if (!request.quiet)
-        print_message(fmt::format("{} cases measured, {} left out", summary.measured_count, summary.left_out_count));
-    return summary.validation_count > 0 ? report_validation(summary.validation_count) : ExitCode::ok;
-}
-
-}  // namespace
-
 void add_bench_speed(Program& program) {
     const auto request = std::make_shared<bench::SpeedRequest>();
-    CLI::App& command = program.add("bench speed", "Drape's times over those of native C++ and of a memory copy",
-                                    R"text(
+    CLI::App& command = program.add(
+        "bench speed", "Drape's times over those of native C++ and of a memory copy",
+        R"text(
 Per substep of every solver: Drape's time, the device's share of it, and that of
 the same arithmetic, to the same bits, in C++ built for this processor: on all
 cores, on one, and on one without vectors. GB/s and GFLOP/s follow from what the
@@ -44,7 +24,7 @@ Examples:
   drape bench speed --tune --short
   drape bench speed --budget 20 --json out/speed.json --csv out/speed.csv
 )text",
-                                    [=] { return measure(*request); });
+        [=] { return run_benchmark(*request, "nothing was written", [=] { return bench::run_speed(*request); }); });
     add_flag(
         command, "--tune",
         "Measure instead every set of kernels (--kernels of render and simulate) that\nthe device can run, by method, "

@@ -1,39 +1,12 @@
-#include <fmt/format.h>
-
-#include "bench/stability.h"
+#include "bench/benchmarks.h"
 #include "commands/bench_options.h"
-#include "ending.h"
-#include "program.h"
-#include "streams.h"
 
 namespace drape::cli {
 
-namespace {
-
-ExitCode run(bench::StabilityRequest request) {
-    catch_signals();
-    request.stop = stop_requested;
-    request.message = print_message;
-    const bench::StabilitySummary summary = bench::run_stability(request);
-    if (summary.stopped)
-        return report_stop(
-            fmt::format("the finished cases are kept in {}; the same command goes on from there", request.folder));
-    print_data(summary.text);
-    if (!request.quiet)
-        print_message(fmt::format("{} cases run, {} kept from before, {} left out by --budget", summary.run_count,
-                                  summary.kept_count, summary.left_out_count));
-    if (summary.validation_count > 0) return report_validation(summary.validation_count);
-    if (summary.garbage_count == 0) return ExitCode::ok;
-    print_error(fmt::format("{} runs ended as done with what the judge calls garbage", summary.garbage_count));
-    return ExitCode::comparison;
-}
-
-}  // namespace
-
 void add_bench_stability(Program& program) {
     const auto request = std::make_shared<bench::StabilityRequest>();
-    CLI::App& command = program.add("bench stability",
-                                    "Where every method holds, bends, refuses: extremes, pairs, random scenes", R"text(
+    CLI::App& command = program.add(
+        "bench stability", "Where every method holds, bends, refuses: extremes, pairs, random scenes", R"text(
 Puts extremes on a small sheet: every one alone by every method and set of kernels,
 all pairs, drawn mixes of three to six; then random scenes and a long run. A
 judge that shares nothing with the program's own watch sees all frames: finite,
@@ -58,13 +31,14 @@ Examples:
   drape bench stability --filter '^single/start' --svg out/stability
   drape bench stability --filter '^random' --random 5000 -o out/random
 )text",
-                                    [=] { return run(*request); });
-    add_option(command, "--seed", "N", "Other mixes and random scenes; default: 1",
-               whole(0, [=](std::uint32_t value) { request->seed = value; }));
+        [=] {
+            return run_benchmark(*request, kept_in(request->folder), [=] { return bench::run_stability(*request); });
+        });
+    add_option(command, "--seed", "N", "Other mixes and random scenes; default: 1", whole(0, request->seed));
     add_option(command, "--mixes", "N", "How many drawn mixes; default: 1000, with --short 60",
-               whole(0, [=](std::uint32_t value) { request->mixes = value; }));
+               whole(0, request->mixes));
     add_option(command, "--random", "N", "How many random scenes; default: 500, with --short 10",
-               whole(0, [=](std::uint32_t value) { request->randoms = value; }));
+               whole(0, request->randoms));
     add_option(command, "-o,--folder", "DIR", "Where finished cases are kept; default: bench_stability",
                request->folder);
     add_case_options(command,

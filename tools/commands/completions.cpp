@@ -2,24 +2,24 @@
 
 #include "options.h"
 #include "program.h"
-#include "scene/nearest_word.h"
 #include "shell_words.h"
 #include "streams.h"
 
 namespace drape::cli {
 
 void add_completions(Program& program) {
-    const auto shell = std::make_shared<std::string>();
+    struct Options {
+        std::string shell;
+        std::vector<std::string> words;
+    };
+    const auto options = std::make_shared<Options>();
     const auto run = [=, &program] {
-        const std::vector<CommandText> commands = program.commands();
-        if (*shell == "bash")
-            print_data(bash_completion(commands));
-        else if (*shell == "zsh")
-            print_data(zsh_completion(commands));
-        else if (*shell == "fish")
-            print_data(fish_completion(commands));
-        else
-            throw UsageError(fmt::format("completions: expected bash, zsh or fish, got '{}'", *shell));
+        const bool is_asked = options->shell == "words";
+        const std::string text =
+            is_asked ? completions(program.commands(), options->words) : completion_script(options->shell);
+        if (text.empty() && !is_asked)
+            throw UsageError(fmt::format("completions: expected bash, zsh or fish, got '{}'", options->shell));
+        print_data(text);
         return ExitCode::ok;
     };
     CLI::App& command = program.add("completions", "Print the completion script of a shell: bash, zsh or fish", R"text(
@@ -29,7 +29,8 @@ Examples:
   drape completions fish > ~/.config/fish/completions/drape.fish
 )text",
                                     run);
-    add_required_file(command, "SHELL", "bash, zsh or fish", *shell);
+    add_required_file(command, "SHELL", "bash, zsh or fish; the scripts ask for `words`", options->shell);
+    add_word_list(command, "WORD", "With `words`: what stands after `drape`; the last is completed", options->words);
 }
 
 }  // namespace drape::cli

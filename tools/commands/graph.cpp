@@ -37,13 +37,9 @@ Examples:
     add_scene_options(command, options->scene);
     command.get_option("SCENE")->required(false);
     add_image_options(command, options->scene);
-    add_option(command, "--format", "text|json|dot", "dot is for Graphviz; default: text",
-               [=](const std::string& text) {
-                   if (text != "text" && text != "json" && text != "dot")
-                       return "expected text, json or dot, got '" + text + "'";
-                   options->format = text;
-                   return std::string();
-               });
+    const std::vector<std::string> formats{"text", "json", "dot"};
+    add_choice(command, "--format", formats, "dot is for Graphviz; default: text",
+               [=](std::size_t place) { options->format = formats[place]; });
     add_flag(command, "--steps", "What the shader of every step reads and writes, as Markdown; needs no SCENE",
              options->steps);
     add_flag(command, "--simulate", "As `drape simulate` runs it: nothing is drawn", options->simulate);

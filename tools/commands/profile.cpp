@@ -54,10 +54,9 @@ Examples:
                                     [=] { return run(*options); });
     add_scene_options(command, options->request.scene);
     add_image_options(command, options->request.scene);
-    add_option(command, "-n,--frames", "N", "Frames to measure; default: 60",
-               whole(1, [=](std::uint32_t value) { options->request.frame_count = value; }));
+    add_option(command, "-n,--frames", "N", "Frames to measure; default: 60", whole(1, options->request.frame_count));
     add_option(command, "--warm-up", "N", "Frames before them, not measured; default: 5",
-               whole(1, [=](std::uint32_t value) { options->request.warm_up = value; }));
+               whole(1, options->request.warm_up));
     add_flag(command, "--passes", "By pass; each timestamp costs about 10 us on a CPU", options->request.passes);
     add_flag(command, "--simulate", "As `drape simulate` runs it: nothing is drawn", options->simulate);
     add_option(command, "--json", "FILE", "Also as JSON shaped like Google Benchmark's, every frame a repetition",

@@ -51,9 +51,9 @@ Examples:
     add_optional_file(command, "OTHER", "Another, to stand beside it", options->other);
     add_option(command, "-o,--output", "FILE", "The page, or - for stdout; default: DIR/report.html", options->output);
     add_option(command, "--frames", "N", "Pictures in the page, at most; default: 60",
-               whole(1, [=](std::uint32_t value) { options->report.frames = value; }));
+               whole(1, options->report.frames));
     add_option(command, "--width", "PIXELS", "Width of its pictures, at most; default: 480",
-               whole(16, [=](std::uint32_t value) { options->report.width = value; }));
+               whole(16, options->report.width));
 }
 
 }  // namespace drape::cli

@@ -209,8 +209,7 @@ void add_sweep(Program& program) {
     add_option(command, "-o,--output", "DIR", "Folder for all runs, made when missing", options->output);
     add_option(command, "--index", "I,...", "Only these runs, here, one after the other: 7, 0-99 or 1,5,9-12",
                options->indices);
-    add_option(command, "--jobs", "N", "Processes at a time; default: one per core",
-               whole(1, [=](std::uint32_t value) { options->jobs = value; }));
+    add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
     add_format_option(command, "What each run writes; default: npz", options->formats);
     add_flag(command, "--dataset",
              "The layout of MeshGraphNets' flag_simple instead: dataset/meta.json and a trajectory per run",

@@ -1,4 +1,4 @@
-// What the processor does natively with the arithmetic of the simulation passes: the yardstick of `drape bench speed`.
+// The arithmetic of the simulation passes in native C++: the yardstick of `drape bench speed`.
 // Every number of a particle has an array of its own, so that compilers vectorise the loops over a row. They are the
 // shaders' own functions in the twin's order: the same bits (tests/native). One uniform, uncut cloth without wind and
 // bending; no other case needs a yardstick.

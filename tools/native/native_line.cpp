@@ -5,7 +5,7 @@ namespace drape::native {
 
 namespace {
 
-/// Of 16 lines.
+/// 16 lines of a sheet.
 struct Lines {
     const SheetView& sheet;
     const LinePush& push;
@@ -117,7 +117,7 @@ void eliminate(const Lines& lines, LineParticles* particles) {
     }
 }
 
-/// What the second system needs: the springs where the first one puts the particles.
+/// Leaves the springs as the first system moves the particles, which the second one needs.
 template <bool first_iteration>
 void move_particles(const Lines& lines, LineParticles* particles) {
     alignas(64) float after[3][line_lanes] = {}, moved_after[3][line_lanes] = {};

@@ -1,5 +1,5 @@
-// The shaders' functions for the native kernels, in each file's own namespace (see native_kernels.h), and the kernels
-// of the variant that is being compiled: NATIVE_VARIANT is vector or scalar.
+// The shaders' functions for the native kernels, in each file's own namespace (see native_kernels.h). NATIVE_VARIANT is
+// the variant that is being compiled, vector or scalar.
 #pragma once
 
 #include "native_kernels.h"
@@ -53,14 +53,6 @@ SHARED void step_particle(const SheetView& sheet, std::ptrdiff_t at, vec3 displa
 
 namespace NATIVE_VARIANT {
 
-void prepare_explicit(const SheetView& sheet, const ExplicitPush& push, bool advance, Rows rows,
-                      const ExplicitScratch& scratch);
-void explicit_rows(const SheetView& sheet, const ExplicitPush& push, bool advance, Rows rows,
-                   const ExplicitScratch& scratch);
-void force_rows(const SheetView& sheet, const ForcePush& push, bool advance, Rows rows);
-void predict_rows(const SheetView& sheet, const PredictPush& push, bool advance, bool is_bdf2, Rows rows);
-void advance_rows(const SheetView& sheet, Rows rows);
-void spring_rows(const SheetView& sheet, const SpringPush& push, Rows rows);
 std::uint32_t solve_lines(const SheetView& sheet, const LinePush& push, bool first_iteration, bool is_bdf2, int first,
                           int last, LineParticles* scratch);
 

@@ -9,7 +9,7 @@
 
 #include "output/json_text.h"
 #include "output/xml_text.h"
-#include "report/curve_plot.h"
+#include "plot/plot.h"
 
 namespace drape::report {
 
@@ -202,71 +202,58 @@ std::string pictures(const RunFolder& run, std::size_t id, const ReportOptions& 
     return html + "</div>\n";
 }
 
-/// The largest over the cloths of what ends so; nothing where no cloth has it.
-Curve curve(const RunFolder& run, const std::string& name, const std::string& key, double factor) {
-    Curve result{name, {}};
-    const double fps = std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3);
+double seconds_of(const RunFolder& run, const Json::Value& frame) {
+    return frame.asDouble() / std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3);
+}
+
+struct Line {
+    const char *plot, *unit;
+    double factor;
+    const char *name, *key;
+};
+constexpr Line lines[] = {{"Stretch", "%", 100, "largest", "stretch_max"},
+                          {"Stretch", "%", 100, "RMS", "stretch_rms"},
+                          {"Stretch", "%", 100, "error, RMS", "stretch_error_rms"},
+                          {"Energy", "J", 1, "kinetic", "kinetic_energy_j"},
+                          {"Energy", "J", 1, "potential", "potential_energy_j"},
+                          {"Energy", "J", 1, "elastic", "elastic_energy_j"},
+                          {"Energy", "J", 1, "total", "energy_j"},
+                          {"Penetration", "mm", 1000, "deepest", "penetration_m"},
+                          {"Substeps and iterations", "per frame", 1, "substeps", "substeps"},
+                          {"Substeps and iterations", "per frame", 1, "iterations", "iterations"},
+                          {"Largest speed", "m/s", 1, "speed", "speed_max_m_s"},
+                          {"Motion error, estimated", "mm/s", 1000, "error", "motion_error_m_s"}};
+
+/// In every frame the largest value of any cloth; no points where no cloth has the key.
+plot::Curve curve(const RunFolder& run, const std::string& name, const Line& line, std::size_t look, bool dashed) {
+    plot::Curve result{.name = name, .look = look, .dashed = dashed};
+    const std::string of_a_cloth = std::string("/") + line.key;
     for (const Json::Value& frame : run.manifest["statistics"]) {
         double worst = -INFINITY;
         for (const std::string& member : frame.getMemberNames())
-            if (member == key || member.ends_with("/" + key)) worst = std::max(worst, frame[member].asDouble());
-        if (worst > -INFINITY) result.points.push_back({frame["frame"].asDouble() / fps, worst * factor});
+            if (member == line.key || member.ends_with(of_a_cloth)) worst = std::max(worst, frame[member].asDouble());
+        if (worst > -INFINITY) result.points.push_back({seconds_of(run, frame["frame"]), worst * line.factor});
     }
     return result;
 }
 
-struct Line {
-    const char *name, *key;
-};
-struct Plot {
-    const char *title, *unit;
-    double factor;
-    std::vector<Line> lines;
-};
-
-const std::vector<Plot>& plots() {
-    static const std::vector<Plot> table{
-        {"Stretch",
-         "%",
-         100,
-         {{"largest", "stretch_max"}, {"RMS", "stretch_rms"}, {"error, RMS", "stretch_error_rms"}}},
-        {"Energy",
-         "J",
-         1,
-         {{"kinetic", "kinetic_energy_j"},
-          {"potential", "potential_energy_j"},
-          {"elastic", "elastic_energy_j"},
-          {"total", "energy_j"}}},
-        {"Penetration", "mm", 1000, {{"deepest", "penetration_m"}}},
-        {"Substeps and iterations", "per frame", 1, {{"substeps", "substeps"}, {"iterations", "iterations"}}},
-        {"Largest speed", "m/s", 1, {{"speed", "speed_max_m_s"}}},
-        {"Motion error, estimated", "mm/s", 1000, {{"error", "motion_error_m_s"}}},
-    };
-    return table;
-}
-
-/// When the last frame of any run is.
-double last_time(const std::vector<RunFolder>& runs) {
-    double last = 0;
-    for (const RunFolder& run : runs)
-        last = std::max(
-            last, run.manifest["frames"]["end"].asDouble() / std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3));
-    return last;
-}
-
 std::string plot_section(const std::vector<RunFolder>& runs) {
+    double last = 0;
+    for (const RunFolder& run : runs) last = std::max(last, seconds_of(run, run.manifest["frames"]["end"]));
     std::string html = "<section>\n<h2>Over time</h2>\n<div class=\"plots\">\n";
-    for (const Plot& plot : plots()) {
-        CurvePlot drawing{plot.title, "s", plot.unit, {}, last_time(runs)};
+    for (const Line *first = lines, *end = first; first != std::end(lines); first = end) {
+        end = std::find_if(first, std::end(lines),
+                           [&](const Line& line) { return line.plot != std::string(first->plot); });
+        plot::Plot drawing{
+            .title = first->plot, .x_label = "s", .y_label = first->unit, .logarithmic = false, .x_last = last};
         for (std::size_t i = 0; i < runs.size(); ++i)
-            for (std::size_t k = 0; k < plot.lines.size(); ++k) {
+            for (const Line* line = first; line != end; ++line) {
                 const std::string run = runs.size() == 1 ? "" : i == 0 ? "A " : "B ";
-                Curve one = curve(runs[i], run + plot.lines[k].name, plot.lines[k].key, plot.factor);
-                one.colour = k;
-                one.dashed = i > 0;
+                plot::Curve one =
+                    curve(runs[i], run + line->name, *line, static_cast<std::size_t>(line - first), i > 0);
                 if (!one.points.empty()) drawing.curves.push_back(std::move(one));
             }
-        if (!drawing.curves.empty()) html += "<div>" + svg_text(drawing) + "</div>\n";
+        if (!drawing.curves.empty()) html += "<div>" + plot::svg_of(drawing) + "</div>\n";
     }
     return html + "</div>\n</section>\n";
 }

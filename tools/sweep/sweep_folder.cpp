@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "base/printable_text.h"
-#include "output/json_file.h"
+#include "output/atomic_file.h"
+#include "output/csv_text.h"
 #include "output/json_text.h"
 #include "output/manifest.h"
 #include "run/run.h"
@@ -81,16 +81,6 @@ std::map<std::string, double> manifest_values(const Json::Value& manifest) {
     values["frames"] = static_cast<double>(frames.size());
     for (const Json::Value& file : manifest["files"]) values["bytes"] += file["bytes"].asDouble();
     return values;
-}
-
-/// By RFC 4180, and so that no spreadsheet takes it for a formula.
-std::string csv_text(const std::string& text) {
-    std::string shown = printable(text);
-    if (shown.find_first_of("=+-@") == 0) shown.insert(0, "'");
-    if (shown.find_first_of(",\"") == std::string::npos) return shown;
-    std::string field = "\"";
-    for (const char c : shown) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return field + "\"";
 }
 
 /// A value as a table has it: numbers as they are, words without the quotes of JSON.

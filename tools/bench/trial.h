@@ -1,12 +1,12 @@
-// What one scene of a trial of `auto` came to.
+// One scene of a trial of `auto`, and the report on all of them.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bench/bench_case.h"
+#include "bench/bench_run.h"
 #include "drape/scene.h"
 
 namespace drape::bench {
@@ -19,13 +19,15 @@ inline constexpr Spelling<TrialOutcome> trial_outcome_spellings[] = {{"kept", Tr
                                                                      {"impossible", TrialOutcome::impossible},
                                                                      {"diverged", TrialOutcome::diverged},
                                                                      {"failed", TrialOutcome::failed}};
+constexpr const auto& spellings_of(TrialOutcome) { return trial_outcome_spellings; }
 
 /// Numbers by name (SI units); those that could not be told are missing:
 ///   frames, seconds              finished frames after the first, and their simulated time
 ///   size                         m, the largest cloth's longer side
 ///   substeps_mean, substeps_max, redone_frames, attempts, unpredictable_frames (their motion is not promised)
-///   tolerance, worst_stretch_error, worst_spring, missed_frames (above a limit of the stretch error, though handed
-///   out) wall_s motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
+///   tolerance, worst_stretch_error, worst_spring, wall_s
+///   missed_frames                above a limit of the stretch error, though handed out
+///   motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
 /// with a reference:
 ///   reference_substeps, reference_error, compared_s (until the two references part), error, worst_error (RMS position,
 ///   mean over the frames and worst), error_at_end (of what is compared)
@@ -40,13 +42,21 @@ struct TrialResult {
     std::vector<std::string> tags;  ///< what the scene has: "wind", "release", ...
     Metrics numbers;
     bool operator==(const TrialResult&) const = default;
+
+    template <class Self>
+    static void members(Self& self, const auto& see) {
+        see("name", self.name), see("key", self.key), see("outcome", self.outcome), see("reason", self.reason);
+        see("method", self.method), see("best", self.best), see("tags", self.tags), see("numbers", self.numbers);
+    }
 };
 
+/// The scene's features: "wind", "release", ...
 std::vector<std::string> tags_of(const SceneDescription& scene);
 
-/// One line of JSON, and back; nothing when it is not one.
-std::string trial_line(const TrialResult& result);
-std::optional<TrialResult> parsed_trial(const std::string& line);
+/// Fills all of the result but name and key: the scene is run, compared with converged runs of itself and timed against
+/// fixed settings. `stop` is asked before every frame. Throws Stopped when it said so.
+TrialResult try_scene(const Device& device, const SceneDescription& scene, bool with_reference,
+                      const std::function<bool()>& stop);
 
 /// Whether more than 1 % were refused that are not impossible, or a frame was handed out that misses its limits.
 bool trial_fails(std::span<const TrialResult> results);

@@ -1,14 +1,15 @@
-#include "bench/trial_result.h"
+#include "bench/trial.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
-#include "bench/result_json.h"
-#include "output/json_text.h"
+#include "bench/benchmarks.h"
+#include "bench/measure.h"
+#include "bench/random_scenes.h"
+#include "output/kept_frames.h"
+#include "run/run.h"
 
 namespace drape::bench {
 
@@ -107,75 +108,6 @@ double share_of(std::span<const TrialResult> results, const std::function<bool(c
 
 }  // namespace
 
-std::vector<std::string> tags_of(const SceneDescription& scene) {
-    std::vector<std::string> tags;
-    const auto add = [&tags](bool has, const char* tag) {
-        if (has) tags.emplace_back(tag);
-    };
-    const auto any_cloth = [&](auto is) { return std::ranges::any_of(scene.cloths, is); };
-    const auto any_pin = [&](auto is) {
-        return any_cloth([&](const Cloth& cloth) { return std::ranges::any_of(cloth.pins, is); });
-    };
-    const auto moves = [](const auto& each) { return each.path.moves(); };
-    const auto longest = [](const Cloth& cloth) { return std::max(cloth.grid[0], cloth.grid[1]); };
-    add(scene.wind.blows(), "wind");
-    add(scene.gravity == Vec3{0, 0, 0}, "weightless");
-    add(any_pin([](const Pin& pin) { return pin.release.has_value(); }), "release");
-    add(any_pin(moves), "moving pins");
-    add(any_cloth([](const Cloth& cloth) { return cloth.pins.empty(); }), "no pins");
-    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.rigid; }), "rigid");
-    add(any_cloth([](const Cloth& cloth) { return cloth.stiffness.bend > 0; }), "bending");
-    add(!scene.colliders.empty(), "colliders");
-    add(std::ranges::any_of(scene.colliders, moves), "moving colliders");
-    add(!scene.cutters.empty(), "cutters");
-    add(scene.cloths.size() > 1, "several cloths");
-    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) <= 8; }), "at most 8 a side");
-    add(any_cloth([&](const Cloth& cloth) { return longest(cloth) >= 64; }), "at least 64 a side");
-    return tags;
-}
-
-std::string trial_line(const TrialResult& result) {
-    Json::Value value(Json::objectValue), numbers(Json::objectValue), tags(Json::arrayValue);
-    value["name"] = result.name;
-    value["key"] = result.key;
-    value["outcome"] = std::string(spelling(trial_outcome_spellings, result.outcome));
-    value["reason"] = result.reason;
-    value["method"] = result.method;
-    value["best"] = result.best;
-    for (const std::string& tag : result.tags) tags.append(tag);
-    value["tags"] = tags;
-    for (const auto& [name, number] : result.numbers)
-        if (std::isfinite(number)) numbers[name] = number;
-    value["numbers"] = numbers;
-    return json_line(value);
-}
-
-std::optional<TrialResult> parsed_trial(const std::string& line) {
-    try {
-        const Json::Value value = parsed_line(line);
-        if (!value.isObject() || !value["numbers"].isObject() || !value["tags"].isArray()) return std::nullopt;
-        TrialResult result;
-        for (const auto& [member, text] : {std::pair{"name", &result.name},
-                                           {"key", &result.key},
-                                           {"reason", &result.reason},
-                                           {"method", &result.method},
-                                           {"best", &result.best}}) {
-            if (!value[member].isString()) return std::nullopt;
-            *text = value[member].asString();
-        }
-        const auto outcome =
-            std::ranges::find(trial_outcome_spellings, value["outcome"].asString(), &Spelling<TrialOutcome>::name);
-        if (outcome == std::end(trial_outcome_spellings)) return std::nullopt;
-        result.outcome = outcome->value;
-        for (const Json::Value& tag : value["tags"]) result.tags.push_back(tag.asString());
-        for (const std::string& name : value["numbers"].getMemberNames())
-            result.numbers[name] = value["numbers"][name].asDouble();
-        return result;
-    } catch (const Json::Exception&) {
-        return std::nullopt;
-    }
-}
-
 bool trial_fails(std::span<const TrialResult> results) {
     return share_of(results, is_refused) > 0.01 || std::ranges::any_of(results, is_silent);
 }
@@ -201,6 +133,63 @@ std::string trial_text(std::span<const TrialResult> results) {
         results.size(), 100 * share_of(results, kept), 100 * share_of(results, is_refused),
         100 * share_of(results, is_impossible), 100 * share_of(results, is_silent));
     return text;
+}
+
+namespace {
+
+SceneDescription scene_of(const TrialRequest& request, std::uint32_t index) {
+    SceneDescription scene =
+        request.generator == "a" ? full_random_scene(request.seed, index) : wild_scene(request.seed, index);
+    scene.solver.tolerance = request.tolerance;
+    return scene;
+}
+
+std::string name_of(const TrialRequest& request, std::uint32_t index) {
+    return fmt::format("{}/{}/{}", request.generator, request.seed, index);
+}
+
+std::string progress_text(const TrialResult& result) {
+    std::string text = fmt::format("{}: {}", result.name, spelling(trial_outcome_spellings, result.outcome));
+    for (const auto& [name, words] : {std::pair{"worst_stretch_error", "stretch error"},
+                                      {"worst_spring", "worst spring"},
+                                      {"substeps_max", "substeps"},
+                                      {"error", "position error"}})
+        if (const auto number = number_of(result, name)) text += fmt::format(", {} {:.3g}", words, *number);
+    return text;
+}
+
+}  // namespace
+
+BenchSummary run_trial(const TrialRequest& request) {
+    const Device device(request.device, validation_if(request.validate));
+    make_folder(request.folder);
+    const ReportHead head = report_head(device.info());
+    ResultStore<TrialResult> store(std::filesystem::path(request.folder) / "scenes.jsonl");
+    CaseLoop loop(request, std::nullopt, 1);
+    for (std::uint32_t k = 0; k < request.count; ++k) loop.plan(1);
+    std::vector<TrialResult> results;
+    for (std::uint32_t k = 0; k < request.count; ++k) {
+        const std::uint32_t index = request.first + k;
+        const std::string key = run_key(
+            std::vector<std::string>{program_hash(), device.info().uuid_text(), head.driver, name_of(request, index),
+                                     fmt::format("{}", request.tolerance), request.reference ? "reference" : ""});
+        const auto run = [&] {
+            TrialResult result =
+                try_scene(device, scene_of(request, index), request.reference, [&] { return request.stopped(); });
+            result.name = name_of(request, index);
+            return result;
+        };
+        if (auto result = loop.next(store, key, 1, run, progress_text)) results.push_back(std::move(*result));
+    }
+    BenchSummary summary = loop.summary();
+    summary.text = fmt::format("{}, scenes {} to {} of generator {}, seed {}{}\n\n", head.text(), request.first,
+                               request.first + request.count - 1, request.generator, request.seed,
+                               request.tolerance > 0 ? fmt::format(", tolerance {:g}", request.tolerance) : "") +
+                   trial_text(results);
+    if (trial_fails(results))
+        summary.missed = "method auto refused more than 1 % of the scenes, or handed out frames that miss their limits";
+    summary.validation_count = device.validation_count();
+    return summary;
 }
 
 }  // namespace drape::bench
