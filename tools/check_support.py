@@ -1,4 +1,4 @@
-"""What the scripts check_* share: options, drape run under a time limit, files held against those of another run."""
+"""The scripts check_* share this: options, drape run under a time limit, files held against those of another run."""
 import argparse
 import json
 import os
@@ -54,7 +54,7 @@ def contents(folder):
 
 
 def lasting(name, content):
-    """What two equal runs agree in: not the times."""
+    """Returns the part of a file in which two equal runs agree: not the times."""
     path = pathlib.PurePath(name)
     if path.name == "manifest.json" or path.match("jobs/*.json"):
         return json.dumps({key: value for key, value in json.loads(content).items() if key not in ("run", "seconds")},

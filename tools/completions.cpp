@@ -12,7 +12,8 @@ namespace {
 constexpr const char* files = ":files\n";
 constexpr const char* folders = ":folders\n";
 
-/// Returns a word of a menu with what there is room for of its help: up to the first semicolon, colon, sentence or line.
+/// Returns a word of a menu with what there is room for of its help: up to the first semicolon, colon, sentence or
+/// line.
 std::string offer(std::string_view word, std::string_view help) {
     std::size_t end = help.find('\n');
     for (const char* mark : {"; ", ": ", ". "}) end = std::min(end, help.find(mark));

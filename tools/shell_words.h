@@ -12,8 +12,8 @@ namespace drape::cli {
 /// and a description; or the line :files or :folders.
 std::string completions(const std::vector<CommandText>& commands, const std::vector<std::string>& words);
 
-/// Returns a script that asks `drape completions words -- WORD...` at every completion; to be sourced (bash), autoloaded
-/// as _drape (zsh) or put where fish looks. Empty for another shell.
+/// Returns a script that asks `drape completions words -- WORD...` at every completion; to be sourced (bash),
+/// autoloaded as _drape (zsh) or put where fish looks. Empty for another shell.
 std::string completion_script(const std::string& shell);
 
 /// Returns drape(1), in the man macros of roff.

@@ -15,7 +15,6 @@ namespace drape {
 
 namespace {
 
-
 constexpr double touching_depth = 1e-4;  ///< m: less is touching
 
 /// A cloth as it starts.

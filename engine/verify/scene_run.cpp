@@ -116,7 +116,8 @@ double root_mean_square(const std::vector<double>& values) {
 double stretch_law(const SceneDescription& scene, std::size_t cloth) {
     const double links = scene.cloths[cloth].grid[1] - 1.0;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    return links * links * length(scene.gravity) * h * h / (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
+    return links * links * length(scene.gravity) * h * h /
+           (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
 }
 
 }  // namespace drape::verify

@@ -36,8 +36,7 @@ TEST(EllipsoidTest, FootPointsMatchDoublePrecision) {
         const glsl::vec3 foot = glsl::ellipsoid_foot(p, r);
         const Vec3 exact =
             exact::ellipsoid_foot({double(p.x), double(p.y), double(p.z)}, {double(r.x), double(r.y), double(r.z)});
-        worst =
-            std::max(worst, length(minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
+        worst = std::max(worst, length(minus({double(foot.x), double(foot.y), double(foot.z)}, exact)) / size);
         ++checked;
     }
     std::printf("[ measured ] worst foot error over %d points: %.2e of the largest radius\n", checked, worst);

@@ -1,5 +1,5 @@
-// What the benchmarks share: what they are asked for (options: commands/bench_options.h), the way through their cases,
-// and what they come to.
+// Benchmarks share what they are asked for (options: commands/bench_options.h), the way through their cases, and their
+// results.
 #pragma once
 
 #include <chrono>
@@ -145,7 +145,7 @@ class CaseLoop {
     double begun_ = 0, aside_ = 0;
 };
 
-/// What results were measured with, and whether all were.
+/// Names the program and device that results were measured with, and whether all were.
 struct ReportHead {
     std::string program_version, created;  ///< UTC
     std::string device, driver;            ///< driver with its version

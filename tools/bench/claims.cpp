@@ -14,8 +14,8 @@ namespace {
 constexpr double position_floor = 5e-5;  // m; below it single precision is allowed its own error
 constexpr double two_digits = 1.05;      // the tables round to two digits
 
-/// What the prototype keeps on a sheet at the same passes (explicit: 2.6 N, the fewest that soften nothing): RMS
-/// stretch, and position error at 0.25 and 0.5 s.
+/// A row holds what the prototype keeps on a sheet at the same passes (explicit: 2.6 N, the fewest that soften
+/// nothing): RMS stretch, and position error at 0.25 and 0.5 s.
 struct TableRow {
     const char* name;
     double stretch, early, late;
@@ -81,7 +81,7 @@ Soonest soonest_of(const std::vector<const CaseResult*>& results, const Target& 
     return best;
 }
 
-/// What `auto` does again only the wall's clock sees, so that its rivals are held against the same clock.
+/// Only the clock on the wall sees what `auto` does again, so its rivals are held against the same clock.
 double wall_milliseconds(const CaseResult& result) {
     return result.wall.median > 0 ? result.wall.median : result.device.median;
 }

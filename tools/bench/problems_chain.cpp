@@ -44,7 +44,7 @@ struct Swing {
     double height;  ///< m relative to the support, of the highest point after one period
 };
 
-/// Of a pendulum of 1 m released at 90 degrees; `at(k)` is the bob at frame k, frames 0 .. `last`.
+/// Measures the swing of a pendulum of 1 m released at 90 degrees; `at(k)` is the bob at frame k, frames 0 .. `last`.
 template <class At>
 Swing swing_of(const At& at, std::uint32_t last, double fps) {
     std::vector<double> angle;
@@ -97,7 +97,7 @@ Problem pendulum(bool is_short) {
                 {"position_rms", std::sqrt(squares / last)},
                 {"period_error_closed_form", std::abs(own.period / closed - 1)},
                 {"reference_period_error_closed_form", std::abs(exact.period / closed - 1)},
-                // Of the energy at the start, m g L above the lowest point.
+                // It is a share of the energy at the start, m g L above the lowest point.
                 {"energy_lost_per_period", exact.height - own.height}};
     };
     for (const Method& row : methods()) {

@@ -25,7 +25,7 @@ class References {
     /// Newton's method does not converge.
     const ReferenceRun& equilibrium(const SpringNetwork& network);
 
-    /// Of a run that says itself what it is doing.
+    /// Returns a reference whose run says itself what it is doing.
     const ReferenceRun& refined(const std::string& key, const std::function<ReferenceRun()>& compute);
 
     std::size_t computed_count() const { return computed_count_; }  ///< not found on disk

@@ -1,4 +1,4 @@
-// What `drape bench speed` measures: a table of cases, made of a few lists of numbers.
+// `drape bench speed` measures a table of cases, made of a few lists of numbers.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the stability benchmark runs: one small sheet, and the extremes that are put on it, alone and together.
+// The stability benchmark runs one small sheet with extremes put on it, alone and together.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace drape::bench {
 
-/// What is promised of a scene.
+/// A tier is what is promised of a scene.
 enum class Tier {
     accurate,  ///< A: keeps the numbers
     bounded,   ///< B: nothing absurd, and it recovers
@@ -47,7 +47,7 @@ struct StabilityCase {
     bool random = false;  ///< `index` of `seed`, of wild_scene
 };
 
-/// What `drape simulate` takes to run the case on the base scene.
+/// Returns what `drape simulate` takes to run the case on the base scene.
 std::vector<std::string> overrides_of(const StabilityCase& each);
 
 struct StabilityPlan {

@@ -7,7 +7,7 @@
 
 namespace drape::profile {
 
-/// What is no profile: which file, and why.
+/// Says which file is no profile, and why.
 class NoProfile : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -12,14 +12,15 @@ namespace drape::profile {
 
 namespace {
 
-/// What the declarations say of a row of passes; nothing of other rows, or where substeps differ from frame to frame.
+/// Returns what the declarations say of a row of passes; nothing of other rows, or where substeps differ from frame to
+/// frame.
 const PassWork* work_of(const Profile& profile, const Row& row) {
     if (!profile.passes || profile.substeps_vary) return nullptr;
     const auto found = std::ranges::find(profile.work, row.name, &PassWork::name);
     return found == profile.work.end() ? nullptr : &*found;
 }
 
-/// Of bytes or operations, per second.
+/// Returns bytes or operations per second.
 double rate(double amount, double milliseconds) { return milliseconds > 0 ? amount / (1e-3 * milliseconds) : 0; }
 double byte_rate(const PassWork& work, double milliseconds) {
     return rate(static_cast<double>(work.bytes), milliseconds);

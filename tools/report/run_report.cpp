@@ -72,7 +72,7 @@ std::string title_of(const RunFolder& run) {
     return name.empty() ? run.path.string() : name;
 }
 
-/// What a run was asked for and chose: where it stands in the manifest is its name.
+/// Returns what a run was asked for and chose, named by its place in the manifest.
 std::map<std::string, std::string> settings_of(const RunFolder& run) {
     std::map<std::string, std::string> values{{"program_version", value_text(run.manifest["program_version"])}};
     for (const char* group : {"scene", "device", "frames", "picture", "solver", "validation"})
