@@ -1,4 +1,6 @@
 // Results of trials of `auto` come back whole, and their judgement and text are right.
+#include "bench/trial.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

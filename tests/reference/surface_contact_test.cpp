@@ -140,14 +140,14 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     const auto direction = [&] {
         for (;;) {
             const Vec3 v{unit(random), unit(random), unit(random)};
-            const double length = length(v);
-            if (length > 0.1 && length < 1) return Vec3{v[0] / length, v[1] / length, v[2] / length};
+            const double size = length(v);
+            if (size > 0.1 && size < 1) return Vec3{v[0] / size, v[1] / size, v[2] / size};
         }
     };
     const Vec3 u = direction(), w = direction();
     Vec3 aside;
     for (std::size_t k = 0; k < 3; ++k) aside[k] = w[k] - dot(w, u) * u[k];
-    const double length = length(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
+    const double across = length(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
     double dx, dy, bend;
     do {
         dx = x * stretch(random);
@@ -157,7 +157,7 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     std::array<Vec3, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
         corners[1][k] = dx * u[k];
-        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * aside[k] / length);
+        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * aside[k] / across);
     }
     return corners;
 }

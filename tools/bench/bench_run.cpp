@@ -96,8 +96,11 @@ ReportHead report_head(const DeviceInfo& device, bool is_short, bool complete) {
 
 void write_results(const SelectedCases& request, const std::string& json, const std::string& csv,
                    const std::map<std::string, std::string>& pictures) {
-    if (!request.json.empty()) write_file(request.json, json);
-    if (!request.csv.empty()) write_file(request.csv, csv);
+    for (const auto& [path, text] : {std::pair{&request.json, &json}, {&request.csv, &csv}}) {
+        if (path->empty()) continue;
+        make_folder(std::filesystem::absolute(*path).parent_path());
+        write_file(*path, *text);
+    }
     if (request.svg.empty()) return;
     make_folder(request.svg);
     for (const auto& [name, svg] : pictures) write_file(std::filesystem::path(request.svg) / name, svg);

@@ -8,6 +8,7 @@
 
 #include "output/atomic_file.h"
 #include "output/csv_text.h"
+#include "output/json_file.h"
 #include "output/json_text.h"
 #include "output/manifest.h"
 #include "run/run.h"
