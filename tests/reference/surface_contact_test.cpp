@@ -147,7 +147,7 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     const Vec3 u = direction(), w = direction();
     Vec3 aside;
     for (std::size_t k = 0; k < 3; ++k) aside[k] = w[k] - dot(w, u) * u[k];
-    const double across = length(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
+    const double aside_length = length(aside), longest = (1 + contact_stretch) * std::hypot(x, y);
     double dx, dy, bend;
     do {
         dx = x * stretch(random);
@@ -157,7 +157,7 @@ std::array<Vec3, 3> any_triangle(const Cloth& cloth, std::mt19937& random) {
     std::array<Vec3, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
         corners[1][k] = dx * u[k];
-        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * aside[k] / across);
+        corners[2][k] = dy * (std::cos(bend) * u[k] + std::sin(bend) * aside[k] / aside_length);
     }
     return corners;
 }

@@ -48,7 +48,7 @@ TEST(SceneErrorPlaces, OfKeysWithEscapesAreTheirs) {
     for (const SceneError& error : result.errors)
         places.push_back(error.text().substr(0, error.text().find(": expected")));
     EXPECT_EQ(places, (std::vector<std::string>{"s:1:14: /cloths/0/\xc3\xa9", "s:2:3: /cloths/0/\xe2\x82\xac",
-                                                "s:2:16: /cloths/0/a\tb", "s:3:2: /cloths/0/c~1d"}));
+                                                "s:2:16: /cloths/0/a\\x09b", "s:3:2: /cloths/0/c~1d"}));
 }
 
 const auto name_of = [](const auto& info) { return std::string(info.param.name); };
