@@ -30,8 +30,8 @@ void remember_signal(int number) {
 /// whole at any moment.
 void end_at_once(int) {
     for (const char* part : {on_terminal != 0 ? "\n" : "", "drape: stopped by ", signal_name(),
-                             ", without waiting for a step that takes longer than two seconds: what came before it is "
-                             "kept as the last checkpoint has it\n"})
+                             ", without waiting for what takes longer than two seconds; --resume goes on from the last "
+                             "checkpoint, where there is one\n"})
         (void)!write(STDERR_FILENO, part, std::strlen(part));
     _exit(static_cast<int>(signal_code()));
 }

@@ -72,7 +72,7 @@ void Progress::frame_begun(std::int64_t frame, std::uint32_t substeps, std::uint
 
 void Progress::report(double now) {
     if (options_.is_quiet || !is_due(now)) return;
-    options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line(now)) : fmt::format("{}\n", line(now)));
+    options_.write(options_.is_terminal ? fmt::format("\r{}\x1b[K", line()) : fmt::format("{}\n", line()));
     line_is_open_ = options_.is_terminal;
     last_report_ = now;
     last_tenth_ = frame_count_ ? 10 * done_count_ / frame_count_ : 0;
@@ -86,13 +86,13 @@ bool Progress::is_due(double now) const {
     return is_next_tenth || waited >= line_interval;
 }
 
-double Progress::milliseconds_per_frame(double now) const {
+double Progress::milliseconds_per_frame() const {
     const auto frames = static_cast<double>(recent_.size() - 1);
-    return frames > 0 ? 1000 * (now - recent_.front()) / frames : 0;
+    return frames > 0 ? 1000 * (recent_.back() - recent_.front()) / frames : 0;
 }
 
-std::string Progress::line(double now) const {
-    const double rate = milliseconds_per_frame(now);
+std::string Progress::line() const {
+    const double rate = milliseconds_per_frame();
     const std::uint64_t left = frame_count_ > done_count_ ? frame_count_ - done_count_ : 0;
     const std::uint64_t percent = frame_count_ ? 100 * done_count_ / frame_count_ : 100;
     std::string text = fmt::format("{} ({}/{}, {} %)", what_, done_count_, frame_count_, percent);
@@ -109,7 +109,7 @@ void Progress::message(std::string_view text) {
     std::string whole = line_is_open_ ? "\r\x1b[K" : "";
     whole += text;
     whole += '\n';
-    if (line_is_open_) whole += line(recent_.back());
+    if (line_is_open_) whole += line();
     options_.write(whole);
 }
 

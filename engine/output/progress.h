@@ -46,8 +46,8 @@ class Progress {
   private:
     void report(double now);
     bool is_due(double now) const;
-    std::string line(double now) const;
-    double milliseconds_per_frame(double now) const;
+    std::string line() const;
+    double milliseconds_per_frame() const;
 
     std::uint64_t frame_count_;
     Options options_;

@@ -103,7 +103,7 @@ TEST(FileNames, OfAnyBytesAreEscapedWhereverTheyAreToldOf) {
     EXPECT_THAT(run({"simulate", "scene.json", "-o", name}).err,
                 AllOf(HasSubstr("output folder '" + shown + "' is not empty"), testing::EndsWith("folder\n")));
     EXPECT_THAT(run({"render", name, "-o", "x"}).err, HasSubstr(shown + ": "));
-    EXPECT_THAT(run({"render", "scene.json", "--no" + name}).err, HasSubstr("not expected: --no" + shown));
+    EXPECT_THAT(run({"render", "scene.json", "-o", "x", "--no" + name}).err, HasSubstr("not expected: --no" + shown));
     EXPECT_THAT(run({"check", name + ".json"}).out, HasSubstr(shown + ".json: ok\n"));
     EXPECT_TRUE(is_json(run({"check", name + ".json", "--json"}).out));
     const std::vector<std::string> verify{"verify", name + ".json", "--no-validate", "--junit", "junit.xml", "--json"};

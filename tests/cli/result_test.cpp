@@ -80,6 +80,35 @@ TEST(Results, EveryFrameStatesItsStatistics) {
     EXPECT_LT(statistics[2]["potential_energy_j"].asDouble(), statistics[0]["potential_energy_j"].asDouble());
 }
 
+TEST(Results, NothingMovesInASleepingFrame) {
+    const SceneFolder folder(R"({"time": {"fps": 20, "frames": 71}, "cloths": [{"name": "sheet", "grid": [9, 8],
+        "size": [0.4, 0.3], "damping": 8,
+        "pins": [{"edge": "top", "path": [{"t": 3}, {"t": 3.3, "translate": [0.1, 0, 0]}]}]}]})");
+    run({"simulate", folder.scene(), "-o", folder.out(), "-q"});
+    const Json::Value statistics = lasting_manifest(folder.out())["statistics"];
+    std::size_t asleep = 0;
+    for (const Json::Value& frame : statistics) {
+        if (!frame.isMember("asleep")) continue;
+        ++asleep;
+        for (const char* name : {"kinetic_energy_j", "sheet/kinetic_energy_j", "sheet/speed_max_m_s"})
+            EXPECT_EQ(frame[name].asDouble(), 0) << name;
+        EXPECT_EQ(frame["energy_j"].asDouble(),
+                  frame["potential_energy_j"].asDouble() + frame["elastic_energy_j"].asDouble());
+    }
+    EXPECT_GE(asleep, 5u);
+    EXPECT_GT(statistics[statistics.size() - 1]["kinetic_energy_j"].asDouble(), 0) << "it was woken";
+    const char* check = R"(
+import numpy, sys
+run = numpy.load(sys.argv[1])
+asleep = run["asleep"] == 1
+assert asleep.sum() >= 5 and not run["velocities"][asleep].any() and not run["speed_max_m_s"][asleep].any()
+assert run["velocities"][~asleep].any(axis=(1, 2, 3))[1:].all()
+)";
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy here";
+    const Outcome outcome = Running("/usr/bin/python3", {"-c", check, (folder / "out/positions.npz").string()}).wait();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
 TEST(Results, TheProgressLineStatesTheStretch) {
     const SceneFolder folder(small_scene(2));
     const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out()});

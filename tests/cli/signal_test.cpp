@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "program.h"
 #include "scenes.h"
@@ -63,6 +65,38 @@ TEST_P(Signals, EndASimulationWithoutItsIncompleteArray) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Signals, testing::Values(Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}),
                          [](const auto& test) { return std::string(test.param.name); });
+
+/// A frame of these takes longer than anybody waits; the signal comes within it.
+struct Long {
+    const char *name, *scene, *says;
+};
+class SignalsWithinAFrame : public testing::TestWithParam<Long> {};
+
+TEST_P(SignalsWithinAFrame, AreAnsweredInTwoSeconds) {
+    const SceneFolder folder(GetParam().scene);
+    Running program(DRAPE_PROGRAM, {"simulate", folder.scene(), "-o", folder.out()});
+    const auto writes = [&] { return fs::exists(folder.out()) && !fs::is_empty(folder.out()); };
+    ASSERT_TRUE(program.wait_until(writes)) << program.wait().err;
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    program.send(SIGTERM);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 143) << outcome.err;
+    EXPECT_FALSE(outcome.by_signal);
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("drape: stopped by SIGTERM") + GetParam().says));
+    // A run that begins again takes no notice of leftovers.
+    EXPECT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-e", "0", "-q", "--resume"}).code, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SignalsWithinAFrame,
+    testing::Values(Long{"ManyAttempts", R"({"time": {"fps": 60, "frames": 30}, "wind": {"velocity": [5000, 0, 500]},
+        "cloths": [{"grid": [120, 120], "size": [1, 1], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "left"}]}]})",
+                         ""},
+                    Long{"OneSubmit", R"({"time": {"fps": 60, "frames": 30},
+        "cloths": [{"grid": [700, 700], "size": [1, 1], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "left"}]}],
+        "solver": {"method": "explicit", "substeps": 4096}})",
+                         ", without waiting for what takes longer than two seconds"}),
+    [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
 }  // namespace drape

@@ -40,7 +40,7 @@ Manifest example() {
     manifest.frames = {0, 239, 2, 120, 60};
     manifest.run_key = "00112233445566778899aabbccddeeff";
     manifest.picture = Manifest::Picture{1280, 720, 4};
-    manifest.solver = {"line", "buffers", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
+    manifest.solver = {"line", "buffer_store", 20, 8, true, "auto", "the laws expect it", 0.01, 0.0075};
     manifest.validation = {true, 0};
     manifest.skipped = {{"collision", "the scene has no collider"}};
     manifest.warnings = {"the scene ends at frame 239: --end 300 is clamped"};
@@ -93,8 +93,8 @@ constexpr const char* golden = R"json({
     "asked": "auto",
     "choice": "the laws expect it",
     "iterations": 8,
-    "method": "line",
     "kernels": "buffer_store",
+    "method": "line",
     "stretch_error_rms": 0.0075,
     "substeps": 20,
     "tethers": true,

@@ -195,8 +195,8 @@ Examples:
   drape sweep spec.json -o out/data --dataset     layout of flag_simple
   drape sweep spec.json -o out/sweep --index 17   one run, on any machine
   drape sweep spec.json -o out/sweep --collect    results.csv of what is there
-  drape sweep spec.json -o out/data --dataset --index 0-99      a machine's share
-  drape sweep spec.json -o out/data --dataset --collect         and dataset/meta.json
+  drape sweep spec.json -o out/data --dataset --index 0-99   a share
+  drape sweep spec.json -o out/data --dataset --collect      and its meta.json
 )text";
 
 }  // namespace
