@@ -73,8 +73,8 @@ std::string push_constant_difference(const std::optional<ReflectedStruct>& shade
 /// Returns the committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
-/// Returns what the committed module of that name says of itself; it is read once. Throws as `reflect` and `spirv_module`
-/// do.
+/// Returns what the committed module of that name says of itself; it is read once. Throws as `reflect` and
+/// `spirv_module` do.
 const ReflectedModule& module_interface(const std::string& name);
 
 /// Returns the name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true},

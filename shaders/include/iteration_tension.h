@@ -1,6 +1,6 @@
-// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. TENSION stores that of
-// the stretch springs, from zero on. CARRIED stores that of all springs, from where the iteration before left it, in
-// other images than it reads: the part that strips or tiles have in common each of them reads.
+// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. TENSION stores
+// that of the stretch springs, from zero on. CARRIED stores that of all springs, from where the iteration before left
+// it, in other images than it reads: the part that strips or tiles have in common each of them reads.
 #if defined(TENSION) || defined(CARRIED)
 SCALAR_OUT(4, TensionRowOut, tension_row_out);
 SCALAR_OUT(5, TensionColumnOut, tension_column_out);

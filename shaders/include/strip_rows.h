@@ -1,7 +1,7 @@
-// Streams that go down the rows of a strip of columns share this (spring_stream.comp, twist_stream.comp). A subgroup has a
-// strip, an invocation `columns` of them, an even number, and beside those a ghost, the first column of the invocation
-// on the right. Neighbouring strips overlap by `strip_halo` columns at either end, which other strips store. The
-// includer has the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
+// Streams that go down the rows of a strip of columns share this (spring_stream.comp, twist_stream.comp). A subgroup
+// has a strip, an invocation `columns` of them, an even number, and beside those a ghost, the first column of the
+// invocation on the right. Neighbouring strips overlap by `strip_halo` columns at either end, which other strips store.
+// The includer has the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
 #include "include/row_bands.h"
 const int ghost = columns;
 

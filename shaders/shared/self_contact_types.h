@@ -73,20 +73,20 @@ const uint self_meets_not = 0u, self_meets = 1u, self_meets_apart = 2u;
 /// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other.
 /// So the sheet is treated as a grid, and a column and a row name a particle of the scene.
 struct SelfContactPush {
-    ivec2 grid;       // columns, rows of the sheet
-    float thickness;  // m, the largest that a cloth keeps
-    float recovery;   // m that a substep gives back of a thickness that is all but kept
-    float least;      // m, distances that rounding leaves in doubt
-    float margin;     // m by which the search for cells looks farther than it needs to and foresees
-    int pair_capacity;    // capacity of the list of pairs
-    int near_capacity;    // capacity of the list of pairs of primitives whose boxes are near each other
-    int cell_capacity;    // capacity of the list of pairs of cells, and of candidates
-    int level;        // boxes: the first level that this pass makes
-    int last;         // boxes: the last level
-    int top;          // level of the root
-    int first;        // 1: the frame's first substep
-    int round;        // contact, push, room: which round
-    int held;         // 1: some particles are always held, so that nothing is carried along with all
+    ivec2 grid;         // columns, rows of the sheet
+    float thickness;    // m, the largest that a cloth keeps
+    float recovery;     // m that a substep gives back of a thickness that is all but kept
+    float least;        // m, distances that rounding leaves in doubt
+    float margin;       // m by which the search for cells looks farther than it needs to and foresees
+    int pair_capacity;  // capacity of the list of pairs
+    int near_capacity;  // capacity of the list of pairs of primitives whose boxes are near each other
+    int cell_capacity;  // capacity of the list of pairs of cells, and of candidates
+    int level;          // boxes: the first level that this pass makes
+    int last;           // boxes: the last level
+    int top;            // level of the root
+    int first;          // 1: the frame's first substep
+    int round;          // contact, push, room: which round
+    int held;           // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
     vec2 parting;       // m that cloths that started through each other should part by in a substep, and by which more
                         // than in the one before, at most

@@ -13,9 +13,11 @@ const int stream_columns = 5;  // columns of an invocation
 const int stream_width = 40;   // columns of a strip
 const int stream_steps = 4;    // steps in flight
 
-const int spring_stream_columns = 6;  // columns of an invocation; even, so that which springs of a row are even is known ahead
-const int spring_stream_width = 48;   // columns of a strip
-const int spring_stream_halo = 6;     // useless columns at either end of a strip: one per pass that leads along a row; even
+const int spring_stream_columns =
+    6;  // columns of an invocation; even, so that which springs of a row are even is known ahead
+const int spring_stream_width = 48;  // columns of a strip
+const int spring_stream_halo =
+    6;  // useless columns at either end of a strip: one per pass that leads along a row; even
 
 const int twist_columns = 6;  // columns of an invocation; even, so that which cells of a row are even is known ahead
 const int twist_width = 48;

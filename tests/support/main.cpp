@@ -10,7 +10,8 @@ constexpr bool needs_lavapipe = true;
 constexpr bool needs_lavapipe = false;
 #endif
 
-/// Lavapipe, whatever else is there, unless the environment variable DRAPE_TEST_DEVICE selects another as --device does.
+/// Lavapipe, whatever else is there, unless the environment variable DRAPE_TEST_DEVICE selects another as --device
+/// does.
 int main(int argc, char** argv) {
     const char* asked = std::getenv("DRAPE_TEST_DEVICE");
     if (needs_lavapipe && asked) std::cerr << "compares bits with the twin: on lavapipe, not on " << asked << "\n";
