@@ -1,4 +1,4 @@
-// Changes a cloth's state when its substeps get another length (docs/solvers.md, "Steps that change").
+// Changes a cloth's state when its substeps get another length (docs/solvers.md, "Substeps that change").
 #pragma once
 
 #include <vector>
