@@ -21,7 +21,7 @@ void main() {
     if (cloth >= push.cloth_count) return;
     vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < push.crossed_count; ++k) {
-        sum = self_led_apart(sum, crossed[k], cloth, self_lacking(crossings[k], push.parting));
+        sum = self_led_apart(sum, crossed[k], cloth, self_lacking(crossings[k], self_parting(push.step)));
         count += crossings[k].count;
     }
     led[cloth] = vec4(sum, 0.0f);

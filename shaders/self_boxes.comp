@@ -1,6 +1,6 @@
 // This pass makes the boxes over the sheet as it is at the start of a substep, one per particle about the cell whose
-// first corner that is. It resets the sums of the substep's pairs and keeps the motions that the particles would make
-// without contact. Where a cell has left the box with which it was last looked for, it asks for a new search.
+// first corner that is. It resets the lists of what pairs bore by their first corner and keeps the motions that the
+// particles would make without contact. Where a cell has left the box with which it was last looked for, it asks for a new search.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -12,7 +12,7 @@ PUSH_CONSTANTS(SelfContactPush)
 #include "include/every.h"
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) writeonly buffer Boxes { SelfBox boxes[]; };
-layout(set = 0, binding = 5, std430) writeonly buffer Corrections { ivec4 corrections[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer FirstBorne { uint first_borne[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Before { vec4 before[]; };
@@ -59,7 +59,7 @@ void begin(int place, int count) {
     left = owner >= 0 ? left : false;
     searches = left ? true : searches;
     before[place] = vec4(imageLoad(displacements, texel_of(place)).xyz, 0.0f);
-    corrections[place] = ivec4(0, 0, 0, 0);
+    first_borne[place] = self_no_entry;
     for (int round = 0; round < self_rounds; ++round) shares[round * count + place] = floatBitsToUint(1.0f);
 }
 

@@ -41,6 +41,8 @@ void main() {
     record[0].near_point_count = 0u;
     record[0].near_edge_count = 0u;
     record[0].cell_count = 0u;
+    record[0].touching_point_count = 0u;
+    record[0].touching_edge_count = 0u;
 #ifdef CROSSED
     for (int k = 0; k < push.crossed_count; ++k) crossings[k] = SelfCrossings(0, 0);
 #endif
@@ -50,6 +52,8 @@ void main() {
     record[0].most_pairs = 0u;
     record[0].most_near = 0u;
     record[0].most_cells = 0u;
+    record[0].most_touching = 0u;
+    record[0].most_lag = 0u;
     record[0].unproved = 0u;
     record[0].truncated = 0u;
 }

@@ -1,9 +1,10 @@
-// This pass adds up the corrections by which the listed pairs push their corners, in integers, so that the order does
-// not matter. The passes after it run only where something was pushed.
+// This pass finds the impulses of the pairs that touch from the motions that those of the round before have left, and
+// adds them up in integers, so that the order does not matter. The first round also adds up what leads pairs apart that
+// lack some of their thickness; the last one notes what every pair bears, for the next substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIDE
-#ifdef WIDE  // two sums share an atomic of 64 bits, which halves the atomics that most of the pass consists of
+#ifdef WIDE  // both parts of a component share an atomic of 64 bits, which halves the atomics
 #extension GL_EXT_shader_atomic_int64 : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #endif
@@ -11,79 +12,67 @@
 #include "include/every.h"
 #include "include/push.h"
 #include "include/self_contact.h"
+#include "include/self_impulse.h"
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
-layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
+layout(set = 0, binding = 4, std430) buffer Touching { SelfTouch touching[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 6, std430) buffer Corrections {
-#ifdef WIDE
-    u64vec2 corrections[];
-#else
-    ivec4 corrections[];
-#endif
+layout(set = 0, binding = 6, std430) buffer Borne { SelfBorne borne[]; };
+layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer supports;
+#define SUMS_SLOT 8
+#define SUMS_IN_SLOT 9
+#include "include/self_sums.h"
+
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
+struct Corner {
+    vec3 motion;  // by the impulses of the round before, m
+    float mass, holds;
 };
-layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
-#include "include/self_lists.h"
 
-bool pushes = false;
-
-#ifdef WIDE
-/// Returns two addends in one, the second in the upper half. The sign of the first is carried into that, which
-/// self_sums takes back.
-uint64_t both(int lower, int upper) { return uint64_t(int64_t(lower)) + (uint64_t(uint(upper)) << 32); }
-void add_units(int place, int x, int y, int z, int weight) {
-    atomicAdd(corrections[place].x, both(x, y));
-    atomicAdd(corrections[place].y, both(z, weight));
-}
-#else
-void add_units(int place, int x, int y, int z, int weight) {
-    atomicAdd(corrections[place].x, x);
-    atomicAdd(corrections[place].y, y);
-    atomicAdd(corrections[place].z, z);
-    atomicAdd(corrections[place].w, weight);
-}
-#endif
-
-/// Adds an impulse's correction to those of a corner.
-void add(ivec2 texel, float thickness, vec3 impulse, float mass, float weight) {
+Corner corner_of(uint which, SelfCloth cloth) {
+    ivec2 texel = self_texel(which);
     int place = place_of(texel);
-    precise float moves = mass * weight;
-    precise float per_metre = self_correction_units / thickness;
-    precise vec3 correction = impulse * moves;
-    if (weight != 0.0f)
-        add_units(place, self_units(correction.x, per_metre), self_units(correction.y, per_metre),
-                  self_units(correction.z, per_metre), self_weight(weight));
+    precise float mass = imageLoad(positions, texel).w * cloth.lightness;
+    vec3 moved = self_relative_motion(imageLoad(displacements, texel).xyz, carried);
+    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place)), mass, imageLoad(supports, place).xyz);
+    return Corner(self_added(moved, by), mass, self_holds(sum_of(0, place).z_weight.z));
 }
 
-vec3 moved(ivec2 texel) { return imageLoad(displacements, texel).xyz; }
+void bear(bool edges, SelfTouch touch) {
+    uint entry = atomicAdd(borne[0].corners.x, 1u) + 1u;
+    vec3 force = self_borne_force(touch.impulse.xyz, push.step);
+    borne[entry] = SelfBorne(touch.corners, uvec4(floatBitsToUint(force), edges ? 1u : 0u));
+}
 
-void push_apart(bool edges, uvec4 pair) {
-    ivec2 a = self_texel(pair.x), b = self_texel(pair.y), c = self_texel(pair.z), d = self_texel(pair.w);
-    SelfCloth one = cloth_at(a), other = cloth_at(d);
-    vec4 xa = imageLoad(positions, a), xb = imageLoad(positions, b), xc = imageLoad(positions, c),
-         xd = imageLoad(positions, d);
-    SelfGap gap = self_gap(edges, SelfCorners(xa.xyz, xb.xyz, xc.xyz, xd.xyz));
-    vec4 mass = self_corner_masses(edges, one, other, vec4(xa.w, xb.w, xc.w, xd.w));
-    vec3 impulse = self_impulse(gap, SelfCorners(moved(a), moved(b), moved(c), moved(d)), mass,
-                                self_pair_thickness(one, other, edges, a, b, c, d), self_pair_friction(one, other),
-                                push.recovery);
-    if (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f) {
-        add(a, one.thickness, impulse, mass.x, gap.weights.x);
-        add(b, edges ? one.thickness : other.thickness, impulse, mass.y, gap.weights.y);
-        add(c, other.thickness, impulse, mass.z, gap.weights.z);
-        add(d, other.thickness, impulse, mass.w, gap.weights.w);
-        pushes = true;
-    }
+void work(bool edges, int entry) {
+    SelfTouch touch = touching[entry];
+    SelfCloth one = cloth_at(self_texel(touch.corners.x)), other = cloth_at(self_texel(touch.corners.w));
+    Corner a = corner_of(touch.corners.x, one);
+    Corner b = corner_of(touch.corners.y, edges ? one : other);
+    Corner c = corner_of(touch.corners.z, other), d = corner_of(touch.corners.w, other);
+    float yields = self_yields(touch.weights, vec4(a.mass, b.mass, c.mass, d.mass),
+                               vec4(a.holds, b.holds, c.holds, d.holds));
+    vec3 relative = self_sum(touch.weights, SelfCorners(a.motion, b.motion, c.motion, d.motion));
+    touch.impulse.xyz = self_next_impulse(touch, relative, yields);
+    touching[entry].impulse = touch.impulse;
+    bool presses = touch.impulse.x != 0.0f || touch.impulse.y != 0.0f || touch.impulse.z != 0.0f;
+    if (presses) add_impulse(push.round + 1, edges, touch.corners, touch.weights, touch.impulse.xyz);
+    float leads = push.round == 0 ? self_leading(touch, yields) : 0.0f;
+    precise vec3 leading = touch.normal.xyz * leads;
+    if (leads > 0.0f) add_impulse(self_sum_of_thickness, edges, touch.corners, touch.weights, leading);
+    if (push.round == self_iterations - 1 && presses) bear(edges, touch);
 }
 
 void main() {
-    int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_capacity);
-    int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_capacity);
-    FOR_EVERY(i, points, push_apart(false, pairs[i]))
-    FOR_EVERY(i, edges, push_apart(true, pairs[push.pair_capacity - 1 - i]))
-    dispatch(self_size_push + push.round, pushes ? uint(push.grid.x * push.grid.y) : 0u);
-    if (push.round + 1 < self_iterations)
-        dispatch(self_size_contact + push.round + 1, pushes ? uint(max(points, edges)) : 0u);
+    carried = record[0].carried.xyz;
+    int points = self_both_listed(record[0].touching_point_count, record[0].touching_edge_count,
+                                  push.touching_capacity);
+    int edges = self_both_listed(record[0].touching_edge_count, record[0].touching_point_count,
+                                 push.touching_capacity);
+    if (push.round == 0 && gl_GlobalInvocationID.x == 0u) borne[0].corners.x = 0u;
+    FOR_EVERY(i, points, work(false, i))
+    FOR_EVERY(i, edges, work(true, push.touching_capacity - 1 - i))
 }

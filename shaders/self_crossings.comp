@@ -28,7 +28,7 @@ void judge_crossed(SelfCrossed pair, int which, ivec2 cells_of) {
     ivec2 first = texel_of(swapped ? cells_of.y : cells_of.x), second = texel_of(swapped ? cells_of.x : cells_of.y);
     if (self_cells_cross(cell_at(first), cell_at(second))) {
         int parts = self_parting_of(pair.way.xyz, imageLoad(displacements, first).xyz,
-                                 imageLoad(displacements, second).xyz, push.parting);
+                                 imageLoad(displacements, second).xyz, self_parting(push.step));
         atomicAdd(crossings[which].count, 1);
         atomicAdd(crossings[which].sum, parts);
     }

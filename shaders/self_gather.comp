@@ -1,8 +1,8 @@
 // This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
-// that exist from an image (holes, cuts).
+// that exist from an image (holes, cuts). SUPPORTED also lays there the normals of the colliders that they lie on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BUFFERED
+#pragma variants MASKED SUPPORTED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/self_contact.h"
@@ -19,6 +19,11 @@ VECTOR_KEPT(2, Positions, positions);
 VECTOR_KEPT(3, Displacements, displacements);
 #ifdef MASKED
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
+#endif
+
+#ifdef SUPPORTED
+layout(set = 0, binding = 5, rgba32f) uniform image2D support;
+layout(set = 0, binding = 6, std430) writeonly buffer Supports { vec4 supports[]; };
 #endif
 
 bool exists(ivec2 cell, int which) {
@@ -46,6 +51,12 @@ void lay(ivec2 texel) {
     STORE_VECTOR(positions, laid, imageLoad(position, texel));
     vec3 moved = imageLoad(displacement, texel).xyz;
     STORE_VECTOR(displacements, laid, vec4(moved, float(owned(texel))));
+#ifdef SUPPORTED
+    // It is taken back, as the next substep's collisions say where a particle lies then.
+    vec4 normal = imageLoad(support, texel);
+    supports[laid.y * push.columns + laid.x] = normal;
+    if (normal.w != 0.0f) imageStore(support, texel, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+#endif
 }
 
 void main() { FOR_STRIP(texel, push.grid, lay(texel)) }

@@ -9,13 +9,15 @@
 #include "include/every.h"
 #include "include/push.h"
 #include "include/self_contact.h"
+#include "include/self_impulse.h"
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 6, rgba32f) uniform readonly imageBuffer before;
+layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
@@ -33,7 +35,10 @@ struct Corner {
 
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
-    if (!corner.held) moved = self_bounded(moved, before[corner.place].xyz, carried, thickness);
+    vec4 wanted = imageLoad(before, corner.place);
+    vec3 good = self_added(moved, imageLoad(made_good, corner.place).xyz);
+    moved = wanted.w != 0.0f ? good : moved;
+    if (!corner.held) moved = self_bounded(moved, wanted.xyz, carried, thickness);
     return self_relative_motion(moved, carried);
 }
 
@@ -41,8 +46,8 @@ Corner corner_of(uint which) {
     ivec2 texel = self_texel(which);
     int place = place_of(texel);
     vec4 x = imageLoad(positions, texel);
-    int before = (push.round - 1) * push.grid.x * push.grid.y + place;
-    float share = push.round > 0 ? uintBitsToFloat(shares[max(before, 0)]) : 0.0f;
+    int last = (push.round - 1) * push.grid.x * push.grid.y + place;
+    float share = push.round > 0 ? uintBitsToFloat(shares[max(last, 0)]) : 0.0f;
     return Corner(place, x.xyz, !(x.w > 0.0f), 0.0f, share);
 }
 
@@ -64,7 +69,8 @@ void bound_pair(bool edges, uvec4 pair) {
     c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
     d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
     vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
-    float middle = self_middle(edges, end);
+    vec4 wants = self_wants(vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
+    float middle = self_middle(edges, gap.apart, end, wants);
     bound(gap, a, middle, end.x, 1.0f);
     bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f);
     bound(gap, c, middle, end.z, -1.0f);

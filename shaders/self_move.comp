@@ -1,4 +1,5 @@
-// This pass cuts short every motion that would go farther than was proved to cross nothing.
+// This pass cuts short every motion that would go farther than was proved to cross nothing. The velocity that a particle
+// came with stays, so that what holds its motion back takes no momentum away.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants BUFFERED
@@ -6,6 +7,7 @@
 #include "include/every.h"
 #include "include/push.h"
 #include "include/self_contact.h"
+#include "include/self_impulse.h"
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
@@ -18,12 +20,16 @@ layout(set = 0, binding = 4, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer before_in;
 layout(set = 0, binding = 8, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 11, rgba32f) uniform readonly imageBuffer made_good;
+layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
 struct Motion {
-    bool held, cut;
+    bool held, cut, pushed;
     vec4 displacement;  // w: bits (self_sheet.h)
+    vec3 moved;         // with what makes a missing thickness good, m
     vec3 bounded;       // displacement that contact allows, m
     float share;        // share of the motion that crosses nothing
 };
@@ -33,25 +39,39 @@ Motion motion_of(int place) {
     ivec2 texel = texel_of(place);
     bool held = !(imageLoad(positions, texel).w > 0.0f);
     vec4 displacement = imageLoad(displacements_in, texel);
-    vec3 allowed = self_bounded(displacement.xyz, imageLoad(before_in, place).xyz, carried, cloth_at(texel).thickness);
-    vec3 bounded = held ? displacement.xyz : allowed;
-    bool changed = bounded.x != displacement.x || bounded.y != displacement.y || bounded.z != displacement.z;
-    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), displacement, bounded, share);
+    vec4 before = imageLoad(before_in, place);
+    vec3 moved = before.w != 0.0f ? self_added(displacement.xyz, imageLoad(made_good, place).xyz) : displacement.xyz;
+    vec3 allowed = self_bounded(moved, before.xyz, carried, cloth_at(texel).thickness);
+    vec3 bounded = held ? moved : allowed;
+    bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
+    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), before.w != 0.0f, displacement, moved,
+                  bounded, share);
 }
 
-bool is_cut(int place) { return motion_of(place).cut; }
+bool is_changed(int place) {
+    Motion motion = motion_of(place);
+    return motion.cut || motion.pushed;
+}
 
 uint unproved = 0u, truncated = 0u;
+float lag = 0.0f;
 
-void cut_short(int place) {
+/// Returns how far a particle moves, and counts whether that is less than it would.
+vec3 made_of(Motion motion) {
+    if (!motion.cut) return motion.moved;
+    ++truncated;
+    vec3 made = self_truncated(carried, self_relative_motion(motion.bounded, carried), motion.share);
+    lag = max(lag, self_lag(made, motion.moved));
+    return made;
+}
+
+void end(int place) {
     Motion motion = motion_of(place);
     if (motion.held) {
-        ++unproved;
+        unproved += motion.cut ? 1u : 0u;
     } else {
-        ++truncated;
-        vec3 moved = self_relative_motion(motion.bounded, carried);
-        STORE_VECTOR(displacements_out, texel_of(place),
-                     vec4(self_truncated(carried, moved, motion.share), motion.displacement.w));
+        velocities[place] = vec4(motion.displacement.xyz, 0.0f);
+        STORE_VECTOR(displacements_out, texel_of(place), vec4(made_of(motion), motion.displacement.w));
         before_out[place].w = 1.0f;
     }
 }
@@ -59,14 +79,18 @@ void cut_short(int place) {
 void count() {
     record[0].most_pairs = max(record[0].most_pairs, record[0].point_count + record[0].edge_count);
     record[0].most_near = max(record[0].most_near, record[0].near_point_count + record[0].near_edge_count);
+    uint touching = record[0].touching_point_count + record[0].touching_edge_count;
+    record[0].most_touching = max(record[0].most_touching, touching);
+    if (touching == 0u) borne[0].corners.x = 0u;
     record[0].most_cells = max(max(record[0].most_cells, record[0].cell_count),
                                max(record[0].candidate_count, record[0].block_count));
 }
 
 void main() {
     carried = record[0].carried.xyz;
-    FOR_FOUND(place, push.grid.x * push.grid.y, is_cut(place), cut_short(place))
+    FOR_FOUND(place, push.grid.x * push.grid.y, is_changed(place), end(place))
     if (unproved > 0u) atomicAdd(record[0].unproved, unproved);
     if (truncated > 0u) atomicAdd(record[0].truncated, truncated);
+    if (lag > 0.0f) atomicMax(record[0].most_lag, floatBitsToUint(lag));
     if (gl_GlobalInvocationID.x == 0u) count();
 }

@@ -1,6 +1,7 @@
 // This pass lists the pairs of primitives whose boxes are near each other, among the pairs of cells that are. Particles
-// and triangles fill the list from its begin, edges from its end. CROSSED leaves out cloths that started through each
-// other and still cross.
+// and triangles fill the list from its begin, edges from its end. It also resets the sums of the impulses to come, and
+// chains what pairs bore by their first corners. CROSSED leaves out cloths that started through each other and still
+// cross.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants CROSSED
@@ -21,6 +22,16 @@ layout(set = 0, binding = 8, std430) readonly buffer Meetings { uint meetings[];
 layout(set = 0, binding = 9, std430) readonly buffer Crossings { SelfCrossings crossings[]; };
 #endif
 #include "include/self_lists.h"
+layout(set = 0, binding = 10, std430) writeonly buffer Sums { uvec4 sums[]; };  // two each
+layout(set = 0, binding = 11, std430) buffer FirstBorne { uint first_borne[]; };
+layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
+
+void clear(int half_sum) { sums[half_sum] = uvec4(0u); }
+void chain(int entry) {
+    int place = place_of(self_texel(borne[entry + 1].corners.x));
+    uint next = atomicExchange(first_borne[place], uint(entry + 1));
+    borne[entry + 1].force.w = next * 2u + (borne[entry + 1].force.w & 1u);
+}
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
@@ -140,5 +151,7 @@ void main() {
     carried = record[0].carried.xyz;
     int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
+    FOR_EVERY(half_sum, push.grid.x * push.grid.y * self_sum_count * 2, clear(half_sum))
+    FOR_EVERY(entry, self_listed(borne[0].corners.x, push.touching_capacity), chain(entry))
     dispatch(self_size_pairs, reached);
 }

@@ -1,5 +1,5 @@
-// This pass moves the particles by the corrections with which the pairs push them. CROSSED adds in the first round the
-// displacement that leads their cloth apart from others.
+// This pass gives the particles the velocities that the impulses of contacts make, and says by what they are moved
+// besides to make a missing thickness good. CROSSED adds the velocity that leads their cloth apart from others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIDE CROSSED BUFFERED
@@ -9,6 +9,7 @@
 #include "include/self_apart.h"
 #endif
 #include "include/self_contact.h"
+#include "include/self_impulse.h"
 #include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -16,57 +17,51 @@ PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"
-VECTOR_OUT(8, DisplacementsOut, displacements_out);
+VECTOR_OUT(4, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
-layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer corrections_in;  // integers, by their bits
-layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer before_in;
-layout(set = 0, binding = 9, std430) writeonly buffer CorrectionsOut { ivec4 corrections_out[]; };
-layout(set = 0, binding = 10, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer MadeGood { vec4 made_good[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer supports;
 #ifdef CROSSED
-layout(set = 0, binding = 7, std430) readonly buffer Led { vec4 led[]; };
+layout(set = 0, binding = 10, std430) readonly buffer Led { vec4 led[]; };
 #endif
+#define SUMS_IN_SLOT 11
+#include "include/self_sums.h"
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+bool touching;  // whether any pairs touch; else the sums are of an earlier substep
 
-ivec4 corrections_of(int place) { return floatBitsToInt(imageLoad(corrections_in, place)); }
-
-/// Returns whether a place may be pushed, before its sums are taken apart. A push has a weight above 0; should the sign
-/// that is carried up from the sum below (self_contact.comp) make that 0, the sum itself is not 0.
 bool pushed(int place) {
 #ifdef CROSSED
-    if (push.round == 0) return true;  // its cloth may be led
+    return true;  // its cloth may be led
+#else
+    return sum_of(0, place).z_weight.z != 0u;  // some contact holds it
 #endif
-    ivec4 sum = corrections_of(place);
-    return (sum.z | sum.w) != 0;
 }
 
 void move(int place) {
     ivec2 texel = texel_of(place);
+    float inverse_mass = imageLoad(positions, texel).w;
+    if (owner_of(place) < 0 || !(inverse_mass > 0.0f)) return;
     vec4 moved = imageLoad(displacements_in, texel);
-    ivec4 sum = corrections_of(place);
-#ifdef WIDE
-    sum = self_sums(sum);
-#endif
-    bool moves = sum.w != 0;
+    precise float mass = inverse_mass * cloth_at(texel).lightness;
+    vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
+    vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place)) : nothing;
+    vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place)) : nothing;
+    vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass, nothing));
 #ifdef CROSSED
-    vec3 by = push.round == 0 ? led[max(owner_of(place), 0)].xyz : vec3(0.0f, 0.0f, 0.0f);
-    moves = moves || by.x != 0.0f || by.y != 0.0f || by.z != 0.0f;
+    vec3 by = led[max(owner_of(place), 0)].xyz;
+    bool is_held = touching && sum_of(0, place).z_weight.z != 0u;
+    if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
+    velocity = self_led(velocity, by);
 #endif
-    if (owner_of(place) >= 0 && moves && imageLoad(positions, texel).w > 0.0f) {
-        corrections_out[place] = ivec4(0, 0, 0, 0);
-        float thickness = cloth_at(texel).thickness;
-        vec3 corrected = self_corrected(moved.xyz, sum, thickness);
-#ifdef CROSSED
-        corrected = self_led(corrected, by);
-#endif
-        vec3 bounded = self_bounded(corrected, imageLoad(before_in, place).xyz, carried, thickness);
-        STORE_VECTOR(displacements_out, texel, vec4(bounded, moved.w));
-        before_out[place].w = 1.0f;
-    }
+    vec3 good = self_moved_by(leading, mass, imageLoad(supports, place).xyz);
+    made_good[place] = vec4(good, 0.0f);
+    STORE_VECTOR(displacements_out, texel, vec4(velocity, moved.w));
+    before[place].w = 1.0f;
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    touching = record[0].touching_point_count + record[0].touching_edge_count > 0u;
     FOR_FOUND(place, push.grid.x * push.grid.y, pushed(place), move(place))
 }

@@ -52,6 +52,7 @@ FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 
 std::vector<std::byte> start_excess(Context c) { return bytes_of_list(c.cloth.start_excess()); }
 std::vector<std::byte> share_of_mass(Context c) { return bytes_of_list(mass_shares(c.cloth)); }
+bool meets_on_colliders(Context c) { return c.model.self_contact && !c.model.scene.colliders.empty(); }
 bool cut_by_boxes(Context c) { return c.cloth.edge_reach > 0; }
 std::vector<std::byte> cell_bits(Context c) { return bytes_of_list(c.topology.grid().cells()); }
 std::vector<std::byte> reference(Context c) { return bytes_of_list(std::vector{statistics_reference(c.cloth)}); }
@@ -95,6 +96,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
         {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},
+        {Field::support, "support", image, vector, device, meets_on_colliders, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
          [](Context c) { return bytes_of_list(c.topology.spring_shares()); }},

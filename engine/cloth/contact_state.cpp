@@ -1,5 +1,8 @@
 #include "cloth/contact_state.h"
 
+#include <cstring>
+#include <tuple>
+
 namespace drape {
 
 namespace contact_rows {
@@ -49,8 +52,17 @@ std::vector<ContactRow> rows() {
         {near, "near", buffer, integer, device, always, [](Context c) { return FieldExtent{c.capacity.near}; }},
         {pairs, "pairs", buffer, layout_of<glsl::uvec4>(), device, always,
          [](Context c) { return FieldExtent{c.capacity.pairs}; }},
-        {corrections, "corrections", texel_buffer, layout_of<glsl::ivec4>(), device, always, places},
+        {touching, "touching", buffer, layout_of<glsl::SelfTouch>(), device, always,
+         [](Context c) { return FieldExtent{c.capacity.touching}; }},
+        {borne, "borne", buffer, layout_of<glsl::SelfBorne>(), state, always,
+         [](Context c) { return FieldExtent{c.capacity.touching + std::uint64_t{1}}; }},
+        {first_borne, "first borne", buffer, integer, device, always, places},
+        {sums, "sums", texel_buffer, layout_of<glsl::uvec4>(), device, always,
+         [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_sum_count * 2}; }},
+        {supports, "supports", texel_buffer, vector, device, always, places},
         {before, "before", texel_buffer, vector, device, always, places},
+        {velocities, "velocities", texel_buffer, vector, device, always, places},
+        {made_good, "made good", texel_buffer, vector, device, always, places},
         {shares, "shares", buffer, integer, device, always,
          [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_rounds}; }},
         {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always, one},
@@ -74,13 +86,44 @@ std::optional<ContactField> contact_field_called(std::string_view variable) {
 
 std::string resource_name(const ContactRow& row) { return "contact " + std::string(row.name); }
 
+std::vector<std::byte> borne_state(std::vector<glsl::SelfBorne> list) {
+    list.resize(std::min<std::size_t>(list.size(), list.front().corners.x + std::size_t{1}));
+    list.front() = {{static_cast<glsl::uint>(list.size() - 1), 0, 0, 0}, {}};
+    for (glsl::SelfBorne& entry : list) entry.force.w &= 1;
+    std::ranges::sort(std::span(list).subspan(1), {}, [](const glsl::SelfBorne& entry) {
+        const glsl::uvec4& all = entry.corners;
+        return std::tuple(all.x, all.y, all.z, all.w, entry.force.w);
+    });
+    return bytes_of_list(list);
+}
+
+std::uint32_t borne_count(std::span<const std::byte> bytes) {
+    std::uint32_t count = 0;
+    if (bytes.size() >= sizeof count) std::memcpy(&count, bytes.data(), sizeof count);
+    return count;
+}
+
+bool is_borne_state(std::span<const std::byte> bytes, const SelfContact& contact) {
+    if (bytes.size() != (borne_count(bytes) + std::size_t{1}) * sizeof(glsl::SelfBorne)) return false;
+    std::vector<glsl::SelfBorne> list(bytes.size() / sizeof(glsl::SelfBorne));
+    std::memcpy(list.data(), bytes.data(), bytes.size());
+    const glsl::ivec2 grid = contact.push.grid;
+    const auto lies_on_it = [&](glsl::uint corner) {
+        return (corner & 0xffffu) < static_cast<glsl::uint>(grid.x) && corner >> 16 < static_cast<glsl::uint>(grid.y);
+    };
+    return std::ranges::all_of(std::span(list).subspan(1), [&](const glsl::SelfBorne& entry) {
+        const glsl::uvec4& all = entry.corners;
+        return lies_on_it(all.x) && lies_on_it(all.y) && lies_on_it(all.z) && lies_on_it(all.w);
+    });
+}
+
 ContactCapacity limited(const ContactCapacity& capacity, std::uint64_t most_bytes) {
     const auto least = [most_bytes](std::uint32_t entries, ContactField list) {
         const std::uint64_t fitting = most_bytes / contact_fields()[static_cast<std::size_t>(list)].element.size;
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({entries, fitting, most_contact_entries}));
     };
     return {least(capacity.pairs, ContactField::pairs), least(capacity.near, ContactField::near),
-            least(capacity.cells, ContactField::cells)};
+            least(capacity.cells, ContactField::cells), least(capacity.touching, ContactField::touching)};
 }
 
 }  // namespace drape

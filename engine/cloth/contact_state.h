@@ -22,8 +22,14 @@ enum class ContactField : std::uint8_t {
     cells,          ///< those that are near in this substep
     near,           ///< pairs of primitives whose boxes are near each other
     pairs,          ///< corners of those that may meet
-    corrections,    ///< sums of integers, by place
+    touching,       ///< those that touch, with their impulses
+    borne,          ///< what pairs bore in the last substep, which the next one begins with
+    first_borne,    ///< by place: the first entry of a pair whose first corner it is
+    sums,           ///< of impulses, by round and place
+    supports,       ///< by place: normal of the collider's surface that the particle lies on, or zero
     before,         ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
+    velocities,     ///< of those, m a substep
+    made_good,      ///< their motion that makes a missing thickness good, m
     shares,         ///< bits of the share of its motion that a particle may make, by round
     record,         ///< what contact was in the frame
     sizes,          ///< of the dispatches that go through lists
@@ -43,6 +49,14 @@ std::span<const ContactRow> contact_fields();
 std::optional<ContactField> contact_field_called(std::string_view variable);
 /// "contact <name>": the resource, which no cloth's is, since those have a stroke in their names.
 std::string resource_name(const ContactRow& row);
+/// What pairs bore, as the state of a run: the entries that the list holds, without the links between them, in the order
+/// of their corners, since that of the list means nothing.
+std::vector<std::byte> borne_state(std::vector<glsl::SelfBorne> list);
+/// Returns whether bytes are such a state, of places on this sheet.
+bool is_borne_state(std::span<const std::byte> bytes, const SelfContact& contact);
+/// Returns how many entries follow the first one.
+std::uint32_t borne_count(std::span<const std::byte> bytes);
+
 /// As far as a buffer of so many bytes can hold each of the lists.
 ContactCapacity limited(const ContactCapacity& capacity, std::uint64_t most_bytes);
 

@@ -64,6 +64,7 @@ class Substep {
         if (edges) add(StepKind::box_edges, iteration).after_edges = true;
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
+        step.supporting = model_.self_contact.has_value();
         return step;
     }
 
@@ -98,8 +99,8 @@ class ContactSteps {
         if (!contact_.to_part.empty())
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);
-        for (push.round = 0; push.round < glsl::self_iterations; ++push.round)
-            for (const StepKind kind : {StepKind::self_contact, StepKind::self_push}) add_one(kind);
+        for (push.round = 0; push.round < glsl::self_iterations; ++push.round) add_one(StepKind::self_contact);
+        add_one(StepKind::self_push);
         if (!model_.scene.colliders.empty()) collide();
         for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_limit);
         add_one(StepKind::self_move);
@@ -109,10 +110,11 @@ class ContactSteps {
   private:
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth)});
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth),
+                              substep_ + 1 == model_.scene.solver.substeps});
     }
     void collide() {
-        add_for_cloths(StepKind::self_return);
+        add_for_cloths(StepKind::self_hand);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             steps_.push_back({StepKind::collide, cloth, substep_, model_.scene.solver.iterations + 1});
         add_for_cloths(StepKind::self_gather_again);

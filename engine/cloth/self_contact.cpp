@@ -39,8 +39,6 @@ double particle_mass(const Cloth& cloth, const ClothModel& model) {
     return cloth.areal_density * model.spacing[0] * model.spacing[1];
 }
 
-/// Cloths that started through each other come to part at parting_speed with this acceleration, m/s^2.
-constexpr double parting_acceleration = 40;
 /// Only so many pairs of cloths are worked apart, as one invocation goes through all of them; more of them never meet.
 constexpr std::size_t most_crossed = 4096;
 
@@ -121,15 +119,13 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         meetings[each.first * count + each.second] = meetings[each.second * count + each.first] = meeting;
     }
     push.crossed_count = static_cast<int>(to_part.size());
-    const double step = models[0].substep_length;
-    push.parting = {static_cast<float>(parting_speed * step), static_cast<float>(parting_acceleration * step * step)};
     push.grid = lay_out(cloths);
-    push.recovery = static_cast<float>(recovery_speed * step);
+    push.step = static_cast<float>(models[0].substep_length);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
     const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits
     capacity = {places * capacity_per_particle.pairs, places * capacity_per_particle.near,
-                places * capacity_per_particle.cells};
+                places * capacity_per_particle.cells, places * capacity_per_particle.touching};
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
     push.cloth = cloths.front();
@@ -153,7 +149,7 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
 double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
     const auto use = [](std::uint32_t most, std::uint32_t entries) { return static_cast<double>(most) / entries; };
     return std::max({use(record.most_pairs, capacity.pairs), use(record.most_near, capacity.near),
-                     use(record.most_cells, capacity.cells)});
+                     use(record.most_cells, capacity.cells), use(record.most_touching, capacity.touching)});
 }
 
 ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
@@ -163,7 +159,7 @@ ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::Self
                                : static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, most_contact_entries));
     };
     return {more(record.most_pairs, capacity.pairs), more(record.most_near, capacity.near),
-            more(record.most_cells, capacity.cells)};
+            more(record.most_cells, capacity.cells), more(record.most_touching, capacity.touching)};
 }
 
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {

@@ -12,15 +12,15 @@
 
 namespace drape {
 
-/// The capacities, in entries, of the lists of pairs of primitives, of those whose boxes are near each other, and of
-/// pairs of cells. The result of a frame does not depend on them, as long as they suffice.
+/// The capacities, in entries, of the lists of pairs of primitives, of those whose boxes are near each other, of pairs
+/// of cells, and of pairs that touch. The result of a frame does not depend on them, as long as they suffice.
 struct ContactCapacity {
-    std::uint32_t pairs = 0, near = 0, cells = 0;
+    std::uint32_t pairs = 0, near = 0, cells = 0, touching = 0;
     bool operator==(const ContactCapacity&) const = default;
 };
 
 /// A scene begins with these capacities per particle; crumpled cloth takes 10, 30 and 50.
-inline constexpr ContactCapacity capacity_per_particle{32, 64, 64};
+inline constexpr ContactCapacity capacity_per_particle{32, 64, 64, 16};
 /// An entry of the list of primitives near each other names one of the list of cells in 28 bits, and shaders count in
 /// signed integers.
 inline constexpr std::uint32_t most_contact_entries = (1u << 28) - 1;

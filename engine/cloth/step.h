@@ -58,6 +58,7 @@ enum class StepKind {
     self_push,
     self_limit,
     self_move,
+    self_hand,
     self_return,
 };
 inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
@@ -94,6 +95,8 @@ struct Step {
     bool conditional = false;
     /// A collision, or a second `box_edges`, goes on from what `box_edges` left.
     bool after_edges = false;
+    /// A collision keeps the normals of the surfaces that particles lie on.
+    bool supporting = false;
     /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
     /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it
     /// back.

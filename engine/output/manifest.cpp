@@ -126,6 +126,7 @@ Json::Value self_collision_json(const Manifest::SelfCollision& told) {
     if (told.first_unproved) json["first_unproved_frame"] = *told.first_unproved;
     json["most_pairs"] = told.most_pairs;
     json["motions_cut_short"] = Json::UInt64(told.truncated);
+    json["longest_lag_m"] = told.longest_lag;
     return json;
 }
 

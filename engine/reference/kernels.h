@@ -29,6 +29,7 @@ namespace drape::glsl {
 #include "include/residual.h"
 #include "include/self_apart.h"
 #include "include/self_contact.h"
+#include "include/self_impulse.h"
 #include "include/self_ring.h"
 #include "include/spring.h"
 #include "include/statistics.h"

@@ -22,7 +22,7 @@ TwinCloth::TwinCloth(const SimulationModel& model, std::size_t cloth) : topology
         std::memcpy(values.data(), bytes.data(), bytes.size());
     };
     for (const FieldRow& row : cloth_fields()) {
-        const bool computed = row.life == FieldLife::state || row.life == FieldLife::frame;
+        const bool computed = row.life != FieldLife::constant && row.life != FieldLife::input;
         if (!row.is_image() || !computed || !row.needed(about)) continue;
         const auto place = static_cast<std::size_t>(row.field);
         if (&row.element == &layout_of<vec4>())

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -58,6 +60,18 @@ struct TwinPair {
     glsl::uvec4 corners;
 };
 
+/// A pair that touches.
+struct TwinTouch {
+    bool edges;
+    glsl::SelfTouch touch;
+};
+
+/// Sums of impulses at a place, by round; the last of them leads pairs apart.
+struct TwinSums {
+    std::array<std::array<std::int64_t, 3>, glsl::self_sum_count> units{};
+    glsl::uint weight = 0;
+};
+
 /// The passes of contact hand each other these lists, by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);
@@ -67,9 +81,12 @@ struct TwinContact {
     std::vector<glsl::vec4> positions, displacements;
     std::vector<glsl::SelfBox> boxes;
     std::vector<TwinPair> pairs;
+    std::vector<TwinTouch> touching;
+    std::map<std::array<glsl::uint, 5>, glsl::vec3> borne;  ///< force of pairs that pressed, by corners and kind
+    std::vector<TwinSums> sums;                             ///< by place
+    std::vector<glsl::vec4> supports, velocities, made_good;
     std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
     std::vector<glsl::vec3> led;                 ///< displacement that leads each cloth apart from others, m
-    std::vector<glsl::ivec4> corrections;
     std::vector<glsl::vec4> before;
     std::vector<float> shares;  ///< shares of their motions that the particles make, after the last round
     glsl::SelfRecord record{};

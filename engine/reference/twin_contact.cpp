@@ -80,18 +80,23 @@ void run_collide(const TwinPlace& where) {
             displacement = xyz(state[Field::lifted][i]);
             touched = state[Field::lifted][i].w > 0.0f;
         }
+        vec4 lies_on{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
+            vec3 normal{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
                                      push.contact.x, push.contact.y, push.contact.w);
                 displacement = contact.displacement;
+                normal = contact.depth > deepest ? contact.normal : normal;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }
             touched = touched || deepest > 0.0f;
+            if (deepest > 0.0f) lies_on = texel(normal, 1.0f);
             if (!(deepest > push.contact.z)) break;
         }
+        if (touched && step.supporting) state[Field::support][i] = lies_on;
         if (touched && model.scheme.second_order) {
             state[Field::displacement_before][i] = texel(displacement);
             uint& hold = state.integers(Field::line_control)[control_hold];

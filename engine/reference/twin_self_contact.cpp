@@ -66,8 +66,13 @@ class ContactStep {
     float inverse_mass(uint place) const { return contact_.positions[place].w; }
     bool held(uint place) const { return !(inverse_mass(place) > 0.0f); }
     vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
+    /// Returns a motion with what makes a missing thickness good.
+    vec3 led_motion(uint place) const {
+        const bool pushed = contact_.before[place].w != 0.0f;
+        return pushed ? self_added(displacement(place), xyz(contact_.made_good[place])) : displacement(place);
+    }
     vec3 bounded(uint place) const {
-        vec3 moved = displacement(place);
+        vec3 moved = led_motion(place);
         if (!held(place))
             moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried),
                                  cloth_at(place).thickness);
@@ -108,7 +113,12 @@ class ContactStep {
     bool edge_exists(ivec2 particle, int k) const;
     void add_triangles(ivec2 particle, ivec2 cell, vec3 axis);
     void add_pair(const TwinPair& pair, vec3 axis);
-    void add_correction(std::size_t place, vec3 impulse, float mass, float weight);
+    void touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept);
+    void add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse);
+    vec3 impulse_at(std::size_t round, uint place) const;
+    vec3 motion_in_round(uint place, float mass) const;
+    void work(TwinTouch& pair);
+    float mass_of(uint corner, const SelfCloth& cloth) const { return inverse_mass(place(corner)) * cloth.lightness; }
     void move_to(std::size_t place, vec3 displacement) {
         contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
         contact_.before[place].w = 1;
@@ -136,6 +146,7 @@ void ContactStep::common() {
     const vec3 common = self_common_motion(mean, least);
     record.carried = {common.x, common.y, common.z, 0};
     record.point_count = record.edge_count = 0;
+    record.touching_point_count = record.touching_edge_count = 0;
     record.cell_count = 0;
 }
 
@@ -152,8 +163,11 @@ SelfBox ContactStep::cell_box(ivec2 own) const {
 
 void ContactStep::boxes() {
     const std::size_t count = contact_.positions.size();
-    contact_.corrections.assign(count, {});
+    contact_.sums.assign(count, {});
+    contact_.velocities.assign(count, {});
+    contact_.made_good.assign(count, {});
     contact_.pairs.clear();
+    contact_.touching.clear();
     contact_.boxes.assign(count, {});
     for (std::size_t own = 0; own < count; ++own)
         if (owned(own)) {
@@ -185,8 +199,9 @@ void ContactStep::crossings() {
             if (contact_.owners[a] != pair.cloths.x || !boxes_meet(a, b) || !self_cells_cross(cell(a), cell(b)))
                 continue;
             ++contact_.crossings[which].count;
-            contact_.crossings[which].sum += self_parting_of(xyz(pair.way), displacement(static_cast<uint>(a)),
-                                                             displacement(static_cast<uint>(b)), push_.parting);
+            contact_.crossings[which].sum +=
+                self_parting_of(xyz(pair.way), displacement(static_cast<uint>(a)), displacement(static_cast<uint>(b)),
+                                self_parting(push_.step));
         }
 }
 
@@ -195,7 +210,7 @@ void ContactStep::apart() {
     contact_.record.crossing_count = 0;
     for (std::size_t k = 0; k < model_.to_part.size(); ++k) {
         contact_.record.crossing_count += static_cast<uint>(contact_.crossings[k].count);
-        const float lacking = self_lacking(contact_.crossings[k], push_.parting);
+        const float lacking = self_lacking(contact_.crossings[k], self_parting(push_.step));
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             contact_.led[cloth] =
                 self_led_apart(contact_.led[cloth], model_.to_part[k], static_cast<int>(cloth), lacking);
@@ -280,50 +295,101 @@ void ContactStep::add_pair(const TwinPair& pair, vec3 axis) {
     if (!self_primitives_meet(one, other, push_, mean)) return;
     const SelfGap gap = self_gap(pair.edges, positions(pair));
     const SelfCorners motions = corners(pair, [this](uint place) { return motion(place); });
-    if (!self_listed_pair(pair.edges, gap, motions, thickness(pair), mean)) return;
+    const float kept = thickness(pair);
+    if (!self_listed_pair(pair.edges, gap, motions, kept, mean)) return;
     ++(pair.edges ? contact_.record.edge_count : contact_.record.point_count);
     contact_.pairs.push_back(pair);
+    if (self_touches(pair.edges, gap, motions, kept))
+        touch(pair, gap, self_pair_friction(cloth_of(all.x), cloth_of(all.w)), kept);
 }
 
-void ContactStep::add_correction(std::size_t place, vec3 impulse, float mass, float weight) {
-    const float moves = mass * weight, per_metre = self_correction_units / cloth_at(place).thickness;
-    ivec4& sum = contact_.corrections[place];
-    sum.x += self_units(impulse.x * moves, per_metre);
-    sum.y += self_units(impulse.y * moves, per_metre);
-    sum.z += self_units(impulse.z * moves, per_metre);
-    sum.w += self_weight(weight);
+void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept) {
+    ++(pair.edges ? contact_.record.touching_edge_count : contact_.record.touching_point_count);
+    const uvec4& all = pair.corners;
+    const auto found = contact_.borne.find({all.x, all.y, all.z, all.w, pair.edges});
+    const vec3 force = found == contact_.borne.end() ? vec3{} : found->second;
+    const vec3 begun = self_begun(gap.normal, force, friction, push_.step);
+    const float freedom = self_freedom(gap.distance, kept, push_.step);
+    contact_.touching.push_back({pair.edges, {all, gap.weights, texel(gap.normal, freedom), texel(begun, friction)}});
+    const auto corner = places(pair);
+    for (std::size_t k = 0; k < 4; ++k) contact_.sums[corner[k]].weight += self_weight(component(gap.weights, k));
+    add_impulse(0, pair.edges, all, gap.weights, begun);
+}
+
+void ContactStep::add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse) {
+    const SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(push_.thickness));
+    const auto units = [](ivec2 parts) { return std::int64_t{parts.x} + std::int64_t{parts.y} * (1 << 20); };
+    const auto add = [&](uint corner, const SelfParts& parts) {
+        auto& sum = contact_.sums[place(corner)].units[round];
+        sum[0] += units(parts.x);
+        sum[1] += units(parts.y);
+        sum[2] += units(parts.z);
+    };
+    add(all.x, shares.a);
+    add(all.y, shares.b);
+    add(all.z, shares.c);
+    add(all.w, shares.d);
+}
+
+vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
+    const auto number = [](std::int64_t units) {
+        const auto bits = static_cast<std::uint64_t>(units);
+        return self_number({static_cast<uint>(bits), static_cast<uint>(bits >> 32)});
+    };
+    const auto& sum = contact_.sums[place].units[round];
+    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, push_.thickness);
+}
+
+vec3 ContactStep::motion_in_round(uint place, float mass) const {
+    const vec3 impulse = impulse_at(static_cast<std::size_t>(push_.round), place);
+    return self_added(motion(place), self_moved_by(impulse, mass, xyz(contact_.supports[place])));
+}
+
+void ContactStep::work(TwinTouch& pair) {
+    const uvec4& all = pair.touch.corners;
+    const std::array<uint, 4> corner{all.x, all.y, all.z, all.w};
+    const SelfCloth &one = cloth_of(all.x), &other = cloth_of(all.w);
+    std::array<float, 4> mass{}, holds{};
+    std::array<vec3, 4> moved{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        mass[k] = mass_of(corner[k], k == 0 || (k == 1 && pair.edges) ? one : other);
+        holds[k] = self_holds(contact_.sums[place(corner[k])].weight);
+        moved[k] = motion_in_round(place(corner[k]), mass[k]);
+    }
+    SelfTouch& touch = pair.touch;
+    const float yields =
+        self_yields(touch.weights, {mass[0], mass[1], mass[2], mass[3]}, {holds[0], holds[1], holds[2], holds[3]});
+    const vec3 relative = self_sum(touch.weights, {moved[0], moved[1], moved[2], moved[3]});
+    const vec3 impulse = self_next_impulse(touch, relative, yields);
+    touch.impulse = texel(impulse, touch.impulse.w);
+    const auto round = static_cast<std::size_t>(push_.round);
+    add_impulse(round + 1, pair.edges, all, touch.weights, impulse);
+    if (round == 0)
+        add_impulse(self_sum_of_thickness, pair.edges, all, touch.weights,
+                    xyz(touch.normal) * self_leading(touch, yields));
+    if (push_.round == self_iterations - 1 && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f))
+        contact_.borne[{all.x, all.y, all.z, all.w, pair.edges}] = self_borne_force(impulse, push_.step);
 }
 
 void ContactStep::contact() {
-    for (const TwinPair& pair : contact_.pairs) {
-        const SelfCloth &one = cloth_of(pair.corners.x), &other = cloth_of(pair.corners.w);
-        const SelfGap gap = self_gap(pair.edges, positions(pair));
-        const auto corner = places(pair);
-        const vec4 mass = self_corner_masses(
-            pair.edges, one, other,
-            {inverse_mass(corner[0]), inverse_mass(corner[1]), inverse_mass(corner[2]), inverse_mass(corner[3])});
-        const SelfCorners displacements = corners(pair, [this](uint place) { return displacement(place); });
-        const vec3 impulse =
-            self_impulse(gap, displacements, mass, thickness(pair), self_pair_friction(one, other), push_.recovery);
-        if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) continue;
-        for (std::size_t k = 0; k < 4; ++k)
-            add_correction(corner[k], impulse, component(mass, k), component(gap.weights, k));
-    }
+    if (push_.round == 0) contact_.borne.clear();
+    for (TwinTouch& pair : contact_.touching) work(pair);
 }
 
 void ContactStep::push() {
     for (std::size_t i = 0; i < contact_.before.size(); ++i) {
-        if (!owned(i)) continue;
-        const vec3 displacement = xyz(contact_.displacements[i]);
-        const ivec4 sum = std::exchange(contact_.corrections[i], {});
-        const bool led = push_.round == 0 && !contact_.led.empty();
+        const auto at = static_cast<uint>(i);
+        if (!owned(i) || held(at)) continue;
+        const bool led = !contact_.led.empty();
         const vec3 by = led ? contact_.led[static_cast<std::size_t>(contact_.owners[i])] : vec3{};
-        const bool moves = sum.w != 0 || by.x != 0.0f || by.y != 0.0f || by.z != 0.0f;
-        if (!moves || held(static_cast<uint>(i))) continue;
-        const float thickness = cloth_at(i).thickness;
-        const vec3 corrected = self_corrected(displacement, sum, thickness);
-        move_to(i, self_bounded(led ? self_led(corrected, by) : corrected, xyz(contact_.before[i]),
-                                xyz(contact_.record.carried), thickness));
+        if (contact_.sums[i].weight == 0 && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) continue;
+        const vec3 displacement = xyz(contact_.displacements[i]), nothing{0, 0, 0};
+        const float mass = inverse_mass(at) * cloth_at(i).lightness;
+        vec3 velocity = self_added(displacement, self_moved_by(impulse_at(self_iterations, at), mass, nothing));
+        if (led) velocity = self_led(velocity, by);
+        const vec3 good = self_moved_by(impulse_at(self_sum_of_thickness, at), mass, xyz(contact_.supports[i]));
+        contact_.made_good[i] = texel(good);
+        move_to(i, velocity);
     }
 }
 
@@ -338,13 +404,13 @@ void ContactStep::limit() {
         const auto corner = places(pair);
         const auto along = [&](uint place) { return ordered_dot(gap.normal, bounded(place)); };
         const vec4 all{along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
-        const vec4 end =
-            self_ends(gap, all, {shares[corner[0]], shares[corner[1]], shares[corner[2]], shares[corner[3]]});
+        const vec4 made{shares[corner[0]], shares[corner[1]], shares[corner[2]], shares[corner[3]]};
+        const vec4 end = self_ends(gap, all, made);
+        const float middle = self_middle(edges, gap.apart, end, self_wants(all, made));
         for (std::size_t k = 0; k < 4; ++k) {
             const uint at = corner[k];
-            const float share =
-                self_share(gap, self_middle(edges, end), component(end, k), corner_side(edges, static_cast<int>(k)),
-                           component(all, k), shares[at], held(at), push_.least);
+            const float share = self_share(gap, middle, component(end, k), corner_side(edges, static_cast<int>(k)),
+                                           component(all, k), shares[at], held(at), push_.least);
             next[at] = std::min(next[at], share);
         }
     }
@@ -356,6 +422,9 @@ void ContactStep::move() {
     record.most_pairs = std::max(record.most_pairs, record.point_count + record.edge_count);
     // The device also counts the entries that a search and boxes found, in the same maxima.
     record.most_cells = std::max(record.most_cells, record.cell_count);
+    const uint touching = record.touching_point_count + record.touching_edge_count;
+    record.most_touching = std::max(record.most_touching, touching);
+    if (touching == 0) contact_.borne.clear();
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (!owned(i)) continue;
         const auto at = static_cast<uint>(i);
@@ -364,62 +433,29 @@ void ContactStep::move() {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
         }
-        const vec3 bound =
-            self_bounded(displacement(at), xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
-        const vec3 own = displacement(at);
-        if (!(share < 1.0f) && bound.x == own.x && bound.y == own.y && bound.z == own.z) continue;
-        ++record.truncated;
-        move_to(i, self_truncated(xyz(record.carried), bounded(at), share));
-    }
-}
-
-std::size_t place_of(const SelfClothPush& push, std::size_t particle) {
-    const auto columns = static_cast<std::size_t>(push.grid.x);
-    const std::size_t column = particle % columns, row = particle / columns;
-    return (static_cast<std::size_t>(push.first.y) + row) * static_cast<std::size_t>(push.columns) +
-           static_cast<std::size_t>(push.first.x) + column;
-}
-
-void run_self_gather(const TwinPlace& where) {
-    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const auto& push = step.push<SelfClothPush>();
-    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
-        const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
-        const std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
-        const std::size_t place = place_of(push, i);
-        meeting->positions[place] = state[Field::position][i];
-        meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
-    }
-}
-
-void run_self_return(const TwinPlace& where) {
-    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const auto& push = step.push<SelfClothPush>();
-    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
-        const std::size_t place = place_of(push, i);
-        if (std::exchange(meeting->before[place].w, 0.0f) == 0.0f) continue;
-        const vec3 displacement = xyz(meeting->displacements[place]);
-        state.move_to(i, displacement);
-        if (!model.scheme.second_order) continue;
-        state[Field::displacement_before][i] = texel(displacement);
-        uint& hold = state.integers(Field::line_control)[control_hold];
-        hold = std::max(hold, line_hold_contact);
+        const vec3 moved = led_motion(at);
+        const vec3 bound = self_bounded(moved, xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
+        const bool is_cut = share < 1.0f || bound.x != moved.x || bound.y != moved.y || bound.z != moved.z;
+        if (!is_cut && contact_.before[i].w == 0.0f) continue;
+        contact_.velocities[i] = texel(displacement(at));
+        vec3 made = moved;
+        if (is_cut) {
+            ++record.truncated;
+            made = self_truncated(xyz(record.carried), bounded(at), share);
+            record.most_lag = std::max(record.most_lag, floatBitsToUint(self_lag(made, moved)));
+        }
+        move_to(i, made);
     }
 }
 
 }  // namespace
-
-std::vector<TwinRow> twin_sheet_rows() {
-    return {{StepKind::self_gather, run_self_gather},
-            {StepKind::self_gather_again, run_self_gather},
-            {StepKind::self_return, run_self_return}};
-}
 
 TwinContact::TwinContact(const SelfContact& contact)
     : model(&contact),
       owners(contact.owners()),
       positions(owners.size()),
       displacements(owners.size()),
+      supports(owners.size()),
       before(owners.size()) {}
 
 void Twin::run_contact(const Step& step) {

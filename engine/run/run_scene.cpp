@@ -298,8 +298,14 @@ std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simul
         if (cloth.self_collision) names.push_back(cloth.name);
     std::vector<std::pair<std::string, std::string>> crossed;
     for (const auto& [one, other] : told->crossed) crossed.emplace_back(cloths[one].name, cloths[other].name);
-    return Manifest::SelfCollision{names,           cloths.size() > 1, told->first_unproved,          told->most_pairs,
-                                   told->truncated, crossed,           apart_since(*told, simulation)};
+    return Manifest::SelfCollision{names,
+                                   cloths.size() > 1,
+                                   told->first_unproved,
+                                   told->most_pairs,
+                                   told->truncated,
+                                   told->longest_lag,
+                                   crossed,
+                                   apart_since(*told, simulation)};
 }
 
 /// Simulates what is missing. Returns whether all is there.

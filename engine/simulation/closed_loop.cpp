@@ -71,6 +71,7 @@ FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t subst
     fullest_.most_pairs = std::max(fullest_.most_pairs, judged.self_record.most_pairs);
     fullest_.most_near = std::max(fullest_.most_near, judged.self_record.most_near);
     fullest_.most_cells = std::max(fullest_.most_cells, judged.self_record.most_cells);
+    fullest_.most_touching = std::max(fullest_.most_touching, judged.self_record.most_touching);
     return judged;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "solver/cut_pass.h"
@@ -205,6 +206,7 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
             model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
     self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
     self_contact_->truncated += record.truncated;
+    self_contact_->longest_lag = std::max(self_contact_->longest_lag, double{std::bit_cast<float>(record.most_lag)});
     if (record.crossing_count > 0 && self_contact_->last_crossed) self_contact_->last_crossed = frame;
     if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
 }

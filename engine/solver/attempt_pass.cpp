@@ -95,6 +95,28 @@ void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
 
 }  // namespace
 
+void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back) {
+    for (const ContactRow& row : contact_fields()) {
+        if (row.life != FieldLife::state) continue;
+        const graph::BufferDeclaration live = graph.resources()[contact[row.field].resource].buffer;
+        const graph::Handle kept = graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
+        const graph::Handle from = back ? kept : contact[row.field];
+        const auto to = std::make_shared<graph::Handle>(back ? contact[row.field] : kept);
+        graph.add_pass(
+            {back ? "restore contact" : "keep contact", "judge", live.name + (back ? " restored" : " kept")},
+            [&](graph::PassSetup& setup) {
+                setup.read(from, graph::Access::transfer_read);
+                *to = setup.write(*to, graph::Access::transfer_write);
+            },
+            [from, to, size = live.byte_count](graph::PassContext& context) {
+                const VkBufferCopy region{0, 0, size};
+                vkCmdCopyBuffer(context.commands(), context.buffer(from).handle(), context.buffer(*to).handle(), 1,
+                                &region);
+            });
+        if (back) contact[row.field] = *to;
+    }
+}
+
 std::string difference_readback_name(const ClothModel& cloth) { return cloth.name + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,

@@ -18,6 +18,8 @@ inline constexpr std::size_t attempt_step_count = 5;
 inline constexpr const char* attempt_name = "attempt";
 std::string difference_readback_name(const ClothModel& cloth);
 
+/// Keeps, or takes back, what contact between the cloths hands from frame to frame.
+void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back);
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                  std::size_t cloth, AttemptStep step);
 

@@ -41,6 +41,8 @@ void upload_change(const graph::ResourcePool& pool, const FieldRow& row, const F
 /// Returns whether the host makes a field that a cut may change.
 bool follows_cuts(const FieldRow& row) { return row.life == FieldLife::constant && row.start != nullptr; }
 
+std::string borne_name() { return resource_name(contact_fields()[static_cast<std::size_t>(ContactField::borne)]); }
+
 }  // namespace
 
 bool draws_outgrown(const CutImages& before, const CutTopology& topology) {
@@ -75,13 +77,31 @@ std::map<std::string, std::vector<std::byte>> ClothSolver::download_state(const 
             bytes.resize(std::size_t{image.width} * image.height * row.element.size);
             vulkan::download(pool.device(), pool.image(name), bytes);
         }
+    if (!model_.self_contact) return state;
+    const std::string borne = borne_name();
+    const vulkan::Buffer& buffer = pool.buffer(borne);
+    std::vector<glsl::SelfBorne> entries(buffer.description().byte_count / sizeof(glsl::SelfBorne));
+    vulkan::download(pool.device(), buffer, std::as_writable_bytes(std::span(entries)));
+    state[borne] = borne_state(std::move(entries));
     return state;
+}
+
+bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now, std::span<const std::byte> saved) {
+    if (!model_.self_contact || name != borne_name()) return now.size() == saved.size();
+    if (!is_borne_state(saved, *model_.self_contact)) return false;
+    ContactCapacity wanted = contact_.capacity;
+    wanted.touching = std::max(wanted.touching, borne_count(saved));
+    contact_.capacity = limited(wanted, most_list_bytes_);
+    return contact_.capacity == wanted;
 }
 
 void ClothSolver::upload_state(const graph::ResourcePool& pool,
                                const std::map<std::string, std::vector<std::byte>>& state) const {
     for (const auto& [name, bytes] : state)
-        if (pool.has(name)) vulkan::upload(pool.device(), pool.image(name), bytes);
+        if (pool.has(name) && name != borne_name())
+            vulkan::upload(pool.device(), pool.image(name), bytes);
+        else if (pool.has(name))
+            vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
 }
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,

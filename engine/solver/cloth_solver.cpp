@@ -265,6 +265,8 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
     for_each_cloth(
         [&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, state.index, step); });
+    if (run_->self_contact && (step == AttemptStep::keep || step == AttemptStep::restore))
+        add_contact_copies(graph, contact_, step == AttemptStep::restore);
 }
 
 std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {

@@ -15,6 +15,9 @@ bool masked(Place p) { return p.cloth->masked(); }
 bool buffered(Place p) { return p.cloth->buffered; }
 bool sheet_is_buffered(Place p) { return p.contact->buffered; }
 bool second_order(Place p) { return p.cloth->model->scheme.second_order; }
+/// Returns whether the frame ends with the velocity that this step leaves, and the method keeps no history of its own.
+bool ends_frame(Place p) { return p.step.last && !second_order(p) && (*p.cloth)[Field::end_excess].valid(); }
+bool supported(Place p) { return !p.model.scene.colliders.empty(); }
 bool wide_atomics(Place p) { return p.device.wide_atomics(); }
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<SelfContactPush>().crossed_count > 0; }
@@ -25,6 +28,7 @@ graph::PushConstants contact_push(Place p) {
     push.pair_capacity = static_cast<int>(p.contact->capacity.pairs);
     push.near_capacity = static_cast<int>(p.contact->capacity.near);
     push.cell_capacity = static_cast<int>(p.contact->capacity.cells);
+    push.touching_capacity = static_cast<int>(p.contact->capacity.touching);
     return push;
 }
 
@@ -86,8 +90,11 @@ std::vector<StepRow> contact_step_rows() {
         return row;
     };
     using enum StepKind;
+    StepRow returned =
+        of_cloth(self_return, "self return", "self_return.comp", {{"history", second_order}, {"before", ends_frame}});
+    returned.alias = before_alias;
     return {
-        of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}}),
+        of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
         of_cloth(self_gather_again, "self gather again", "self_gather_again.comp", {}),
         of_all(self_common, "self common", "self_common.comp", one_invocation, if_crossed),
         of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
@@ -102,13 +109,14 @@ std::vector<StepRow> contact_step_rows() {
         of_all(self_apart, "self apart", "self_apart.comp", over_cloths),
         of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>,
                if_crossed),
-        of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>),
-        of_all(self_contact, "self contact", "self_contact.comp", found_in_round<glsl::self_size_contact>, if_wide),
-        of_all(self_push, "self push", "self_push.comp", found_in_round<glsl::self_size_push>,
+        of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>, if_wide),
+        of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>, if_wide),
+        of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>,
                {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         of_all(self_move, "self move", "self_move.comp", over_sheet, {{"buffered", sheet_is_buffered}}),
-        of_cloth(self_return, "self return", "self_return.comp", {{"history", second_order}}),
+        of_cloth(self_hand, "self hand", "self_hand.comp", {}),
+        returned,
     };
 }
 

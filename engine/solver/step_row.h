@@ -72,6 +72,10 @@ std::uint32_t step_constant(const StepPlace& place, std::string_view name);
 /// Those that follow from the scene alone: where each kind of collider ends in the list, `leaves_out`, `round_count`.
 std::optional<std::uint32_t> scene_constant(const SimulationModel& model, std::string_view name);
 
+/// The alias of steps that read or write the displacement of a frame's substep before the last: micro-steps that go to
+/// and fro have it in the spare image.
+std::string before_alias(const StepPlace& place, std::string_view name, bool written);
+
 /// Adds the pass of a step. `cloth` is null where contact is of all cloths at once.
 void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth, ContactHandles* contact,
                    const SceneInputs& inputs, const SimulationModel& model, const Step& step);

@@ -25,6 +25,7 @@ bool buffered(Place p) { return p.cloth->buffered; }
 bool windy(Place p) { return has(p, Field::wind_force); }
 bool second_order(Place p) { return scheme_of(p).second_order; }
 bool after_edges(Place p) { return p.step.after_edges; }
+bool supporting(Place p) { return p.step.supporting; }
 bool keeps_excess(Place p) { return has(p, Field::end_excess); }
 bool comes_home(Place p) { return p.cloth->away; }
 bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
@@ -116,11 +117,6 @@ std::string all_springs_alias(Place p, std::string_view name, bool written) {
     const bool spare = written ? p.step.turns : !p.step.turns && p.step.iteration > 0;
     return std::string(name) + (spare ? "_spare" : "");
 }
-/// Where micro-steps go to and fro, the displacement of the substep before the last is in the spare image.
-std::string advance_alias(Place p, std::string_view name, bool) {
-    return name == "displacement_before" && scheme_of(p).spare_state ? variable_of(Field::displacement_spare)
-                                                                     : std::string();
-}
 std::string box_edges_alias(Place p, std::string_view name, bool written) {
     if (written) return variable_of(p.step.after_edges ? Field::lifted : Field::lifted_once);
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
@@ -144,7 +140,7 @@ std::vector<StepRow> cloth_rows() {
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}},
         nested_reduced{{"masked", masked}, {"sheared", shears}},
         nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-        collide{{"history", second_order}, {"led", after_edges}, {"buffered", buffered}},
+        collide{{"history", second_order}, {"led", after_edges}, {"supporting", supporting}, {"buffered", buffered}},
         advance{{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}};
     return {
         {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
@@ -208,7 +204,7 @@ std::vector<StepRow> cloth_rows() {
          {{plain, "advance.comp", advance, over_strips}},
          grid_push,
          turns_home,
-         advance_alias},
+         before_alias},
     };
 }
 // clang-format on
@@ -222,6 +218,11 @@ std::vector<StepRow> all_rows() {
 }
 
 }  // namespace
+
+std::string before_alias(const StepPlace& place, std::string_view name, bool) {
+    return name == "displacement_before" && scheme_of(place).spare_state ? variable_of(Field::displacement_spare)
+                                                                         : std::string();
+}
 
 std::span<const StepRow> step_rows() {
     static const std::vector<StepRow> rows = all_rows();

@@ -165,6 +165,7 @@ SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, f
 struct Contact {
     vec3 displacement;
     float depth;  // m; 0 when there was no contact
+    vec3 normal;  // of the surface, in the world frame
 };
 
 SHARED vec3 moved_position(vec3 start, vec3 displacement) {
@@ -273,10 +274,10 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     vec3 local = local_point(collider, now);
     if (kind == kind_ellipsoid &&
         beyond_bounds(local, vec3(collider.shape.x, collider.shape.y, collider.shape.z), thickness))
-        return Contact(displacement, 0.0f);
+        return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
     SurfacePoint found = collider_surface(kind, collider, now, local);
     precise float inside = thickness - found.distance;
-    if (!(inside > 0.0f)) return Contact(displacement, 0.0f);
+    if (!(inside > 0.0f)) return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
     // The overlap at the substep's start is measured where the collider has carried the particle's place since.
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
@@ -288,10 +289,10 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
         before = way;
     }
     precise float depth = thickness - found.distance - kept_depth(before, recovery);
-    if (!(depth > 0.0f)) return Contact(displacement, 0.0f);
+    if (!(depth > 0.0f)) return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
     vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;
-    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth);
+    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal);
 }
 
 #ifndef __cplusplus

@@ -47,6 +47,7 @@ int next_near(int first, int i, int end, vec3 now, float thickness) {
 #define CONTACT(kind, collider)                                                                             \
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery); \
     if (in_turn) displacement = contact.displacement;                                                       \
+    normal = contact.depth > deepest ? contact.normal : normal;                                             \
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
@@ -72,10 +73,11 @@ bool near_early(vec3 now, float thickness) {
 }
 
 /// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
-/// else all take the given one, and only the depth counts.
+/// else all take the given one, and only the depth counts. The normal is the deepest one's.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;
+    vec3 normal = vec3(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
     CONTACTS(kind_sphere, planes_end, spheres_end)
     CONTACTS(kind_box, spheres_end, boxes_end)
@@ -83,5 +85,5 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
         CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
     }
     CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
-    return Contact(displacement, deepest);
+    return Contact(displacement, deepest, normal);
 }

@@ -57,6 +57,14 @@ SHARED bool self_cells_cross(SelfCell one, SelfCell other) {
     return crosses;
 }
 
+/// Returns by how much (m) cloths that started through each other should part in a substep, and by how much more than in
+/// the one before, at most.
+SHARED vec2 self_parting(float step) {
+    precise float moves = self_parting_speed * step;
+    precise float change = (self_parting_acceleration * step) * step;
+    return vec2(moves, change);
+}
+
 /// Returns how fast two cells that cross part along the way, in units of self_parting_units, limited to the speed at
 /// which they should.
 SHARED int self_parting_of(vec3 way, vec3 moved_first, vec3 moved_second, vec2 parting) {

@@ -270,64 +270,6 @@ SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
-/// Factor on the speed at which a missing thickness is given back, 1 where little is missing. A layer that carries a
-/// pile needs more than one that lies alone, and yields until it gets that.
-SHARED float self_recovery_strength(float distance, float pair_thickness) {
-    precise float lacking = pair_thickness - distance;
-    float deep = self_limited(self_ratio(lacking, pair_thickness));
-    precise float strength = 1.0f + (self_deep_recovery - 1.0f) * (deep * deep);
-    return strength;
-}
-
-/// Returns the impulse on a pair's corners, zero where they stay apart: corner i, of inverse mass w_i and weight g_i,
-/// moves by w_i g_i times it. A thickness that is missing already is given back by `recovery` times its strength only.
-/// Friction is Coulomb's, on the displacement of the substep (docs/physics.md 5), against how deep the pair would be.
-SHARED vec3 self_impulse(SelfGap gap, SelfCorners moved, vec4 inverse_mass, float pair_thickness, float friction,
-                         float recovery) {
-    vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
-    precise float given_back = gap.distance + recovery * self_recovery_strength(gap.distance, pair_thickness);
-    float target = self_least(pair_thickness, given_back);
-    vec3 relative = self_sum(gap.weights, moved);
-    float along = ordered_dot(gap.normal, relative);
-    precise float missing = target - (gap.distance + along);
-    float depth = self_least(missing, pair_thickness);
-    vec4 g = gap.weights;
-    precise float mass = ((inverse_mass.x * g.x * g.x + inverse_mass.y * g.y * g.y) + inverse_mass.z * g.z * g.z) +
-                         inverse_mass.w * g.w * g.w;
-    precise vec3 tangent = relative - gap.normal * along;
-    precise float sliding = sqrt(ordered_dot(tangent, tangent));
-    precise float grip = friction * depth;
-    precise float kept = sliding > grip ? grip / sliding : 1.0f;
-    precise vec3 impulse = (gap.normal * depth - tangent * kept) * reciprocal(mass);
-    return gap.distance > 1.0e-12f && depth > 0.0f && mass > 0.0f ? impulse : nothing;
-}
-
-/// Converts a component of a correction to units, within their range; a NaN gives 0.
-SHARED int self_units(float correction, float units_per_metre) {
-    precise float units = correction * units_per_metre;
-    bool above = units > -self_correction_units, below = units < self_correction_units;
-    int inside = int(above && below ? units : 0.0f);
-    int least = units <= -self_correction_units ? -int(self_correction_units) : 0;
-    int most = below ? inside : int(self_correction_units);
-    return above ? most : least;
-}
-
-/// Unpacks sums added up two at a time, in integers of 64 bits: a first one below zero has taken 1 off the second.
-SHARED ivec4 self_sums(ivec4 halves) {
-    return ivec4(halves.x, halves.y + (halves.x < 0 ? 1 : 0), halves.z, halves.w + (halves.z < 0 ? 1 : 0));
-}
-
-/// Returns the displacement corrected by all pairs that a particle is in. `sum`: xyz in units, w the sum of its
-/// weights, by which pairs are averaged, so that layers that lie on each other corner on corner get what one pair
-/// would.
-SHARED vec3 self_corrected(vec3 displacement, ivec4 sum, float thickness) {
-    precise float weight = float(sum.w) / self_weight_units;
-    precise float unit = thickness / self_correction_units / self_largest(weight, 1.0f);
-    precise vec3 correction = vec3(float(sum.x), float(sum.y), float(sum.z)) * unit;
-    precise vec3 corrected = displacement + correction;
-    return sum.w == 0 ? displacement : corrected;
-}
-
 /// Returns a displacement measured against the common motion.
 SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
     precise vec3 motion = displacement - carried;
@@ -375,11 +317,23 @@ SHARED vec4 self_ends(SelfGap gap, vec4 along, vec4 shares) {
     return ends;
 }
 
-/// Returns where, m along the normal, the plane halfway between the two is when the corners are at `ends`.
-SHARED float self_middle(bool edges, vec4 ends) {
+/// Returns where, m along the normal, the plane between the two is when the corners are at `ends`. Each side keeps its
+/// share of the distance that the pair began with; of the rest each gets as much as it wants of both, so that a layer
+/// may follow one that goes on before it. `wants`: motion along the normal that the corners still lack.
+SHARED float self_middle(bool edges, float apart, vec4 ends, vec4 wants) {
     float below = edges ? self_largest(ends.x, ends.y) : ends.x;
     float above = edges ? self_least(ends.z, ends.w) : self_least(ends.y, self_least(ends.z, ends.w));
-    precise float middle = (below + above) * 0.5f;
+    float up = self_largest(edges ? self_largest(wants.x, wants.y) : wants.x, 0.0f);
+    float least_up = edges ? self_least(wants.z, wants.w) : self_least(wants.y, self_least(wants.z, wants.w));
+    float down = self_largest(-least_up, 0.0f);
+    precise float all = up + down;
+    precise float gap = above - below;
+    precise float half_gap = gap * 0.5f;
+    precise float quarter = apart * self_gap_kept;
+    float kept = self_least(half_gap, quarter);
+    precise float rest = gap - 2.0f * kept;
+    float part = all > 0.0f ? self_ratio(up, all) : 0.5f;
+    precise float middle = below + kept + part * rest;
     return middle;
 }
 
@@ -402,17 +356,19 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
     return gap.apart > nearly ? made : still;
 }
 
+/// Returns the motion along the normal that corners still lack.
+SHARED vec4 self_wants(vec4 along, vec4 shares) {
+    precise vec4 wants = vec4(along.x - along.x * shares.x, along.y - along.y * shares.y,
+                              along.z - along.z * shares.z, along.w - along.w * shares.w);
+    return wants;
+}
+
 /// Two primitives that touch have no plane between them, so that nothing is proved of them.
 SHARED bool self_touch(SelfGap gap) { return !(gap.distance > 1.0e-12f); }
 
 SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {
     precise vec3 truncated = carried + motion * share;
     return truncated;
-}
-
-SHARED int self_weight(float weight) {
-    precise float units = abs(weight) * self_weight_units;
-    return int(units);
 }
 
 /// Returns how many entries a list holds.

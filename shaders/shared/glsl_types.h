@@ -32,6 +32,9 @@ struct ivec2 {
     std::int32_t x, y;
     bool operator==(const ivec2&) const = default;
 };
+struct uvec2 {
+    std::uint32_t x, y;
+};
 struct alignas(16) ivec4 {
     std::int32_t x, y, z, w;
 };

@@ -11,11 +11,11 @@ namespace drape::glsl {
 
 /// One workgroup makes a level of the tree of at most so many boxes together with all levels above.
 const int self_tree_tail = 1024;
-/// Units of a correction in a thickness, and of a weight in 1: integers, so that atomic sums are exact in any order.
-const float self_correction_units = 1048576.0f, self_weight_units = 65536.0f;
+/// Units of a weight in 1: integers, so that atomic sums are exact in any order.
+const float self_weight_units = 65536.0f;
 
-/// A missing thickness of which nothing is left is given back so many times as fast as one that is all but kept.
-const float self_deep_recovery = 10.0f;
+/// Of a missing thickness so much is given back, m/s, and so many times as much where nothing is left of it.
+const float self_recovery_speed = 0.1f, self_deep_recovery = 10.0f;
 
 /// Box of a particle's cell while its corners make any part of their motions, or of a node of the tree of boxes, in
 /// which level 0 has a box per particle and each next one a box per 2 x 2 of the level below.
@@ -24,8 +24,10 @@ struct SelfBox {
     vec4 upper;  // xyz m; w unused
 };
 
-/// So many times pairs push each other in a substep.
+/// So many times the impulses of a substep's contacts are found from each other.
 const int self_iterations = 3;
+/// Sums of impulses by place: those that contacts begin with, those after each round, and what lacks of thicknesses.
+const int self_sum_count = self_iterations + 2, self_sum_of_thickness = self_iterations + 1;
 /// In so many rounds motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 
@@ -37,10 +39,33 @@ const int self_most_levels = 16;
 const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_size_levels = 3,
           self_size_blocks = self_size_levels + self_most_levels, self_size_cells = self_size_blocks + 1,
           self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
-          self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + self_iterations,
-          self_size_limit = self_size_push + self_iterations, self_size_count = self_size_limit + self_rounds;
+          self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
+          self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
 /// The first of the sizes that begin anew with every substep, not with a search.
 const int self_size_of_substep = self_size_search;
+
+/// A pair that touches in this substep, or would.
+struct SelfTouch {
+    uvec4 corners;
+    vec4 weights;  // the corners' weighted sum leads from the first primitive's nearest point to the other's
+    vec4 normal;   // xyz: direction of that sum, unit length; w: m by which the two may come nearer
+    vec4 impulse;  // xyz: on the second primitive, in masses of the first cloth's particle times m; w: friction
+};
+
+/// What a pair that touched had to bear.
+struct SelfBorne {
+    uvec4 corners;
+    uvec4 force;  // xyz: bits of the impulse over the square of the substep; w: 1 for two edges, which may have the same
+                  // corners as a particle and a triangle, and twice the next entry with the same first corner
+};
+/// The first entry of the list of what pairs bore says how many follow, in its first corner.
+const uint self_no_entry = 0u;
+
+/// Sums of impulses at a place, an integer in two words per component (include/self_impulse.h).
+struct SelfSum {
+    uvec4 xy;
+    uvec4 z_weight;  // xy: z; z: sum of the weights with which pairs hold the corner; w unused
+};
 
 struct SelfCloth {
     ivec2 first;       // column, row of its first particle
@@ -65,6 +90,8 @@ struct SelfCrossings {
     int sum;    // how fast these part, each self_parting_units where it parts as fast as it should
 };
 const int self_parting_units = 1024;
+/// They come to part at this speed, m/s, with this acceleration, m/s^2.
+const float self_parting_speed = 1.0f, self_parting_acceleration = 40.0f;
 
 /// States of a pair of cloths in the table of meetings: they do not meet, or they do; from the third on they started
 /// through each other and meet in substeps that begin with no crossing of the two.
@@ -75,7 +102,7 @@ const uint self_meets_not = 0u, self_meets = 1u, self_meets_apart = 2u;
 struct SelfContactPush {
     ivec2 grid;         // columns, rows of the sheet
     float thickness;    // m, the largest that a cloth keeps
-    float recovery;     // m that a substep gives back of a thickness that is all but kept
+    float step;         // s, of the substep
     float least;        // m, distances that rounding leaves in doubt
     float margin;       // m by which the search for cells looks farther than it needs to and foresees
     int pair_capacity;  // capacity of the list of pairs
@@ -88,10 +115,8 @@ struct SelfContactPush {
     int round;          // contact, push, room: which round
     int held;           // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
-    vec2 parting;       // m that cloths that started through each other should part by in a substep, and by which more
-                        // than in the one before, at most
-    int crossed_count;  // pairs of cloths that started through each other
-    int unused;
+    int crossed_count;      // pairs of cloths that started through each other
+    int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
     SelfCloth cloth;  // the first cloth, looked up here where it is the only one
 };
 
@@ -115,11 +140,15 @@ struct SelfRecord {
     uint candidate_count;  // pairs of cells that may meet in it or later
     uint block_count;      // pairs of blocks of cells that the last search found
     uint crossing_count;   // pairs of cells of cloths that started through each other and still cross in this substep
+    uint touching_point_count;  // pairs of a particle and a triangle that touch in this substep
+    uint touching_edge_count;   // pairs of two edges that do
     uint most_pairs;       // largest number of pairs in a substep of the frame
     uint most_near;        // largest number of pairs near each other by boxes
     uint most_cells;       // largest number of pairs of cells, candidates or blocks
+    uint most_touching;    // largest number of pairs that touch
     uint unproved;         // motions of held particles that were not proved to cross nothing, pairs that touched
     uint truncated;        // motions of free particles that were cut short
+    uint most_lag;         // bits of the longest way (m) that a free particle was held back by in a substep
 };
 
 #ifdef __cplusplus

@@ -74,6 +74,7 @@ struct SelfContactReport {
     std::optional<std::uint32_t> first_unproved;
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, that were near each other
     std::uint64_t truncated = 0;   ///< motions that were cut short because they would have crossed
+    double longest_lag = 0;        ///< m, the farthest that one was held back in a substep; its velocity stays
     /// Cloths that started through each other. They do not meet before they have come apart, and until then nothing is
     /// proved of them.
     std::vector<std::pair<std::size_t, std::size_t>> crossed = {};

@@ -1,0 +1,65 @@
+// Sums of impulses by place (include/self_impulse.h). WIDE: an atomic of 64 bits takes both parts of a component. The
+// includer has SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
+#ifdef SUMS_SLOT
+/// The first of the two vectors of a place's sum.
+int sum_at(int which, int place) { return 2 * (which * push.grid.x * push.grid.y + place); }
+#ifdef WIDE
+layout(set = 0, binding = SUMS_SLOT, std430) buffer SumsOut { u64vec2 sums_out[]; };
+uint64_t whole(ivec2 parts) { return uint64_t(int64_t(parts.x) + int64_t(parts.y) * 1048576l); }
+void add_parts(int which, uint corner, SelfParts parts) {
+    int at = sum_at(which, place_of(self_texel(corner)));
+    atomicAdd(sums_out[at].x, whole(parts.x));
+    atomicAdd(sums_out[at].y, whole(parts.y));
+    atomicAdd(sums_out[at + 1].x, whole(parts.z));
+}
+void add_weight(uint corner, uint weight) {
+    atomicAdd(sums_out[sum_at(0, place_of(self_texel(corner))) + 1].y, uint64_t(weight));
+}
+#else
+layout(set = 0, binding = SUMS_SLOT, std430) buffer SumsOut { uvec4 sums_out[]; };
+void add_parts(int which, uint corner, SelfParts parts) {
+    int at = sum_at(which, place_of(self_texel(corner)));
+    atomicAdd(sums_out[at].x, uint(parts.x.x));
+    atomicAdd(sums_out[at].y, uint(parts.x.y));
+    atomicAdd(sums_out[at].z, uint(parts.y.x));
+    atomicAdd(sums_out[at].w, uint(parts.y.y));
+    atomicAdd(sums_out[at + 1].x, uint(parts.z.x));
+    atomicAdd(sums_out[at + 1].y, uint(parts.z.y));
+}
+void add_weight(uint corner, uint weight) {
+    atomicAdd(sums_out[sum_at(0, place_of(self_texel(corner))) + 1].z, weight);
+}
+#endif
+
+/// Adds what a contact gives each corner to a sum.
+void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impulse) {
+    SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(push.thickness));
+    add_parts(which, corners.x, shares.a);
+    add_parts(which, corners.y, shares.b);
+    add_parts(which, corners.z, shares.c);
+    add_parts(which, corners.w, shares.d);
+}
+#endif
+#ifdef SUMS_IN_SLOT
+layout(set = 0, binding = SUMS_IN_SLOT, rgba32f) uniform readonly imageBuffer sums_in;  // integers, by their bits
+
+SelfSum sum_of(int which, int place) {
+    int texel = 2 * (which * push.grid.x * push.grid.y + place);
+    return SelfSum(floatBitsToUint(imageLoad(sums_in, texel)), floatBitsToUint(imageLoad(sums_in, texel + 1)));
+}
+
+float sum_value(uint first, uint second) {
+#ifdef WIDE
+    return self_number(uvec2(first, second));
+#else
+    return self_number(self_words(first, second));
+#endif
+}
+
+/// Returns an impulse, in masses of the first cloth's particle times m.
+vec3 impulse_of(SelfSum sum) {
+    vec3 units = vec3(sum_value(sum.xy.x, sum.xy.y), sum_value(sum.xy.z, sum.xy.w),
+                      sum_value(sum.z_weight.x, sum.z_weight.y));
+    return self_impulse_of(units, push.thickness);
+}
+#endif
