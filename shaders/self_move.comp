@@ -61,7 +61,7 @@ vec3 made_of(Motion motion) {
     if (!motion.cut) return motion.moved;
     ++truncated;
     vec3 made = self_truncated(carried, self_relative_motion(motion.bounded, carried), motion.share);
-    lag = max(lag, self_lag(made, motion.moved));
+    lag = self_largest(lag, self_lag(made, motion.moved));
     return made;
 }
 

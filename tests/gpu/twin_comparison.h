@@ -114,7 +114,7 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 }
 
 /// By every set of kernels that the default device may take, or by one alone. Returns the record of the last frame's
-/// contact between cloths, if they meet.
+/// contact between cloths, if they meet, with the most pairs of any frame.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
                                 const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true},
                                 std::optional<Kernels> only = {}) {
@@ -123,8 +123,10 @@ inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOption
     std::vector<std::unique_ptr<DeviceRun>> devices;
     for (const Kernels& kernels : only ? std::vector{*only} : kernel_sets(on, model))
         devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, kernels, needs));
+    std::uint32_t most_pairs = 0;
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
         twin.run_frame(frame);
+        if (model.self_contact) most_pairs = std::max(most_pairs, twin.contact().record.most_pairs);
         for (const auto& device : devices) device->run_frame(frame);
         const auto same = [&](std::size_t cloth, const FieldRow& row, const auto& expected) {
             for (const auto& device : devices) expect_same(row, device->bytes(cloth, row.field), expected, frame);
@@ -140,7 +142,9 @@ inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOption
         moved = std::max(moved, std::abs(double(b.y) - double(a.y)));
     }
     EXPECT_GT(moved, 0.01);
-    return model.self_contact ? twin.contact().record : glsl::SelfRecord{};
+    glsl::SelfRecord last = model.self_contact ? twin.contact().record : glsl::SelfRecord{};
+    last.most_pairs = most_pairs;
+    return last;
 }
 
 }  // namespace drape::test
