@@ -59,7 +59,7 @@ void begin(int place, int count) {
     left = owner >= 0 ? left : false;
     searches = left ? true : searches;
     before[place] = vec4(imageLoad(displacements, texel_of(place)).xyz, 0.0f);
-    first_borne[place] = self_no_entry;
+    for (int chain = 0; chain < self_chains; ++chain) first_borne[place * self_chains + chain] = self_no_entry;
     for (int round = 0; round < self_rounds; ++round) shares[round * count + place] = floatBitsToUint(1.0f);
 }
 

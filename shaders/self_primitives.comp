@@ -28,8 +28,9 @@ layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
 
 void clear(int half_sum) { sums[half_sum] = uvec4(0u); }
 void chain(int entry) {
-    int place = place_of(self_texel(borne[entry + 1].corners.x));
-    uint next = atomicExchange(first_borne[place], uint(entry + 1));
+    uvec4 pair = borne[entry + 1].corners;
+    int chain = place_of(self_texel(pair.x)) * self_chains + self_chain(pair);
+    uint next = atomicExchange(first_borne[chain], uint(entry + 1));
     borne[entry + 1].force.w = next * 2u + (borne[entry + 1].force.w & 1u);
 }
 

@@ -24,7 +24,7 @@ enum class ContactField : std::uint8_t {
     pairs,          ///< corners of those that may meet
     touching,       ///< those that touch, with their impulses
     borne,          ///< what pairs bore in the last substep, which the next one begins with
-    first_borne,    ///< by place: the first entry of a pair whose first corner it is
+    first_borne,    ///< by place and chain: the first entry of a pair whose first corner it is
     sums,           ///< of impulses, by round and place
     supports,       ///< by place: normal of the collider's surface that the particle lies on, or zero
     before,         ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered

@@ -459,8 +459,8 @@ TwinContact::TwinContact(const SelfContact& contact)
       before(owners.size()) {}
 
 void Twin::run_contact(const Step& step) {
-    // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent and
-    // self_primitives.
+    // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent,
+    // self_primitives. What `self_begin` does belongs to its `self_pairs`.
     static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
         {StepKind::self_common, &ContactStep::common},       {StepKind::self_boxes, &ContactStep::boxes},
         {StepKind::self_crossings, &ContactStep::crossings}, {StepKind::self_apart, &ContactStep::apart},

@@ -9,6 +9,9 @@
 SHARED uint self_corner(ivec2 texel) { return (uint(texel.y) << 16) | uint(texel.x); }
 SHARED ivec2 self_texel(uint corner) { return ivec2(int(corner & 0xffffu), int(corner >> 16)); }
 
+/// The chain of a pair among those of its first corner's place.
+SHARED int self_chain(uvec4 pair) { return int((pair.z & 1u) | ((pair.z >> 15) & 2u)); }
+
 /// Returns whether the two primitives of a pair have a corner in common.
 SHARED bool self_shares_corner(bool edges, uvec4 pair) {
     bool one = pair.x == pair.z || pair.x == pair.w || pair.y == pair.z || pair.y == pair.w;

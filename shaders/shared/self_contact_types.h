@@ -56,10 +56,12 @@ struct SelfTouch {
 struct SelfBorne {
     uvec4 corners;
     uvec4 force;  // xyz: bits of the impulse over the square of the substep; w: 1 for two edges, which may have the same
-                  // corners as a particle and a triangle, and twice the next entry with the same first corner
+                  // corners as a particle and a triangle, and twice the next entry of its chain
 };
-/// The first entry of the list of what pairs bore says how many follow, in its first corner.
+/// The first entry of the list of what pairs bore says how many follow, in its first corner. The others are chained by
+/// their first corner's place and by the parities of their third one's column and row, so that chains are short.
 const uint self_no_entry = 0u;
+const int self_chains = 4;
 
 /// Sums of impulses at a place, an integer in two words per component (include/self_impulse.h).
 struct SelfSum {
