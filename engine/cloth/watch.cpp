@@ -288,8 +288,18 @@ Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const C
                    statistics.most_stretched);
 }
 
+void Watch::remember(const ClothStatistics& statistics) {
+    if (statistics.stretch.spring_count == 0) return;
+    const auto keep = [](std::optional<double>& worst, double value) {
+        if (std::isfinite(value)) worst = std::max(worst.value_or(value), value);
+    };
+    keep(worst_rms_, statistics.stretch_error_rms);
+    keep(worst_max_, statistics.stretch_error_max);
+}
+
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
+    std::ranges::for_each(cloths, [this](const ClothStatistics& each) { remember(each); });
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const ClothStatistics& statistics = cloths[cloth];
         Implausible found = worse(worst(frame, cloth, statistics), worst_stretch(frame, cloth, statistics));

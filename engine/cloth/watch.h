@@ -55,9 +55,13 @@ class Watch {
     /// was read is nothing that it can come to.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(recent_);
+        archive(recent_, worst_rms_, worst_max_);
         return recent_.size() <= frames_in_a_row;
     }
+
+    /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
+    const std::optional<double>& worst_rms() const { return worst_rms_; }
+    const std::optional<double>& worst_max() const { return worst_max_; }
 
   private:
     static constexpr std::size_t frames_in_a_row = 6;     ///< a single one may be a snap
@@ -77,6 +81,7 @@ class Watch {
         double held_strain;          ///< that of springs that pins hold at both ends
         bool held;                   ///< pins hold it for good
     };
+    void remember(const ClothStatistics& statistics);
     void extend(std::uint32_t frame);
     Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;
     const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
@@ -93,7 +98,8 @@ class Watch {
     std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
     std::vector<std::deque<Drive>> drives_;  ///< by cloth, for the last frames that were asked about
     bool passive_;
-    bool led_apart_;             ///< some cloths are, from others that they started through
+    bool led_apart_;  ///< some cloths are, from others that they started through
+    std::optional<double> worst_rms_, worst_max_;
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 
