@@ -170,47 +170,113 @@ void Watch::extend(std::uint32_t frame) {
     }
 }
 
-Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+/// Returns m/s at which cloth moves away that lies nearer to something than it may.
+double Watch::pushed() const {
+    const double out_of_cloth =
+        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
+    return model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
+}
+
+/// Returns m/s at which the strain comes back that a cloth starts with.
+double Watch::released(std::size_t index) const {
+    const Start& start = starts_[index];
+    return start.strain * wave_speed(model_.scene.cloths[index], start.diagonal, model_.scene.time.fps);
+}
+
+/// Returns the speed that a cloth may have by what acts on it, m/s, without what other cloths give it.
+double Watch::own_speed(std::uint32_t frame, std::size_t index) const {
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
     const double time = frame / model_.scene.time.fps, gravity = length(model_.scene.gravity);
     const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
-    const double travel = drive_at(index, frame).travel, smaller = std::min(cloth.size[0], cloth.size[1]);
-    const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    // Contact moves it away where it lies nearer to something than it may.
-    const double out_of_cloth =
-        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
-    const double pushed = model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
-    const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released + pushed;
-    const double speed = given + drive_at(index, frame).speed + recoil;
-    const double flown = start.held ? 0 : 2 * time * (given + recoil);
+    const Drive& drive = drive_at(index, frame);
+    const double smaller = std::min(cloth.size[0], cloth.size[1]);
+    const double recoil =
+        std::min(drive.travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
+    return length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released(index) + pushed() + drive.speed +
+           recoil;
+}
+
+/// Returns the speed and the way that a cloth may have by all that acts on it. Struck by a much heavier one it leaves,
+/// if nothing is lost, at twice that one's speed beyond its own; and it may be carried as far.
+Watch::Reach Watch::reach(std::uint32_t frame, std::size_t index) const {
+    Reach reach{own_speed(frame, index), drive_at(index, frame).travel};
+    if (!model_.self_contact) return reach;
+    double speed = 0, travel = 0;
+    for (std::size_t other = 0; other < starts_.size(); ++other) {
+        if (other == index) continue;
+        speed = std::max(speed, own_speed(frame, other));
+        travel = std::max(travel, drive_at(other, frame).travel);
+    }
+    return {reach.speed + 2 * speed, reach.travel + travel};
+}
+
+Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
+    const Start& start = starts_[index];
+    const Reach reach = this->reach(frame, index);
+    const double flown = start.held ? 0 : 2 * frame / model_.scene.time.fps * reach.speed;
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
-    Implausible result =
-        worse(compare("speed, m/s", statistics.largest_speed, generous * speed + calm_speed,
-                      "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
-              compare("distance from the origin, m", statistics.largest_distance,
-                      start.distance + 2 * diagonal + travel + flown,
-                      "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
-    if (!passive_) return result;
+    return worse(compare("speed, m/s", statistics.largest_speed, generous * reach.speed + calm_speed,
+                         "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
+                 compare("distance from the origin, m", statistics.largest_distance,
+                         start.distance + 2 * diagonal + reach.travel + flown,
+                         "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
+}
+
+/// Returns the energy that a cloth has gained, and what of it is explained, J.
+Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) const {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const Start& start = starts_[index];
     const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
     const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
     // The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at
     // the full stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
-    const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
-    return worse(result, compare("energy gained, J", energy - start_energy,
-                                 energy_share * scale + statistics.mass * (released * released + pushed * pushed),
-                                 "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"));
+    const double scale =
+        moving + statistics.mass * (length(model_.scene.gravity) * start.diagonal + 0.5 * calm_speed * calm_speed);
+    const double given = released(index), led = pushed();
+    return {energy - start_energy, energy_share * scale + statistics.mass * (given * given + led * led)};
+}
+
+/// Cloths that meet give each other energy, so that only what all have is bounded: it names the one that gained most.
+Implausible Watch::worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first,
+                                std::size_t count) const {
+    if (!passive_) return {};
+    Gain all{0, 0};
+    std::size_t most = first;
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t cloth = first; cloth < first + count; ++cloth) {
+        const Gain one = gain(cloth, cloths[cloth]);
+        all = {all.energy + one.energy, all.explained + one.explained};
+        if (one.energy > largest) most = cloth, largest = one.energy;
+    }
+    Implausible found = compare(
+        "energy gained, J", all.energy, all.explained,
+        count == 1 ? "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"
+                   : "it and the cloths that it meets have gained {:.3g} J, though nothing does work on them (bound "
+                     "{:.3g} J)");
+    found.cloth = most;
+    return found;
+}
+
+/// Returns the largest part of a bound; where stretch errors count too, the first cloth's that is beyond its bound.
+Implausible Watch::worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const {
+    Implausible most;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        Implausible found = worst(frame, cloth, cloths[cloth]);
+        if (!model_.self_contact) found = worse(found, worst_energy(cloths, cloth, 1));
+        if (stretch) found = worse(found, worst_stretch(frame, cloth, cloths[cloth]));
+        found.cloth = cloth;
+        if (stretch && found.excess > 1) return found;
+        most = worse(most, found);
+    }
+    return model_.self_contact ? worse(most, worst_energy(cloths, 0, cloths.size())) : most;
 }
 
 double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
-    double most = 0;
-    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
-        most = std::max(most, worst(frame, cloth, cloths[cloth]).excess);
-    return most;
+    return worst_of(frame, cloths, false).excess;
 }
 
 /// Returns what the springs of a cloth that moves at this speed (m/s) may be wrong by.
@@ -300,12 +366,7 @@ void Watch::remember(const ClothStatistics& statistics) {
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
     std::ranges::for_each(cloths, [this](const ClothStatistics& each) { remember(each); });
-    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        const ClothStatistics& statistics = cloths[cloth];
-        Implausible found = worse(worst(frame, cloth, statistics), worst_stretch(frame, cloth, statistics));
-        found.cloth = cloth;
-        if (found.excess > 1) return found;
-    }
+    if (Implausible found = worst_of(frame, cloths, true); found.excess > 1) return found;
     return lasting_stretch(frame, cloths);
 }
 

@@ -34,6 +34,8 @@ class Watch {
     ///             what free cloth may have flown at twice these speeds
     ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
     ///             tenth of v0^2 m/2 + m g d
+    /// Where cloths meet, one may have twice another's speed beyond its own and be carried as far, and their energies
+    /// are judged as one: what one gives is another's.
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// Returns the first cloth's worst value that makes a frame no result: the same and, for methods whose frames are
@@ -87,7 +89,21 @@ class Watch {
     const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
     double drive_speed(std::size_t cloth, double from, double to) const;
     double pace(std::size_t cloth, double from, double to) const;
-    Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+    /// What is explained of a cloth's motion: m/s, and m that it is carried.
+    struct Reach {
+        double speed, travel;
+    };
+    struct Gain {
+        double energy, explained;  ///< J
+    };
+    double pushed() const;
+    double released(std::size_t cloth) const;
+    double own_speed(std::uint32_t frame, std::size_t cloth) const;
+    Reach reach(std::uint32_t frame, std::size_t cloth) const;
+    Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
+    Gain gain(std::size_t cloth, const ClothStatistics& statistics) const;
+    Implausible worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first, std::size_t count) const;
+    Implausible worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const;
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     double stretch_law(std::size_t cloth, double speed) const;
     double allowed_stretch(std::uint32_t frame, bool driven) const;

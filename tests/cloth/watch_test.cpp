@@ -1,12 +1,16 @@
 // The watch knows what a scene can do to its cloth, and lets nothing beyond pass for a result.
 #include "cloth/watch.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
+#include "scene/vectors.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -118,6 +122,74 @@ TEST(WatchTest, EnergyDoesNotComeFromNowhere) {
     SceneDescription windy = hanging();
     windy.wind.velocity = {20, 0, 0};
     EXPECT_THAT(said(windy, 60, lively), IsEmpty());
+}
+
+/// Two or three cloths of random masses and speeds, free in space, that meet.
+SceneDescription meeting(std::mt19937& random) {
+    std::uniform_real_distribution<double> exponent(-2, 1), speed(5, 15);
+    SceneDescription scene = hanging();
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].pins.clear();
+    scene.cloths[0].self_collision = SelfCollision{};
+    scene.cloths.resize(2 + random() % 2, scene.cloths[0]);
+    for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
+        Cloth& cloth = scene.cloths[k];
+        cloth.name = fmt::format("cloth {}", k);
+        cloth.placement.origin[2] = static_cast<double>(k);
+        cloth.areal_density = std::pow(10, exponent(random));
+        cloth.velocity = {0, 0, random() % 2 == 0 ? speed(random) : -speed(random)};
+    }
+    return scene;
+}
+
+/// All of the kinetic energy that the cloths start with, `more` times, is one cloth's.
+std::vector<ClothStatistics> given_to_one(const SceneDescription& scene, std::size_t index, double more) {
+    std::vector<ClothStatistics> all;
+    double energy = 0;
+    for (const Cloth& cloth : scene.cloths) {
+        all.push_back(resting());
+        all.back().mass = cloth.areal_density;
+        all.back().potential_energy = 0;
+        energy += 0.5 * cloth.areal_density * dot(cloth.velocity, cloth.velocity);
+    }
+    all[index].kinetic_energy = more * energy;
+    return all;
+}
+
+TEST(WatchTest, WhatOneClothGivesAnotherIsNoGain) {
+    std::mt19937 random(48);
+    for (int draw = 0; draw < 100; ++draw) {
+        SceneDescription scene = meeting(random);
+        const std::size_t index = random() % scene.cloths.size();
+        const SimulationModel model(scene);
+        EXPECT_FALSE(Watch(model).implausible(60, given_to_one(scene, index, 1))) << draw;
+        const auto found = Watch(model).implausible(60, given_to_one(scene, index, 1.5));
+        ASSERT_TRUE(found) << draw;
+        EXPECT_EQ(found->cloth, index);
+        EXPECT_THAT(found->what, HasSubstr("it and the cloths that it meets have gained"));
+        for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
+        const SimulationModel apart(scene);  // these go through each other, and each has only its own
+        EXPECT_TRUE(Watch(apart).implausible(60, given_to_one(scene, index, 10))) << draw;
+    }
+}
+
+TEST(WatchTest, AHeavyClothThrowsALightOneAtTwiceItsSpeed) {
+    std::mt19937 random(7);
+    for (int draw = 0; draw < 100; ++draw) {
+        SceneDescription scene = meeting(random);
+        scene.cloths.resize(2);
+        scene.cloths[0].areal_density = 1, scene.cloths[1].areal_density = 1e-3;
+        scene.cloths[1].velocity = {0, 0, 0};
+        const double speed = 2 * length(scene.cloths[0].velocity);
+        std::vector<ClothStatistics> thrown = given_to_one(scene, 0, 0.99);
+        thrown[1].largest_speed = speed;
+        thrown[1].largest_distance = 2 + speed;  // one second later
+        thrown[1].kinetic_energy = 0.5e-3 * speed * speed;
+        const SimulationModel model(scene);
+        EXPECT_FALSE(Watch(model).implausible(60, thrown)) << draw;
+        thrown[1].largest_speed = 20 * speed + 100;
+        EXPECT_THAT(Watch(model).implausible(60, thrown).value_or(Implausible{}).what, HasSubstr("moves at"));
+    }
 }
 
 TEST(WatchTest, StretchErrorsBeyondAnyUseAreNoResult) {
