@@ -48,18 +48,24 @@ class Watch {
     ///   3 (0.02 + 0.12 Lambda)           at most 1, and at least what a cloth starts strained by; of six frames in a
     ///                                    row. Lambda = a D^2 N^2/(h K) of N edges of length h, substep D, K iterations
     ///                                    and the acceleration a of gravity, wind and what moves the cloth
-    ///   the same without what moves it   of any of the scene's last six frames: it has not settled
+    ///   the same without what moved it   when nothing has moved for 5 s, the cloth's own velocity at the start
+    ///   included
     /// The last two are never less than three times what method `auto` keeps, where that chose the substeps or cloths
     /// meet themselves or each other: what lies between layers is pressed together by more than a law of springs knows.
+    /// What a frame is judged by does not depend on how many follow it.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
     /// was read is nothing that it can come to.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(recent_, worst_rms_, worst_max_);
-        return recent_.size() <= frames_in_a_row;
+        archive(recent_, last_.frame, last_.cloth, worst_rms_, worst_max_);
+        return recent_.size() <= frames_in_a_row && last_.cloth < std::max<std::size_t>(starts_.size(), 1);
     }
+
+    /// Returns what to say of the frames that were asked about, beside what is implausible: springs that a longer scene
+    /// has to show settled.
+    std::vector<std::string> warnings() const;
 
     /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
     const std::optional<double>& worst_rms() const { return worst_rms_; }
@@ -70,9 +76,10 @@ class Watch {
     static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
     /// The things that move a cloth, from the start to the end of a frame.
     struct Drive {
-        double speed = 0;   ///< m/s, largest so far
-        double travel = 0;  ///< m
-        double pace = 0;    ///< m/s, largest so far, for a frame as a whole and centres alone
+        double speed = 0;         ///< m/s, largest so far
+        double travel = 0;        ///< m
+        double pace = 0;          ///< m/s, largest so far, for a frame as a whole and centres alone
+        std::uint32_t moved = 0;  ///< the last frame in which there was a pace
     };
     /// A cloth where it starts.
     struct Start {
@@ -106,6 +113,7 @@ class Watch {
     Implausible worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const;
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     double stretch_law(std::size_t cloth, double speed) const;
+    bool driven(std::uint32_t frame) const;
     double allowed_stretch(std::uint32_t frame, bool driven) const;
     std::optional<Implausible> lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
@@ -116,6 +124,11 @@ class Watch {
     bool passive_;
     bool led_apart_;  ///< some cloths are, from others that they started through
     std::optional<double> worst_rms_, worst_max_;
+    /// The last frame that was asked about, and its cloth with the worst spring.
+    struct Last {
+        std::uint32_t frame = 0, cloth = 0;
+    };
+    Last last_;
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 

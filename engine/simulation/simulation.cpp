@@ -339,7 +339,7 @@ SimulationFacts Simulation::facts() const {
 std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
 
 RunVerdict Simulation::verdict() const {
-    return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), {}};
+    return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings()};
 }
 
 std::vector<PassWork> Simulation::work() const {
