@@ -9,8 +9,11 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/hang.h"
+#include "cloth/impossible_pins.h"
 #include "cloth/self_contact.h"
 #include "scene/collider_pose.h"
+#include "scene/contact_shape.h"
+#include "scene/overlap.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -226,6 +229,24 @@ Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStat
                          "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
 }
 
+/// Returns how deep a cloth may be in what colliders and its thickness keep free, m: as deep as one substep leads it,
+/// the springs of a cell pull it, it started, and pins hold its neighbours.
+Implausible Watch::worst_penetration(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const double depth = statistics.penetration.value_or(0);
+    const double cell = 2 * covering_radius(cloth) * (1 + std::max(statistics.stretch.largest, 0.0));
+    double bound =
+        cloth.thickness + cell + 2 * reach(frame, index).speed / (model_.scene.time.fps * model_.scene.solver.substeps);
+    if (depth > bound) {  // these take long
+        for (const StartOverlap& overlap : start_overlaps(model_.scene))
+            if (overlap.cloth == index) bound += overlap.depth;
+        if (const auto held = held_inside(model_, index, frame / model_.scene.time.fps)) bound += held->depth;
+    }
+    return compare("penetration, m", depth, bound,
+                   "is {:.3g} m deep in what colliders keep free, where at most {:.3g} m are explained",
+                   statistics.deepest);
+}
+
 /// Returns the energy that a cloth has gained, and what of it is explained, J.
 Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) const {
     const Cloth& cloth = model_.scene.cloths[index];
@@ -266,7 +287,7 @@ Implausible Watch::worst_energy(const std::vector<ClothStatistics>& cloths, std:
 Implausible Watch::worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const {
     Implausible most;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        Implausible found = worst(frame, cloth, cloths[cloth]);
+        Implausible found = worse(worst(frame, cloth, cloths[cloth]), worst_penetration(frame, cloth, cloths[cloth]));
         if (!model_.self_contact) found = worse(found, worst_energy(cloths, cloth, 1));
         if (stretch) found = worse(found, worst_stretch(frame, cloth, cloths[cloth]));
         found.cloth = cloth;
@@ -338,8 +359,20 @@ std::optional<Implausible> Watch::lasting_stretch(std::uint32_t frame, const std
     return found.excess > 1 ? std::optional(found) : std::nullopt;
 }
 
+/// Returns ", the particle in column 3, row 4"; nothing where there is none.
+static std::string place_text(const Grid& grid, std::optional<std::uint32_t> particle) {
+    if (!particle) return {};
+    return fmt::format(", the particle in column {}, row {}", *particle % grid.columns(), *particle / grid.columns());
+}
+
 std::vector<std::string> Watch::warnings() const {
     std::vector<std::string> all;
+    if (deep_.value > 0)
+        all.push_back(fmt::format(
+            "from frame {} on cloth '{}' is deeper than {:.3g} m in what colliders and its thickness keep free, up to "
+            "{:.3g} m in frame {}{}: more room between colliders, slower ones or more substeps may help",
+            deep_.first, model_.cloths[deep_.cloth].name, usual_penetration(deep_.cloth), deep_.value, deep_.worst,
+            place_text(model_.cloths[deep_.cloth].grid, deep_.particle)));
     if (recent_.empty()) return all;
     const double largest = std::ranges::max(recent_), allowed = allowed_stretch(last_.frame, false);
     if (largest > allowed)
@@ -370,6 +403,29 @@ Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const C
                    statistics.most_stretched);
 }
 
+void Watch::Note::keep(std::uint32_t frame, std::size_t index, double now, std::optional<std::uint32_t> at) {
+    if (!(now > 0) || !std::isfinite(now)) return;
+    if (value == 0) first = frame;
+    if (now <= value) return;
+    value = now, worst = frame, cloth = static_cast<std::uint32_t>(index), particle = at;
+}
+
+/// A tenth of a cell or the thickness is what contact may leave of a cloth in what it keeps free.
+double Watch::usual_penetration(std::size_t index) const {
+    const ClothModel& cloth = model_.cloths[index];
+    return 0.1 * std::max({cloth.spacing[0], cloth.spacing[1], model_.scene.cloths[index].thickness});
+}
+
+void Watch::note_penetration(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+    const double depth = statistics.penetration.value_or(0);
+    starts_depth_.resize(starts_.size());
+    if (frame == 0) starts_depth_[index] = depth;
+    const double usual = usual_penetration(index) + starts_depth_[index];
+    if (frame == 0 || depth <= usual) return;
+    const auto held = held_inside(model_, index, frame / model_.scene.time.fps);
+    if (depth > usual + (held ? held->depth : 0)) deep_.keep(frame, index, depth, statistics.deepest);
+}
+
 void Watch::remember(const ClothStatistics& statistics) {
     if (statistics.stretch.spring_count == 0) return;
     const auto keep = [](std::optional<double>& worst, double value) {
@@ -381,9 +437,14 @@ void Watch::remember(const ClothStatistics& statistics) {
 
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
-    std::ranges::for_each(cloths, [this](const ClothStatistics& each) { remember(each); });
-    if (Implausible found = worst_of(frame, cloths, true); found.excess > 1) return found;
-    return lasting_stretch(frame, cloths);
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        remember(cloths[cloth]);
+        note_penetration(frame, cloth, cloths[cloth]);
+    }
+    const Implausible found = worst_of(frame, cloths, true);
+    std::optional<Implausible> failed = found.excess > 1 ? std::optional(found) : lasting_stretch(frame, cloths);
+    if (failed) recent_.clear();  // whether it settles is no question any more
+    return failed;
 }
 
 }  // namespace drape

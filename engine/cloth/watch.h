@@ -34,6 +34,9 @@ class Watch {
     ///             what free cloth may have flown at twice these speeds
     ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
     ///             tenth of v0^2 m/2 + m g d
+    ///   penetration  the thickness, a stretched cell, twice the way of such speeds in a substep, and how deep the
+    ///   cloth
+    ///             starts and pins hold it in a collider
     /// Where cloths meet, one may have twice another's speed beyond its own and be carried as far, and their energies
     /// are judged as one: what one gives is another's.
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
@@ -59,12 +62,15 @@ class Watch {
     /// was read is nothing that it can come to.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(recent_, last_.frame, last_.cloth, worst_rms_, worst_max_);
-        return recent_.size() <= frames_in_a_row && last_.cloth < std::max<std::size_t>(starts_.size(), 1);
+        archive(recent_, last_.frame, last_.cloth, worst_rms_, worst_max_, starts_depth_);
+        archive(deep_.first, deep_.worst, deep_.cloth, deep_.value, deep_.particle);
+        const std::size_t count = std::max<std::size_t>(starts_.size(), 1);
+        return recent_.size() <= frames_in_a_row && last_.cloth < count && deep_.cloth < count &&
+               starts_depth_.size() <= count;
     }
 
-    /// Returns what to say of the frames that were asked about, beside what is implausible: springs that a longer scene
-    /// has to show settled.
+    /// Returns what to say of the frames that were asked about, beside what is implausible: cloth deeper in what
+    /// colliders keep free than a tenth of a cell or its thickness, springs that a longer scene has to show settled.
     std::vector<std::string> warnings() const;
 
     /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
@@ -113,6 +119,9 @@ class Watch {
     Implausible worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const;
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     double stretch_law(std::size_t cloth, double speed) const;
+    Implausible worst_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
+    double usual_penetration(std::size_t cloth) const;
+    void note_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
     bool driven(std::uint32_t frame) const;
     double allowed_stretch(std::uint32_t frame, bool driven) const;
     std::optional<Implausible> lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
@@ -124,6 +133,15 @@ class Watch {
     bool passive_;
     bool led_apart_;  ///< some cloths are, from others that they started through
     std::optional<double> worst_rms_, worst_max_;
+    /// Something to be warned of: its first frame, and the worst one's.
+    struct Note {
+        void keep(std::uint32_t frame, std::size_t index, double now, std::optional<std::uint32_t> at);
+        std::uint32_t first = 0, worst = 0, cloth = 0;
+        double value = 0;  ///< 0: there was nothing
+        std::optional<std::uint32_t> particle = {};
+    };
+    Note deep_;
+    std::deque<double> starts_depth_;  ///< m, each cloth's penetration in frame 0
     /// The last frame that was asked about, and its cloth with the worst spring.
     struct Last {
         std::uint32_t frame = 0, cloth = 0;

@@ -330,6 +330,72 @@ TEST(WatchTest, WhatHasNotSettledInTheEndIsWarnedOf) {
     EXPECT_THAT(warnings, IsEmpty());
 }
 
+/// A sheet falls on a floor; its cells are 0.25 m, its thickness 5 mm.
+SceneDescription falling_on_a_floor() {
+    SceneDescription scene = hanging();
+    scene.cloths[0].pins.clear();
+    scene.colliders.push_back({Plane{{0, 1, 0}, -5}});
+    return scene;
+}
+
+TEST(WatchTest, PenetrationIsBoundedByWhatExplainsIt) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int draw = 0; draw < 100; ++draw) {
+        SceneDescription scene = falling_on_a_floor();
+        scene.solver.substeps = static_cast<std::uint32_t>(1 + random() % 20);
+        const double speed = 300 * uniform(random), start = uniform(random) < 0.5 ? 0 : 20 * uniform(random);
+        scene.cloths[0].velocity = {0, -speed, 0};
+        std::get<Plane>(scene.colliders[0].shape).offset = start - 1;  // the lower edge starts at y = -1
+        const SimulationModel model(scene);
+        ClothStatistics deep = resting();
+        deep.kinetic_energy = 0.5 * speed * speed;
+        deep.potential_energy -= 0.1;
+        deep.penetration = start + 0.3 + speed / (60 * scene.solver.substeps);
+        EXPECT_FALSE(Watch(model).implausible(1, {deep})) << draw;
+        EXPECT_LE(Watch(model).excess(1, {deep}), 1);
+        deep.penetration = start + 1 + 3 * (speed + 2) / (60 * scene.solver.substeps);
+        EXPECT_THAT(Watch(model).implausible(1, {deep}).value_or(Implausible{}).what,
+                    HasSubstr("m deep in what colliders keep free, where at most"))
+            << draw;
+        EXPECT_GT(Watch(model).excess(1, {deep}), 1);
+    }
+}
+
+TEST(WatchTest, PenetrationBeyondATenthOfACellIsWarnedOf) {
+    const SimulationModel model(falling_on_a_floor());
+    const auto warned = [&](const std::vector<double>& depths) {
+        Watch watch(model);
+        ClothStatistics statistics = resting();
+        for (std::uint32_t frame = 0; frame < depths.size(); ++frame) {
+            statistics.penetration = depths[frame];
+            statistics.deepest = 7;
+            EXPECT_FALSE(watch.implausible(frame, {statistics}));
+        }
+        return watch.warnings();
+    };
+    EXPECT_THAT(warned({0, 0.024, 0.024}), IsEmpty());
+    EXPECT_THAT(warned({0.1, 0.1, 0.124}), IsEmpty());  // it starts so deep
+    EXPECT_THAT(warned({0, 0.03, 0.04, 0.035}),
+                testing::ElementsAre(HasSubstr("from frame 1 on cloth 'sheet' is deeper than 0.025 m in what colliders "
+                                               "and its thickness keep free, up to 0.04 m in frame 2, the particle in "
+                                               "column 2, row 1")));
+}
+
+TEST(WatchTest, WhatPinsHoldInAColliderIsAsDeepAsTheyAre) {
+    SceneDescription scene = hanging();  // the top is at y = 0
+    scene.colliders.push_back({Plane{{0, 1, 0}, 3}});
+    const SimulationModel model(scene);
+    ClothStatistics deep = resting();
+    deep.penetration = 3.2;
+    Watch watch(model);
+    EXPECT_FALSE(watch.implausible(1, {deep}));
+    scene.cloths[0].pins.clear();
+    scene.colliders[0].shape = Plane{{0, 1, 0}, -2};
+    const SimulationModel free(scene);
+    EXPECT_TRUE(Watch(free).implausible(1, {deep}));
+}
+
 TEST(WatchTest, WhatPinsHoldStrainedIsTheScenesOwn) {
     SceneDescription held = hanging();
     held.cloths[0].placement.scale = {3, 1};  // along the top, which the pins hold
