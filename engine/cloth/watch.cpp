@@ -28,6 +28,8 @@ constexpr double rounding = 1.01;    ///< factor on strains that a cloth starts 
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
 constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< a spring's; diagonals per second
+/// Springs follow fabric up to this strain: beyond it real fabric stiffens and tears.
+constexpr double springs_mean = 0.5;
 /// A frame is no result any more at so many times the law of stretch.
 constexpr double times_law = 3;
 /// Speeds of key-framed things are taken over this part of a frame.
@@ -373,6 +375,13 @@ std::vector<std::string> Watch::warnings() const {
             "{:.3g} m in frame {}{}: more room between colliders, slower ones or more substeps may help",
             deep_.first, model_.cloths[deep_.cloth].name, usual_penetration(deep_.cloth), deep_.value, deep_.worst,
             place_text(model_.cloths[deep_.cloth].grid, deep_.particle)));
+    if (torn_.value > 0)
+        all.push_back(fmt::format(
+            "from frame {} on springs of cloth '{}' are stretched by more than {:.0f} %, up to {:.3g} % in frame {}, "
+            "as "
+            "forces and pins pull them: fabric would have torn; stiffer springs, weaker forces or pins less far apart "
+            "may help",
+            torn_.first, model_.cloths[torn_.cloth].name, 100 * springs_mean, 100 * torn_.value, torn_.worst));
     if (recent_.empty()) return all;
     const double largest = std::ranges::max(recent_), allowed = allowed_stretch(last_.frame, false);
     if (largest > allowed)
@@ -426,6 +435,14 @@ void Watch::note_penetration(std::uint32_t frame, std::size_t index, const Cloth
     if (depth > usual + (held ? held->depth : 0)) deep_.keep(frame, index, depth, statistics.deepest);
 }
 
+/// What the solver leaves stretched is an error, and judged as one; what a cloth starts stretched by is the scene's
+/// own.
+void Watch::note_stretch(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+    if (statistics.stretch.spring_count == 0) return;
+    const double strain = statistics.stretch.largest - statistics.stretch_error_max;
+    if (strain > std::max(springs_mean, starts_[index].strain)) torn_.keep(frame, index, strain, {});
+}
+
 void Watch::remember(const ClothStatistics& statistics) {
     if (statistics.stretch.spring_count == 0) return;
     const auto keep = [](std::optional<double>& worst, double value) {
@@ -440,6 +457,7 @@ std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::ve
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         remember(cloths[cloth]);
         note_penetration(frame, cloth, cloths[cloth]);
+        note_stretch(frame, cloth, cloths[cloth]);
     }
     const Implausible found = worst_of(frame, cloths, true);
     std::optional<Implausible> failed = found.excess > 1 ? std::optional(found) : lasting_stretch(frame, cloths);

@@ -63,14 +63,15 @@ class Watch {
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(recent_, last_.frame, last_.cloth, worst_rms_, worst_max_, starts_depth_);
-        archive(deep_.first, deep_.worst, deep_.cloth, deep_.value, deep_.particle);
+        for (Note* note : {&deep_, &torn_}) archive(note->first, note->worst, note->cloth, note->value, note->particle);
         const std::size_t count = std::max<std::size_t>(starts_.size(), 1);
-        return recent_.size() <= frames_in_a_row && last_.cloth < count && deep_.cloth < count &&
+        return recent_.size() <= frames_in_a_row && last_.cloth < count && deep_.cloth < count && torn_.cloth < count &&
                starts_depth_.size() <= count;
     }
 
     /// Returns what to say of the frames that were asked about, beside what is implausible: cloth deeper in what
-    /// colliders keep free than a tenth of a cell or its thickness, springs that a longer scene has to show settled.
+    /// colliders keep free than a tenth of a cell or its thickness or stretched by half, springs that a longer scene
+    /// has to show settled.
     std::vector<std::string> warnings() const;
 
     /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
@@ -122,6 +123,7 @@ class Watch {
     Implausible worst_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     double usual_penetration(std::size_t cloth) const;
     void note_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+    void note_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
     bool driven(std::uint32_t frame) const;
     double allowed_stretch(std::uint32_t frame, bool driven) const;
     std::optional<Implausible> lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
@@ -140,7 +142,7 @@ class Watch {
         double value = 0;  ///< 0: there was nothing
         std::optional<std::uint32_t> particle = {};
     };
-    Note deep_;
+    Note deep_, torn_;
     std::deque<double> starts_depth_;  ///< m, each cloth's penetration in frame 0
     /// The last frame that was asked about, and its cloth with the worst spring.
     struct Last {

@@ -382,6 +382,28 @@ TEST(WatchTest, PenetrationBeyondATenthOfACellIsWarnedOf) {
                                                "column 2, row 1")));
 }
 
+TEST(WatchTest, FabricStretchedByHalfIsWarnedOfOnce) {
+    const auto warned = [](const SceneDescription& scene, const std::vector<double>& strains, double error) {
+        const SimulationModel model(scene);
+        Watch watch(model);
+        ClothStatistics statistics = resting();
+        for (std::uint32_t frame = 0; frame < strains.size(); ++frame) {
+            statistics.stretch.largest = strains[frame];
+            statistics.stretch_error_max = error;
+            watch.implausible(frame, {statistics});
+        }
+        return watch.warnings();
+    };
+    EXPECT_THAT(warned(hanging(), {0, 0.49, 0.49}, 0), IsEmpty());
+    EXPECT_THAT(warned(hanging(), {0, 0.54, 0.54}, 0.05), IsEmpty());  // an error, which is judged as one
+    EXPECT_THAT(warned(hanging(), {0, 0.6, 1.74, 0.6}, 0),
+                testing::ElementsAre(HasSubstr("from frame 1 on springs of cloth 'sheet' are stretched by more than 50 "
+                                               "%, up to 174 % in frame 2")));
+    SceneDescription wide = hanging();
+    wide.cloths[0].placement.scale = {2, 2};
+    EXPECT_THAT(warned(wide, {1, 1, 0.9}, 0), IsEmpty());
+}
+
 TEST(WatchTest, WhatPinsHoldInAColliderIsAsDeepAsTheyAre) {
     SceneDescription scene = hanging();  // the top is at y = 0
     scene.colliders.push_back({Plane{{0, 1, 0}, 3}});
