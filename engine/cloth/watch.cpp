@@ -435,7 +435,7 @@ void Watch::note_penetration(std::uint32_t frame, std::size_t index, const Cloth
     if (depth > usual + (held ? held->depth : 0)) deep_.keep(frame, index, depth, statistics.deepest);
 }
 
-/// What the solver leaves stretched is an error, and judged as one; what a cloth starts stretched by is the scene's
+/// Stretch that the solver leaves is an error, and judged as one; what a cloth starts stretched by is the scene's
 /// own.
 void Watch::note_stretch(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
     if (statistics.stretch.spring_count == 0) return;

@@ -103,7 +103,7 @@ class Watch {
     const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
     double drive_speed(std::size_t cloth, double from, double to) const;
     double pace(std::size_t cloth, double from, double to) const;
-    /// What is explained of a cloth's motion: m/s, and m that it is carried.
+    /// A cloth's motion as far as it is explained: m/s, and m that it is carried.
     struct Reach {
         double speed, travel;
     };

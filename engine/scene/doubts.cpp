@@ -17,7 +17,7 @@ namespace {
 constexpr double large = 200, heavy = 50, fast = 150, far = 200;
 constexpr double narrow = 1;  ///< degrees: a telescope's
 
-/// What a value of the wrong unit is mostly meant as.
+/// Values that are much too large are mostly in a smaller unit.
 constexpr const char* metres = "scenes are in metres: divide millimetres by 1000, centimetres by 100";
 
 void warn_of_held(const SceneNode& cloths, const SceneDescription& scene) {

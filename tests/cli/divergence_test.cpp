@@ -114,7 +114,7 @@ TEST(Divergence, FailedFramesAreKeptWhereThatIsAskedForAndStillEndWithTheirCode)
     EXPECT_THAT(overflown.err, HasSubstr("(2 of 9 frames)"));
 }
 
-/// What the manifest says of the whole run, whatever was written of it.
+/// Returns what the manifest says of the whole run, whatever was written of it.
 std::vector<Json::Value> verdict_of(const Outcome& outcome, const SceneFolder& folder, const std::string& out) {
     const Json::Value manifest = lasting_manifest(folder.out(out));
     return {outcome.code, manifest["status"], manifest["failed"], manifest["solver"]["stretch_error_rms"]};

@@ -82,7 +82,7 @@ struct SelfContactReport {
     std::optional<std::uint32_t> last_crossed = {};
 };
 
-/// What is known of all frames simulated so far, handed out or not. There is nothing of it without statistics.
+/// The result of judging all frames simulated so far, handed out or not. It is empty without statistics.
 struct RunVerdict {
     /// The first that failed (without keep_promises); one that is not finite counts before any other.
     std::optional<FrameFailure> failure;
