@@ -7,6 +7,7 @@
 
 #include "cloth/frame_inputs.h"
 #include "scene/collider_pose.h"
+#include "scene/surface_distance.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -41,44 +42,40 @@ std::vector<Held> held_particles(const ClothModel& cloth, double time) {
     return held;
 }
 
-double square(double value) { return value * value; }
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-// These tell whether a point, in the shape's own frame about its centre, is inside.
-bool inside(const Plane& plane, const Vec3& p) { return dot(p, plane.normal) < 0; }
-bool inside(const Sphere& sphere, const Vec3& p) { return dot(p, p) < square(sphere.radius); }
-bool inside(const Box& box, const Vec3& p) {
-    return std::abs(p[0]) < box.half_extents[0] && std::abs(p[1]) < box.half_extents[1] &&
-           std::abs(p[2]) < box.half_extents[2];
-}
-bool inside(const Ellipsoid& ellipsoid, const Vec3& p) {
-    return square(p[0] / ellipsoid.radii[0]) + square(p[1] / ellipsoid.radii[1]) + square(p[2] / ellipsoid.radii[2]) <
-           1;
-}
-bool inside(const Capsule& capsule, const Vec3& p) {
-    const double half = 0.5 * distance(capsule.from, capsule.to), along = p[1] - std::clamp(p[1], -half, half);
-    return square(p[0]) + square(along) + square(p[2]) < square(std::min(capsule.radii[0], capsule.radii[1]));
+/// Returns how deep (m) a point is below the collider's surface; 0: it is outside.
+double depth_in(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
+    if (distance(point, pose.center) > shape_geometry(collider.shape).reach) return 0;  // spares the costly distance
+    const Vec3 local = exact::to_local(pose, point);
+    return std::max(
+        0.0, -std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape));
 }
 
-bool inside(const Collider& collider, double time, const Vec3& point) {
-    const ColliderPose pose = collider_pose(collider, time);
-    const auto& r = pose.rotation;
-    const Vec3 from{point[0] - pose.center[0], point[1] - pose.center[1], point[2] - pose.center[2]};
-    Vec3 local{};
-    for (std::size_t k = 0; k < 3; ++k) local[k] = r[k] * from[0] + r[3 + k] * from[1] + r[6 + k] * from[2];
-    return std::visit([&](const auto& shape) { return inside(shape, local); }, collider.shape);
+std::optional<HeldInside> deepest(const SimulationModel& model, const std::vector<Held>& held, double time) {
+    std::optional<HeldInside> found;
+    for (std::size_t index = 0; index < model.scene.colliders.size(); ++index) {
+        const Collider& collider = model.scene.colliders[index];
+        const ColliderPose pose = collider_pose(collider, time);
+        HeldInside one{index, 0, 0};
+        for (const Held& particle : held) {
+            const double depth = depth_in(collider, pose, particle.now);
+            if (!(depth > 0)) continue;
+            ++one.particles;
+            one.depth = std::max(one.depth, depth);
+        }
+        if (one.particles > 0 && (!found || one.depth > found->depth)) found = one;
+    }
+    return found;
 }
 
 std::string in_collider(const SimulationModel& model, const ClothModel& cloth, const std::vector<Held>& held,
                         double time) {
-    for (std::size_t index = 0; index < model.scene.colliders.size(); ++index) {
-        const Collider& collider = model.scene.colliders[index];
-        const auto deep = std::ranges::count_if(held, [&](const Held& one) { return inside(collider, time, one.now); });
-        if (deep > 0)
-            return fmt::format("{} of the particles that cloth '{}' is held by {} inside collider {} (of {})", deep,
-                               cloth.name, deep == 1 ? "is" : "are", index, collider_lists[collider.shape.index()]);
-    }
-    return {};
+    const std::optional<HeldInside> found = deepest(model, held, time);
+    if (!found) return {};
+    return fmt::format("{} of the particles that cloth '{}' is held by {} inside collider {} (of {}), up to {:.3g} m",
+                       found->particles, cloth.name, found->particles == 1 ? "is" : "are", found->collider,
+                       collider_lists[model.scene.colliders[found->collider].shape.index()], found->depth);
 }
 
 std::string too_far_apart(const SimulationModel& model, const ClothModel& cloth, const std::vector<Held>& held) {
@@ -95,6 +92,11 @@ std::string too_far_apart(const SimulationModel& model, const ClothModel& cloth,
 }
 
 }  // namespace
+
+std::optional<HeldInside> held_inside(const SimulationModel& model, std::size_t cloth, double time) {
+    if (model.scene.colliders.empty()) return std::nullopt;
+    return deepest(model, held_particles(model.cloths[cloth], time), time);
+}
 
 std::string impossible_pins(const SimulationModel& model, std::uint32_t frame) {
     const double time = frame / model.scene.time.fps;

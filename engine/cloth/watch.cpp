@@ -9,8 +9,11 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/hang.h"
+#include "cloth/impossible_pins.h"
 #include "cloth/self_contact.h"
 #include "scene/collider_pose.h"
+#include "scene/contact_shape.h"
+#include "scene/overlap.h"
 #include "scene/vectors.h"
 
 namespace drape {
@@ -25,6 +28,8 @@ constexpr double rounding = 1.01;    ///< factor on strains that a cloth starts 
 constexpr double energy_share = 0.1;
 constexpr double implausible_rms = 0.25, implausible_worst = 1;
 constexpr double resting_worst = 1.0 / 3, resting_speed = 0.01;  ///< a spring's; diagonals per second
+/// Springs follow fabric up to this strain: beyond it real fabric stiffens and tears.
+constexpr double springs_mean = 0.5;
 /// A frame is no result any more at so many times the law of stretch.
 constexpr double times_law = 3;
 /// Speeds of key-framed things are taken over this part of a frame.
@@ -149,7 +154,9 @@ Watch::Drive Watch::next_drive(std::size_t cloth, std::uint32_t frame, const Dri
         drive.speed = std::max(drive.speed, now);
         drive.travel += now * part;
     }
-    drive.pace = std::max(drive.pace, pace(cloth, begin * part, (begin + parts_of_a_frame) * part));
+    const double now = pace(cloth, begin * part, (begin + parts_of_a_frame) * part);
+    drive.pace = std::max(drive.pace, now);
+    if (now > 0) drive.moved = frame + 1;
     return drive;
 }
 
@@ -170,47 +177,131 @@ void Watch::extend(std::uint32_t frame) {
     }
 }
 
-Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+/// Returns m/s at which cloth moves away that lies nearer to something than it may.
+double Watch::pushed() const {
+    const double out_of_cloth =
+        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
+    return model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
+}
+
+/// Returns m/s at which the strain comes back that a cloth starts with.
+double Watch::released(std::size_t index) const {
+    const Start& start = starts_[index];
+    return start.strain * wave_speed(model_.scene.cloths[index], start.diagonal, model_.scene.time.fps);
+}
+
+/// Returns the speed that a cloth may have by what acts on it, m/s, without what other cloths give it.
+double Watch::own_speed(std::uint32_t frame, std::size_t index) const {
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
     const double time = frame / model_.scene.time.fps, gravity = length(model_.scene.gravity);
     const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
     const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
-    const double travel = drive_at(index, frame).travel, smaller = std::min(cloth.size[0], cloth.size[1]);
-    const double recoil = std::min(travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    const double released = start.strain * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    // Contact moves it away where it lies nearer to something than it may.
-    const double out_of_cloth =
-        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
-    const double pushed = model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
-    const double given = length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released + pushed;
-    const double speed = given + drive_at(index, frame).speed + recoil;
-    const double flown = start.held ? 0 : 2 * time * (given + recoil);
+    const Drive& drive = drive_at(index, frame);
+    const double smaller = std::min(cloth.size[0], cloth.size[1]);
+    const double recoil =
+        std::min(drive.travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
+    return length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released(index) + pushed() + drive.speed +
+           recoil;
+}
+
+/// Returns the speed and the way that a cloth may have by all that acts on it. Struck by a much heavier one it leaves,
+/// if nothing is lost, at twice that one's speed beyond its own; and it may be carried as far.
+Watch::Reach Watch::reach(std::uint32_t frame, std::size_t index) const {
+    Reach reach{own_speed(frame, index), drive_at(index, frame).travel};
+    if (!model_.self_contact) return reach;
+    double speed = 0, travel = 0;
+    for (std::size_t other = 0; other < starts_.size(); ++other) {
+        if (other == index) continue;
+        speed = std::max(speed, own_speed(frame, other));
+        travel = std::max(travel, drive_at(other, frame).travel);
+    }
+    return {reach.speed + 2 * speed, reach.travel + travel};
+}
+
+Implausible Watch::worst(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
+    const Start& start = starts_[index];
+    const Reach reach = this->reach(frame, index);
+    const double flown = start.held ? 0 : 2 * frame / model_.scene.time.fps * reach.speed;
     const double diagonal = start.diagonal * (1 + std::max(statistics.stretch.largest, 0.0));
-    Implausible result =
-        worse(compare("speed, m/s", statistics.largest_speed, generous * speed + calm_speed,
-                      "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
-              compare("distance from the origin, m", statistics.largest_distance,
-                      start.distance + 2 * diagonal + travel + flown,
-                      "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
-    if (!passive_) return result;
+    return worse(compare("speed, m/s", statistics.largest_speed, generous * reach.speed + calm_speed,
+                         "moves at {:.3g} m/s, where at most {:.3g} m/s are explained", statistics.fastest),
+                 compare("distance from the origin, m", statistics.largest_distance,
+                         start.distance + 2 * diagonal + reach.travel + flown,
+                         "is {:.3g} m from the origin, where at most {:.3g} m are explained", statistics.farthest));
+}
+
+/// Returns how deep a cloth may be in what colliders and its thickness keep free, m: as deep as one substep leads it,
+/// the springs of a cell pull it, it started, and pins hold its neighbours.
+Implausible Watch::worst_penetration(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const double depth = statistics.penetration.value_or(0);
+    const double cell = 2 * covering_radius(cloth) * (1 + std::max(statistics.stretch.largest, 0.0));
+    double bound =
+        cloth.thickness + cell + 2 * reach(frame, index).speed / (model_.scene.time.fps * model_.scene.solver.substeps);
+    if (depth > bound) {  // these take long
+        for (const StartOverlap& overlap : start_overlaps(model_.scene))
+            if (overlap.cloth == index) bound += overlap.depth;
+        if (const auto held = held_inside(model_, index, frame / model_.scene.time.fps)) bound += held->depth;
+    }
+    return compare("penetration, m", depth, bound,
+                   "is {:.3g} m deep in what colliders keep free, where at most {:.3g} m are explained",
+                   statistics.deepest);
+}
+
+/// Returns the energy that a cloth has gained, and what of it is explained, J.
+Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) const {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const Start& start = starts_[index];
     const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
     const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
     // The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at
     // the full stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
-    const double scale = moving + statistics.mass * (gravity * start.diagonal + 0.5 * calm_speed * calm_speed);
-    return worse(result, compare("energy gained, J", energy - start_energy,
-                                 energy_share * scale + statistics.mass * (released * released + pushed * pushed),
-                                 "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"));
+    const double scale =
+        moving + statistics.mass * (length(model_.scene.gravity) * start.diagonal + 0.5 * calm_speed * calm_speed);
+    const double given = released(index), led = pushed();
+    return {energy - start_energy, energy_share * scale + statistics.mass * (given * given + led * led)};
+}
+
+/// Cloths that meet give each other energy, so that only what all have is bounded: it names the one that gained most.
+Implausible Watch::worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first,
+                                std::size_t count) const {
+    if (!passive_) return {};
+    Gain all{0, 0};
+    std::size_t most = first;
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t cloth = first; cloth < first + count; ++cloth) {
+        const Gain one = gain(cloth, cloths[cloth]);
+        all = {all.energy + one.energy, all.explained + one.explained};
+        if (one.energy > largest) most = cloth, largest = one.energy;
+    }
+    Implausible found = compare(
+        "energy gained, J", all.energy, all.explained,
+        count == 1 ? "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"
+                   : "it and the cloths that it meets have gained {:.3g} J, though nothing does work on them (bound "
+                     "{:.3g} J)");
+    found.cloth = most;
+    return found;
+}
+
+/// Returns the largest part of a bound; where stretch errors count too, the first cloth's that is beyond its bound.
+Implausible Watch::worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const {
+    Implausible most;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        Implausible found = worse(worst(frame, cloth, cloths[cloth]), worst_penetration(frame, cloth, cloths[cloth]));
+        if (!model_.self_contact) found = worse(found, worst_energy(cloths, cloth, 1));
+        if (stretch) found = worse(found, worst_stretch(frame, cloth, cloths[cloth]));
+        found.cloth = cloth;
+        if (stretch && found.excess > 1) return found;
+        most = worse(most, found);
+    }
+    return model_.self_contact ? worse(most, worst_energy(cloths, 0, cloths.size())) : most;
 }
 
 double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
-    double most = 0;
-    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
-        most = std::max(most, worst(frame, cloth, cloths[cloth]).excess);
-    return most;
+    return worst_of(frame, cloths, false).excess;
 }
 
 /// Returns what the springs of a cloth that moves at this speed (m/s) may be wrong by.
@@ -234,7 +325,7 @@ double Watch::stretch_law(std::size_t index, double speed) const {
     return 0.02 + 0.12 * most + 2 * rounded;
 }
 
-/// Returns what the springs of any cloth may err by for six frames. `driven` counts what moves until then.
+/// Returns what the springs of any cloth may err by for six frames. `driven` counts what has moved until then.
 double Watch::allowed_stretch(std::uint32_t frame, bool driven) const {
     double most = model_.asked_tolerance;
     if (model_.closed_loop() || model_.self_contact) most = std::max(most, times_law * model_.stretch_limits().worst);
@@ -247,28 +338,61 @@ double Watch::allowed_stretch(std::uint32_t frame, bool driven) const {
     return most;
 }
 
+/// Returns whether something moves the cloths, or did within the time in which they settle.
+bool Watch::driven(std::uint32_t frame) const {
+    std::uint32_t moved = 0;
+    for (std::size_t cloth = 0; cloth < starts_.size(); ++cloth) moved = std::max(moved, drive_at(cloth, frame).moved);
+    return frame - std::min(moved, frame) <= settling_time * model_.scene.time.fps;
+}
+
 std::optional<Implausible> Watch::lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     if (frame == 0 || cloths.empty()) return std::nullopt;
     const auto worst = std::ranges::max_element(cloths, {}, &ClothStatistics::stretch_error_max);
     recent_.push_back(worst->stretch_error_max);
     if (recent_.size() > frames_in_a_row) recent_.pop_front();
-    const auto index = static_cast<std::size_t>(worst - cloths.begin());
-    const bool ends = frame + 1 == model_.scene.time.frame_count;
-    Implausible found;
-    if (recent_.size() == frames_in_a_row)
-        found =
-            compare("stretch error of a spring for six frames", std::ranges::min(recent_), allowed_stretch(frame, true),
-                    "begins the worst of springs whose stretch error is {:.3g} or more of their length for six "
-                    "frames (bound {:.3g})",
-                    worst->most_stretched);
-    if (ends && found.excess <= 1)
-        found = compare("stretch error of a spring at the scene's end", std::ranges::max(recent_),
-                        allowed_stretch(frame, false),
-                        "begins the worst of springs whose stretch error comes to {:.3g} of their length in the last "
-                        "frames (bound {:.3g}): the cloth has not settled when the scene ends",
-                        worst->most_stretched);
-    found.cloth = index;
+    last_ = {frame, static_cast<std::uint32_t>(worst - cloths.begin())};
+    if (recent_.size() < frames_in_a_row) return std::nullopt;
+    Implausible found = compare(
+        "stretch error of a spring for six frames", std::ranges::min(recent_), allowed_stretch(frame, driven(frame)),
+        "begins the worst of springs whose stretch error is {:.3g} or more of their length for six "
+        "frames (bound {:.3g})",
+        worst->most_stretched);
+    found.cloth = last_.cloth;
     return found.excess > 1 ? std::optional(found) : std::nullopt;
+}
+
+/// Returns ", the particle in column 3, row 4"; nothing where there is none.
+static std::string place_text(const Grid& grid, std::optional<std::uint32_t> particle) {
+    if (!particle) return {};
+    return fmt::format(", the particle in column {}, row {}", *particle % grid.columns(), *particle / grid.columns());
+}
+
+std::vector<std::string> Watch::warnings() const {
+    std::vector<std::string> all;
+    if (deep_.value > 0)
+        all.push_back(fmt::format(
+            "from frame {} on cloth '{}' is deeper than {:.3g} m in what colliders and its thickness keep free, up to "
+            "{:.3g} m in frame {}{}: more room between colliders, slower ones or more substeps may help",
+            deep_.first, model_.cloths[deep_.cloth].name, usual_penetration(deep_.cloth), deep_.value, deep_.worst,
+            place_text(model_.cloths[deep_.cloth].grid, deep_.particle)));
+    if (torn_.value > 0)
+        all.push_back(fmt::format(
+            "from frame {} on springs of cloth '{}' are stretched by more than {:.0f} %, up to {:.3g} % in frame {}, "
+            "as "
+            "forces and pins pull them: fabric would have torn; stiffer springs, weaker forces or pins less far apart "
+            "may help",
+            torn_.first, model_.cloths[torn_.cloth].name, 100 * springs_mean, 100 * torn_.value, torn_.worst));
+    if (recent_.empty()) return all;
+    const double largest = std::ranges::max(recent_), allowed = allowed_stretch(last_.frame, false);
+    if (largest > allowed)
+        all.push_back(
+            fmt::format("cloth '{}' has not settled when the run ends, in frame {}: in the last frames the stretch "
+                        "error of a spring "
+                        "comes to {:.3g} of its length, where cloth that nothing moves keeps {:.3g}; a longer scene "
+                        "shows whether it "
+                        "settles",
+                        model_.cloths[last_.cloth].name, last_.frame, largest, allowed));
+    return all;
 }
 
 Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) const {
@@ -288,15 +412,57 @@ Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const C
                    statistics.most_stretched);
 }
 
+void Watch::Note::keep(std::uint32_t frame, std::size_t index, double now, std::optional<std::uint32_t> at) {
+    if (!(now > 0) || !std::isfinite(now)) return;
+    if (value == 0) first = frame;
+    if (now <= value) return;
+    value = now, worst = frame, cloth = static_cast<std::uint32_t>(index), particle = at;
+}
+
+/// A tenth of a cell or the thickness is what contact may leave of a cloth in what it keeps free.
+double Watch::usual_penetration(std::size_t index) const {
+    const ClothModel& cloth = model_.cloths[index];
+    return 0.1 * std::max({cloth.spacing[0], cloth.spacing[1], model_.scene.cloths[index].thickness});
+}
+
+void Watch::note_penetration(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+    const double depth = statistics.penetration.value_or(0);
+    starts_depth_.resize(starts_.size());
+    if (frame == 0) starts_depth_[index] = depth;
+    const double usual = usual_penetration(index) + starts_depth_[index];
+    if (frame == 0 || depth <= usual) return;
+    const auto held = held_inside(model_, index, frame / model_.scene.time.fps);
+    if (depth > usual + (held ? held->depth : 0)) deep_.keep(frame, index, depth, statistics.deepest);
+}
+
+/// Stretch that the solver leaves is an error, and judged as one; what a cloth starts stretched by is the scene's
+/// own.
+void Watch::note_stretch(std::uint32_t frame, std::size_t index, const ClothStatistics& statistics) {
+    if (statistics.stretch.spring_count == 0) return;
+    const double strain = statistics.stretch.largest - statistics.stretch_error_max;
+    if (strain > std::max(springs_mean, starts_[index].strain)) torn_.keep(frame, index, strain, {});
+}
+
+void Watch::remember(const ClothStatistics& statistics) {
+    if (statistics.stretch.spring_count == 0) return;
+    const auto keep = [](std::optional<double>& worst, double value) {
+        if (std::isfinite(value)) worst = std::max(worst.value_or(value), value);
+    };
+    keep(worst_rms_, statistics.stretch_error_rms);
+    keep(worst_max_, statistics.stretch_error_max);
+}
+
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        const ClothStatistics& statistics = cloths[cloth];
-        Implausible found = worse(worst(frame, cloth, statistics), worst_stretch(frame, cloth, statistics));
-        found.cloth = cloth;
-        if (found.excess > 1) return found;
+        remember(cloths[cloth]);
+        note_penetration(frame, cloth, cloths[cloth]);
+        note_stretch(frame, cloth, cloths[cloth]);
     }
-    return lasting_stretch(frame, cloths);
+    const Implausible found = worst_of(frame, cloths, true);
+    std::optional<Implausible> failed = found.excess > 1 ? std::optional(found) : lasting_stretch(frame, cloths);
+    if (failed) recent_.clear();  // whether it settles is no question any more
+    return failed;
 }
 
 }  // namespace drape

@@ -34,6 +34,11 @@ class Watch {
     ///             what free cloth may have flown at twice these speeds
     ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
     ///             tenth of v0^2 m/2 + m g d
+    ///   penetration  the thickness, a stretched cell, twice the way of such speeds in a substep, and how deep the
+    ///   cloth
+    ///             starts and pins hold it in a collider
+    /// Where cloths meet, one may have twice another's speed beyond its own and be carried as far, and their energies
+    /// are judged as one: what one gives is another's.
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// Returns the first cloth's worst value that makes a frame no result: the same and, for methods whose frames are
@@ -46,27 +51,42 @@ class Watch {
     ///   3 (0.02 + 0.12 Lambda)           at most 1, and at least what a cloth starts strained by; of six frames in a
     ///                                    row. Lambda = a D^2 N^2/(h K) of N edges of length h, substep D, K iterations
     ///                                    and the acceleration a of gravity, wind and what moves the cloth
-    ///   the same without what moves it   of any of the scene's last six frames: it has not settled
+    ///   the same without what moved it   when nothing has moved for 5 s, the cloth's own velocity at the start
+    ///   included
     /// The last two are never less than three times what method `auto` keeps, where that chose the substeps or cloths
     /// meet themselves or each other: what lies between layers is pressed together by more than a law of springs knows.
+    /// What a frame is judged by does not depend on how many follow it.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
     /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
     /// was read is nothing that it can come to.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(recent_);
-        return recent_.size() <= frames_in_a_row;
+        archive(recent_, last_.frame, last_.cloth, worst_rms_, worst_max_, starts_depth_);
+        for (Note* note : {&deep_, &torn_}) archive(note->first, note->worst, note->cloth, note->value, note->particle);
+        const std::size_t count = std::max<std::size_t>(starts_.size(), 1);
+        return recent_.size() <= frames_in_a_row && last_.cloth < count && deep_.cloth < count && torn_.cloth < count &&
+               starts_depth_.size() <= count;
     }
+
+    /// Returns what to say of the frames that were asked about, beside what is implausible: cloth deeper in what
+    /// colliders keep free than a tenth of a cell or its thickness or stretched by half, springs that a longer scene
+    /// has to show settled.
+    std::vector<std::string> warnings() const;
+
+    /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
+    const std::optional<double>& worst_rms() const { return worst_rms_; }
+    const std::optional<double>& worst_max() const { return worst_max_; }
 
   private:
     static constexpr std::size_t frames_in_a_row = 6;     ///< a single one may be a snap
     static constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
     /// The things that move a cloth, from the start to the end of a frame.
     struct Drive {
-        double speed = 0;   ///< m/s, largest so far
-        double travel = 0;  ///< m
-        double pace = 0;    ///< m/s, largest so far, for a frame as a whole and centres alone
+        double speed = 0;         ///< m/s, largest so far
+        double travel = 0;        ///< m
+        double pace = 0;          ///< m/s, largest so far, for a frame as a whole and centres alone
+        std::uint32_t moved = 0;  ///< the last frame in which there was a pace
     };
     /// A cloth where it starts.
     struct Start {
@@ -77,14 +97,34 @@ class Watch {
         double held_strain;          ///< that of springs that pins hold at both ends
         bool held;                   ///< pins hold it for good
     };
+    void remember(const ClothStatistics& statistics);
     void extend(std::uint32_t frame);
     Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;
     const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
     double drive_speed(std::size_t cloth, double from, double to) const;
     double pace(std::size_t cloth, double from, double to) const;
-    Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+    /// A cloth's motion as far as it is explained: m/s, and m that it is carried.
+    struct Reach {
+        double speed, travel;
+    };
+    struct Gain {
+        double energy, explained;  ///< J
+    };
+    double pushed() const;
+    double released(std::size_t cloth) const;
+    double own_speed(std::uint32_t frame, std::size_t cloth) const;
+    Reach reach(std::uint32_t frame, std::size_t cloth) const;
+    Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
+    Gain gain(std::size_t cloth, const ClothStatistics& statistics) const;
+    Implausible worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first, std::size_t count) const;
+    Implausible worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const;
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     double stretch_law(std::size_t cloth, double speed) const;
+    Implausible worst_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
+    double usual_penetration(std::size_t cloth) const;
+    void note_penetration(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+    void note_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics);
+    bool driven(std::uint32_t frame) const;
     double allowed_stretch(std::uint32_t frame, bool driven) const;
     std::optional<Implausible> lasting_stretch(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
@@ -93,7 +133,22 @@ class Watch {
     std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
     std::vector<std::deque<Drive>> drives_;  ///< by cloth, for the last frames that were asked about
     bool passive_;
-    bool led_apart_;             ///< some cloths are, from others that they started through
+    bool led_apart_;  ///< some cloths are, from others that they started through
+    std::optional<double> worst_rms_, worst_max_;
+    /// Something to be warned of: its first frame, and the worst one's.
+    struct Note {
+        void keep(std::uint32_t frame, std::size_t index, double now, std::optional<std::uint32_t> at);
+        std::uint32_t first = 0, worst = 0, cloth = 0;
+        double value = 0;  ///< 0: there was nothing
+        std::optional<std::uint32_t> particle = {};
+    };
+    Note deep_, torn_;
+    std::deque<double> starts_depth_;  ///< m, each cloth's penetration in frame 0
+    /// The last frame that was asked about, and its cloth with the worst spring.
+    struct Last {
+        std::uint32_t frame = 0, cloth = 0;
+    };
+    Last last_;
     std::deque<double> recent_;  ///< largest stretch error of a spring, by frame
 };
 

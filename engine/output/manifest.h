@@ -60,7 +60,7 @@ struct Manifest {
         std::string asked;                    // the scene's method, when that was to choose
         std::string choice;                   // the reason for that method
         double tolerance = 0;                 // bound of the RMS stretch error; 0: none
-        std::optional<double> stretch_error;  // worst RMS of any written frame and cloth, as the device measured it
+        std::optional<double> stretch_error;  // worst RMS of any cloth and frame, written or not
     };
     struct Validation {
         bool enabled = false;

@@ -143,7 +143,7 @@ void write_checkpoint(const RunParts& run) {
     RunCheckpoint checkpoint;
     checkpoint.next_frame = run.simulation.next_frame();
     checkpoint.validation_count = run.earlier_validation + run.device.validation_count();
-    if (run.failure) checkpoint.failure = run.failure->frame;
+    checkpoint.failure = run.failure ? run.failure->frame : run.simulation.verdict().failure;
     run.sink.flush();
     checkpoint.state = run.simulation.save();
     run.checkpoints->write(std::move(checkpoint));
@@ -193,13 +193,15 @@ bool write_frames(const RunParts& run, std::uint32_t last) {
     Progress progress(count, Progress::standard_options(run.request.quiet));
     run.progress = &progress;
     try {
-        return run_with_checkpoints(run, last, [&](const FinishedFrame& frame) {
+        const bool complete = run_with_checkpoints(run, last, [&](const FinishedFrame& frame) {
             if (frame.failure && frame.failure->kind == FrameFailure::Kind::not_finite) raise(*frame.failure);
-            if (frame.failure && !run.failure) run.failure = kept_failure(*frame.failure);
             run.sink.add(frame);
             progress.frame_done(frame.frame, run.sink.note());
             if (!run.missing.kept.contains(frame.frame)) ++summary.frame_count;
         });
+        if (const auto failure = run.simulation.verdict().failure; failure && !run.failure)
+            run.failure = kept_failure(*failure);
+        return complete;
     } catch (const Diverged& error) {
         run.failure = frame_run_failure(error, false, kept());
     } catch (const ToleranceMissed& error) {
@@ -319,10 +321,12 @@ bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, 
 }
 
 /// Returns what to tell a run that did not keep what `auto` aims at.
-std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics) {
+std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics,
+                                         const RunVerdict& verdict) {
     if (facts.limits_are_kept) return statistics.unpredictable();
-    const double rms = statistics.worst_of_run("/stretch_error_rms").value_or(0),
-                 largest = statistics.worst_of_run("/stretch_error_max").value_or(0);
+    const double rms = std::max(verdict.stretch_error_rms, statistics.worst_of_run("/stretch_error_rms")).value_or(0),
+                 largest =
+                     std::max(verdict.stretch_error_max, statistics.worst_of_run("/stretch_error_max")).value_or(0);
     if (rms <= facts.tolerance_rms && largest <= facts.tolerance_worst) return std::nullopt;
     return fmt::format(
         "the stretch error came to {:.3g} RMS and {:.3g} in a single spring; method auto would have kept {:.3g} and "
@@ -359,7 +363,9 @@ void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::opti
     manifest.cuts = sink.cuts();
     const std::shared_ptr<const RunStatistics> statistics = sink.statistics();
     manifest.statistics = [statistics](const Manifest::FrameVisitor& take) { statistics->for_each_frame(take); };
-    manifest.solver.stretch_error = statistics->worst_of_run("/stretch_error_rms");
+    // Frames that were kept may not have been simulated again.
+    manifest.solver.stretch_error =
+        std::max(manifest.solver.stretch_error, statistics->worst_of_run("/stretch_error_rms"));
     try {
         sink.add_timings(manifest);
         // Arrays of a run that something broke are no result; those before a frame that fails again are one.
@@ -467,10 +473,12 @@ RunSummary run_scene(const RunRequest& request) {
         const RunParts run{request, missing, simulation,         sink,   checkpoints ? &*checkpoints : nullptr,
                            summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
-        for (const auto& warning :
-             {missed_limits(simulation.facts(), *sink.statistics()), lost_proof(simulation), still_crossed(simulation)})
+        for (const auto& warning : {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()),
+                                    lost_proof(simulation), still_crossed(simulation)})
             if (warning) warn(*warning);
+        for (const std::string& warning : simulation.verdict().warnings) warn(warning);
         manifest.warnings = summary.warnings;
+        manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
         manifest.self_collision = self_collision_of(simulation);
         finish_files(sink, manifest, summary, failure);
     }

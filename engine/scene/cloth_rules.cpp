@@ -312,6 +312,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
+    warn_of_doubts(members, scene);
     return !members.fit({"time", "gravity", "cloths", "solver"}) || check_fall(members, scene);
 }
 

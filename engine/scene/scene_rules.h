@@ -40,6 +40,8 @@ bool check_pin(const Members& members, Pin& pin);
 bool check_cloth(const Members& members, Cloth& cloth);
 /// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
+/// Warns of what a scene may have, but hardly means.
+void warn_of_doubts(const Members& members, const SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);
 bool check_camera(const Members& members, Camera& camera);

@@ -137,7 +137,9 @@ void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
     simulated_ = frame + 1;
     Judged still{attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}};
     for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
-    submit_output(frame, std::move(still), asked.wanted(frame), asked.finished);
+    const bool wanted = asked.wanted(frame);
+    if (!wanted) pass_over(frame, still.statistics, still.effort);
+    submit_output(frame, std::move(still), wanted, asked.finished);
 }
 
 void FrameLoop::drop_withheld() {
@@ -207,6 +209,9 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
         note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
+    // Frames behind the last that is asked for are withheld, for they may be wanted then.
+    for (std::uint32_t k = 0; k < segment.frame_count && frame + k <= asked.last; ++k)
+        if (!asked.wanted(frame + k)) pass_over(frame + k, attempt_statistics_[k], single.effort);
     if (!segment.probes)
         return submit_output(frame, std::move(single), frame > asked.last || asked.wanted(frame), asked.finished);
     deliver_all(withhold_);
@@ -245,7 +250,19 @@ void FrameLoop::release_withheld(std::uint32_t frame, bool wanted, const Finishe
     if (withheld_.empty() || withheld_.front().frame().frame != frame) return;
     const FrameCopy copy = std::move(withheld_.front());
     withheld_.pop_front();
-    if (wanted) finished(copy.frame());
+    if (wanted)
+        finished(copy.frame());
+    else
+        pass_over(frame, copy.frame().statistics, copy.frame().effort);
+}
+
+void FrameLoop::pass_over(std::uint32_t frame, const std::vector<ClothStatistics>& statistics,
+                          const FrameEffort& effort) {
+    if (!options_.on_passed_over) return;
+    FinishedFrame& passed = passed_over_.emplace_back();
+    passed.frame = frame;
+    passed.statistics = statistics;
+    passed.effort = effort;
 }
 
 }  // namespace drape

@@ -139,7 +139,9 @@ FrameNeeds FrameLoop::needs(FrameKind kind) const {
     const bool judged =
         model_.closed_loop() && (has.simulates || kind == FrameKind::output || kind == FrameKind::output_cut);
     return {.drawing = has.hands_out && (options_.draw || options_.normals),
-            .statistics = judged ? has.simulates : has.hands_out && options_.statistics};
+            .statistics = judged
+                              ? has.simulates
+                              : (has.hands_out && options_.statistics) || (has.simulates && options_.on_passed_over)};
 }
 
 FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
@@ -260,8 +262,10 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     if (done.output && options_.velocities)
         result.velocities = velocities(slot, result.effort.asleep ? 0 : done.substeps);
     if (done.output && options_.normals) result.normals = arrays(slot, "normal");
-    if (done.output && !done.judged && options_.statistics) result.statistics = solver_.statistics(*pool_, slot);
-    if (done.output) finished(result);
+    if (!done.judged && needs(done.kind).statistics) result.statistics = solver_.statistics(*pool_, slot);
+    if (done.output) return finished(result);
+    // A closed loop's frame may still be done again.
+    if (options_.on_passed_over && (!control_ || done.frame == 0)) options_.on_passed_over(result);
 }
 
 std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::string_view what) const {
@@ -316,14 +320,27 @@ FrameKind FrameLoop::kind_of(std::uint32_t frame, bool wanted, bool cutting) {
     return cutting ? simulate_cut : simulate;
 }
 
-bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& finished,
+void FrameLoop::tell_passed_over(std::uint32_t end) {
+    while (!passed_over_.empty() && passed_over_.front().frame < end) {
+        const FinishedFrame frame = std::move(passed_over_.front());
+        passed_over_.pop_front();
+        options_.on_passed_over(frame);
+    }
+}
+
+bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& hand_out,
                     const std::function<bool()>& stop) {
     bool complete = true;
+    const Finished finished = [&](const FinishedFrame& frame) {
+        tell_passed_over(frame.frame);
+        hand_out(frame);
+    };
     for (; next_frame_ <= last; ++next_frame_) {
         const std::uint32_t frame = next_frame_;
         const bool output = wanted(frame);
         const bool cutting = cutters_active_in(frame);
-        if (frame == 0 && !output && !cutting) continue;  // the initial state is already there
+        // The initial state is already there.
+        if (frame == 0 && !output && !cutting && !options_.on_passed_over) continue;
         if (stop && stop()) {
             complete = false;
             break;
@@ -332,6 +349,8 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
             complete = frame < simulated_ || simulate_unless_stopped(frame, {last, wanted, finished, stop});
             if (!complete) break;
             release_withheld(frame, output, finished);
+            if (std::ranges::none_of(in_flight_, [](const auto& each) { return each.has_value(); }))
+                tell_passed_over(frame + 1);
             continue;
         }
         const std::uint32_t slot = take_slot(finished);
@@ -340,6 +359,7 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
         if (cutting) take_cuts_of(slot, frame, finished);
     }
     deliver_all(finished);
+    tell_passed_over(next_frame_);
     return complete;
 }
 

@@ -43,8 +43,11 @@ struct FrameLoopOptions : PictureOptions {
     /// Each cut is told here, with the cloth's topology after it.
     std::function<void(const CutEvent&, const CutTopology&)> on_cut;
     std::function<void(const FrameAttempt&)> on_attempt;  ///< told of before each
-    std::function<void()> meanwhile;                      ///< called whenever the device has got a frame to simulate
-    graph::BarrierFilter barrier_filter;                  ///< canary tests only
+    /// Each frame that is not wanted is told here, in order with those that are: its statistics and effort, nothing
+    /// else.
+    std::function<void(const FinishedFrame&)> on_passed_over;
+    std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
+    graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
 
 /// One of these is submitted at once. Frame 0 is the initial state; frames that nobody asked for are only simulated;
@@ -170,6 +173,8 @@ class FrameLoop {
     std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
     void deliver_all(const Finished& finished);
+    /// Tells of the frames before `end` that were simulated and not wanted.
+    void tell_passed_over(std::uint32_t end);
     /// Returns the slot that is next, free.
     std::uint32_t take_slot(const Finished& finished);
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
@@ -215,6 +220,7 @@ class FrameLoop {
     void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
     void give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked);
     void release_withheld(std::uint32_t frame, bool wanted, const Finished& finished);
+    void pass_over(std::uint32_t frame, const std::vector<ClothStatistics>& statistics, const FrameEffort& effort);
 
     const vulkan::Device& device_;
     const SimulationModel& model_;
@@ -233,12 +239,13 @@ class FrameLoop {
         attempt_self_records_;    ///< per frame of the last attempt, in order, like the statistics
     glsl::SelfRecord fullest_{};  ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
-    std::uint32_t state_substeps_;    ///< substeps of the state's history
-    bool in_segment_ = false;         ///< `stop` is asked within one
-    bool kept_ = false;               ///< the device has what the segment started from
-    std::uint32_t simulated_ = 1;     ///< the frame after those that a closed loop has simulated
-    double motion_error_ = 0;         ///< the last probe's
-    std::deque<FrameCopy> withheld_;  ///< frames that are simulated and not handed out yet
+    std::uint32_t state_substeps_;           ///< substeps of the state's history
+    bool in_segment_ = false;                ///< `stop` is asked within one
+    bool kept_ = false;                      ///< the device has what the segment started from
+    std::uint32_t simulated_ = 1;            ///< the frame after those that a closed loop has simulated
+    double motion_error_ = 0;                ///< the last probe's
+    std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
+    std::deque<FinishedFrame> passed_over_;  ///< a closed loop's frames that are not wanted and not told of yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;  ///< goes first, as it waits for what is in flight

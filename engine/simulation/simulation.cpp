@@ -172,10 +172,25 @@ struct Simulation::Parts {
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
-          asked(loop_options(scene, options)),
+          asked(judging(loop_options(scene, options))),
           loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
         if (given.parts_->drawing && asked.draw)
             pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
+    }
+
+    FrameLoopOptions judging(FrameLoopOptions options) {
+        if (options.statistics) options.on_passed_over = [this](const FinishedFrame& frame) { judge(frame); };
+        return options;
+    }
+
+    /// Returns the frame's failure, or throws it.
+    std::optional<FrameFailure> judge(const FinishedFrame& frame) {
+        std::optional<FrameFailure> found = frame_failure(model, watch, frame);
+        if (!found) return found;
+        if (keep_promises) raise(*found);
+        const auto diverged = [](const FrameFailure& each) { return each.kind == FrameFailure::Kind::not_finite; };
+        if (!failure || (diverged(*found) && !diverged(*failure))) failure = found;
+        return diverged(*found) ? failure : found;
     }
 
     /// Returns the options of the loop whose frames `pictures` draws.
@@ -209,6 +224,7 @@ struct Simulation::Parts {
     bool keep_promises;
     SimulationModel model;
     Watch watch;
+    std::optional<FrameFailure> failure;  ///< the first of any frame, handed out or not
     FrameLoopOptions asked;
     FrameLoop loop;
     std::unique_ptr<Pictures> pictures;  ///< draws pictures where they have a device of their own
@@ -248,9 +264,8 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         return pictures ? pictures->draw(frame, give) : finished(frame);
     };
     const auto checked = [&](const FinishedFrame& frame) {
-        const auto failure = frame_failure(parts_->model, parts_->watch, frame);
+        const auto failure = parts_->judge(frame);
         if (!failure) return hand_out(frame);
-        if (parts_->keep_promises) raise(*failure);
         FinishedFrame failed = frame;
         failed.failure = failure;
         hand_out(failed);
@@ -322,6 +337,10 @@ SimulationFacts Simulation::facts() const {
 }
 
 std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+
+RunVerdict Simulation::verdict() const {
+    return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings()};
+}
 
 std::vector<PassWork> Simulation::work() const {
     std::vector<PassWork> all;

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+#include <set>
+
 #include "program.h"
 #include "scenes.h"
 
@@ -63,7 +67,7 @@ TEST(Divergence, WithNoFrameBeforeLeavesTheReason) {
     EXPECT_THAT(names_in(folder.out()), ElementsAre("failure.reproducer", "manifest.json"));
     const Json::Value manifest = lasting_manifest(folder.out());
     EXPECT_EQ(manifest["status"], "diverged");
-    EXPECT_EQ(manifest["failed"]["frame"], 4);
+    EXPECT_EQ(manifest["failed"]["frame"], 2);
     EXPECT_EQ(manifest["failed"]["cloth"], "sheet");
     EXPECT_EQ(manifest["failed"]["particle"].size(), 2u);
     EXPECT_EQ(manifest["failed"]["criterion"], "particles that are not finite");
@@ -108,6 +112,46 @@ TEST(Divergence, FailedFramesAreKeptWhereThatIsAskedForAndStillEndWithTheirCode)
     const Outcome overflown = run_overflowing(SceneFolder(small_scene(9)), {"--on-failure", "keep"});
     EXPECT_EQ(overflown.code, 5);
     EXPECT_THAT(overflown.err, HasSubstr("(2 of 9 frames)"));
+}
+
+/// Returns what the manifest says of the whole run, whatever was written of it.
+std::vector<Json::Value> verdict_of(const Outcome& outcome, const SceneFolder& folder, const std::string& out) {
+    const Json::Value manifest = lasting_manifest(folder.out(out));
+    return {outcome.code, manifest["status"], manifest["failed"], manifest["solver"]["stretch_error_rms"]};
+}
+
+TEST(Divergence, EveryFrameIsJudgedWhateverIsWritten) {
+    std::mt19937 random(48);
+    std::uniform_real_distribution<double> exponent(1, 4);
+    std::set<int> codes;
+    int scenes = 0;
+    for (const std::string method : {"relax", "line", "relax", "auto", "line"}) {
+        const SceneFolder folder(small_scene(9));
+        const std::string on_failure = ++scenes % 2 == 0 ? "keep" : "stop";
+        std::vector<std::string> scene{"simulate",
+                                       folder.scene(),
+                                       "-q",
+                                       "--on-failure",
+                                       on_failure,
+                                       "--set",
+                                       fmt::format("/gravity=[0,-{:.3g},0]", std::pow(10, exponent(random))),
+                                       "--set",
+                                       "/solver/method=" + method};
+        if (method != "auto") scene.insert(scene.end(), {"--set", "/solver/substeps=1"});
+        std::vector<std::vector<Json::Value>> verdicts;
+        for (const std::vector<std::string>& written :
+             std::vector<std::vector<std::string>>{{"-j", "1"}, {"-s", "8"}, {"-j", "4"}}) {
+            std::vector<std::string> arguments = scene;
+            arguments.insert(arguments.end(), written.begin(), written.end());
+            const std::string out = fmt::format("out{}", verdicts.size());
+            arguments.insert(arguments.end(), {"-o", folder.out(out)});
+            const Outcome outcome = drape(arguments);
+            verdicts.push_back(verdict_of(outcome, folder, out));
+            codes.insert(outcome.code);
+            EXPECT_EQ(verdicts.back(), verdicts.front()) << method << ", " << on_failure << ": " << outcome.err;
+        }
+    }
+    EXPECT_THAT(codes, testing::IsSupersetOf({0, 5}));
 }
 
 }  // namespace

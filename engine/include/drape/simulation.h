@@ -38,7 +38,7 @@ struct SimulationOptions {
     bool velocities = false;  ///< at the frames' ends, like the statistics' energies; implies statistics
     bool normals = false;
     bool statistics = true;
-    /// With statistics: throws Diverged and ToleranceMissed instead of handing out a frame that failed.
+    /// With statistics: throws Diverged and ToleranceMissed at a frame that failed, wanted or not.
     bool keep_promises = true;
     bool skip = true;  ///< false: do the work that is skipped because it changes no bit
     Timings timings = Timings::stages;
@@ -83,6 +83,15 @@ struct SelfContactReport {
     std::optional<std::uint32_t> last_crossed = {};
 };
 
+/// The result of judging all frames simulated so far, handed out or not. It is empty without statistics.
+struct RunVerdict {
+    /// The first that failed (without keep_promises); one that is not finite counts before any other.
+    std::optional<FrameFailure> failure;
+    /// The worst of any frame and cloth. Nothing: no frame was judged.
+    std::optional<double> stretch_error_rms, stretch_error_max;
+    std::vector<std::string> warnings;  ///< what is no failure, but nothing to keep silent about
+};
+
 /// The work of one kind of pass in a frame that is handed out, with the substeps that the scene begins with.
 struct PassWork {
     std::string name, stage;  ///< the names in FinishedFrame::timings of passes and of stages
@@ -116,10 +125,10 @@ class Simulation {
     const FinishedFrame& frame() const;
 
     /// Computes all frames from the next one to `last`, which may be after the scene's, and throws like `step`. The
-    /// device computes frames while `finished` is told of those before, in order; frames that are not `wanted` are not
-    /// read back. What `finished` gets is valid during the call. `stop` is asked before each frame, and under method
-    /// `auto` before each attempt at one; true ends after what the device has begun, and the attempt is forgotten.
-    /// Returns whether it came to `last`.
+    /// device computes frames while `finished` is told of those before, in order; of frames that are not `wanted` the
+    /// statistics alone are read back, to be judged. What `finished` gets is valid during the call. `stop` is asked
+    /// before each frame, and under method `auto` before each attempt at one; true ends after what the device has
+    /// begun, and the attempt is forgotten. Returns whether it came to `last`.
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 
@@ -141,6 +150,7 @@ class Simulation {
     SimulationFacts facts() const;
     /// Returns what was proved of contact between cloths; nothing when no cloth meets itself.
     std::optional<SelfContactReport> self_contact() const;
+    RunVerdict verdict() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// Describes what runs in a frame that is handed out, what was skipped, and why, as "text", "json" or "dot"; two

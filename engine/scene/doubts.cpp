@@ -1,0 +1,97 @@
+// Warns of what a scene may have, but hardly means: pins that hold cloth where it cannot be, and values far beyond what
+// cloth and pictures of it have.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/held.h"
+#include "scene/scene_rules.h"
+#include "scene/vectors.h"
+
+namespace drape {
+
+namespace {
+
+// Lengths are m. Sails and tents are smaller, tarpaulins and lead aprons lighter, tornadoes slower.
+constexpr double large = 200, heavy = 50, fast = 150, far = 200;
+constexpr double narrow = 1;  ///< degrees: a telescope's
+
+/// Values that are much too large are mostly in a smaller unit.
+constexpr const char* metres = "scenes are in metres: divide millimetres by 1000, centimetres by 100";
+
+void warn_of_held(const SceneNode& cloths, const SceneDescription& scene) {
+    const auto pin = [&](std::size_t cloth, std::size_t index) {
+        return cloths.element(cloth).member("pins").element(index);
+    };
+    for (const HeldDeep& held : held_in_colliders(scene))
+        pin(held.cloth, held.pin)
+            .warn(held_text(scene, held) +
+                  ": what is held cannot give way, and the cloth beside it is pulled in; lead the pin around the "
+                  "collider, release it before, or let the collider pass it");
+    for (const PathJump& jump : path_jumps(scene))
+        pin(jump.cloth, jump.pin)
+            .member("path")
+            .warn(fmt::format(
+                "the path begins with a jump: at time 0 it has its particles up to {:.3g} m from where cloth \"{}\" "
+                "starts, and they get there in the first substep; begin it with {{\"t\": 0}}, or place the cloth there",
+                jump.distance, scene.cloths[jump.cloth].name));
+}
+
+/// Returns how far from each other two of a path's places are at most along an axis, m.
+double span(const MotionPath& path) {
+    double largest = 0;
+    for (std::size_t k = 0; k < 3 && !path.keys.empty(); ++k) {
+        const auto [low, high] =
+            std::ranges::minmax(path.keys, {}, [k](const MotionKey& key) { return key.translate[k]; });
+        largest = std::max(largest, high.translate[k] - low.translate[k]);
+    }
+    return largest;
+}
+
+void warn_of_far(const SceneNode& path, const MotionPath& motion) {
+    if (const double way = span(motion); way > far)
+        path.warn(fmt::format("the path leads {:.4g} m far: {}", way, metres));
+}
+
+void warn_of_cloth(const SceneNode& node, const Cloth& cloth) {
+    const double side = std::max(cloth.size[0] * std::abs(cloth.placement.scale[0]),
+                                 cloth.size[1] * std::abs(cloth.placement.scale[1]));
+    if (side > large)
+        node.member("size").warn(fmt::format("cloth \"{}\" is {:.4g} m long: {}", cloth.name, side, metres));
+    if (cloth.areal_density > heavy)
+        node.member("areal_density")
+            .warn(fmt::format("a square metre of cloth \"{}\" weighs {:.4g} kg, and fabrics have .02 to 2 kg: divide "
+                              "grams by 1000",
+                              cloth.name, cloth.areal_density));
+    if (const double speed = length(cloth.velocity); speed > 10 * fast)
+        node.member("velocity").warn(fmt::format("cloth \"{}\" starts at {:.4g} m/s: {}", cloth.name, speed, metres));
+    for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
+        warn_of_far(node.member("pins").element(pin).member("path"), cloth.pins[pin].path);
+}
+
+}  // namespace
+
+void warn_of_doubts(const Members& members, const SceneDescription& scene) {
+    if (members.fit({"cloths"}))
+        for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+            warn_of_cloth(members["cloths"].element(i), scene.cloths[i]);
+    if (members.fit({"colliders"})) {
+        std::array<std::size_t, std::size(collider_lists)> places{};
+        for (const Collider& collider : scene.colliders) {
+            const std::size_t kind = collider.shape.index(), place = places[kind]++;
+            warn_of_far(members["colliders"].member(collider_lists[kind]).element(place).member("path"), collider.path);
+        }
+    }
+    const double wind = length(scene.wind.velocity);
+    if (members.fit({"wind"}) && wind > fast)
+        members["wind"]
+            .member("velocity")
+            .warn(fmt::format("a wind of {:.4g} m/s is faster than any storm's: divide km/h by 3.6", wind));
+    if (members.fit({"camera"}) && scene.camera && scene.camera->fov < narrow)
+        members["camera"].member("fov").warn(fmt::format(
+            "a field of view of {:.3g} degrees shows next to nothing: angles are in degrees", scene.camera->fov));
+    if (members.fit({"time", "cloths", "colliders", "solver"})) warn_of_held(members["cloths"], scene);
+}
+
+}  // namespace drape
