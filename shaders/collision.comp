@@ -46,21 +46,20 @@ vec4 led_displacement(ivec2 texel, vec4 moved) {
 struct Strip {
     int column, first, count;
     vec3 lower, upper;  // corners of the box that holds its particles at their next positions, m
-    uint rows;          // rows whose particles may touch a collider, or have touched an edge: bit k is row k
+    float way;          // the farthest that one of them moves, m
+    uint rows;          // rows whose particles may meet a collider, or have touched an edge: bit k is row k
 };
 
-vec3 next_position(ivec2 texel) {
-    return moved_position(LOAD(position, texel).xyz, led_displacement(texel, LOAD(displacement_in, texel)).xyz);
-}
-
 Strip strip_at(int column, int first, int count) {
-    Strip strip = Strip(column, first, count, vec3(1.0e30f), vec3(-1.0e30f), 0u);
+    Strip strip = Strip(column, first, count, vec3(1.0e30f), vec3(-1.0e30f), 0.0f, 0u);
     int k = 0;
     do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 start = LOAD(position, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
         vec3 now = moved_position(start.xyz, led.xyz);
-        bool near = !leaves_out || led.w > 0.0f || near_early(now, push.contact.x);
+        float way = length_of(led.xyz);
+        bool near = !leaves_out || led.w > 0.0f || near_early(now, way, push.contact.x);
+        strip.way = way > strip.way ? way : strip.way;
         strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
         strip.lower = least_of_each(strip.lower, now);
         strip.upper = largest_of_each(strip.upper, now);
@@ -72,8 +71,10 @@ Strip strip_at(int column, int first, int count) {
 /// Returns those of at most 32 colliders from the `begin`-th on that are near a strip: bit k is the k-th of them.
 uint near_colliders(Strip strip, int begin, int count) {
     uint near = 0u;
-    for (int k = 0; k < count; ++k)
-        near |= near_ball(collider_ball(push.first, begin + k), strip.lower, strip.upper, push.contact.x) ? 1u << k : 0u;
+    for (int k = 0; k < count; ++k) {
+        vec4 ball = collider_ball(push.first, begin + k, strip.way, push.contact.x);
+        near |= near_ball(ball, strip.lower, strip.upper, push.contact.x) ? 1u << k : 0u;
+    }
     return near;
 }
 
@@ -82,11 +83,12 @@ uint late_rows(Strip strip) {
     uint rows = 0u;
     for (int begin = early_collider_count; begin < capsules_end; begin += 32)
         for (uint near = near_colliders(strip, begin, min(32, capsules_end - begin)); near != 0u; near &= near - 1u) {
-            vec4 ball = collider_ball(push.first, begin + findLSB(near));
+            vec4 ball = collider_ball(push.first, begin + findLSB(near), strip.way, push.contact.x);
             for (int k = 0; k < strip.count; ++k) {
                 ivec2 texel = ivec2(strip.column, strip.first + k);
-                vec3 now = next_position(texel);
-                bool meets = near_ball(ball, now, now, push.contact.x) && LOAD(position, texel).w != 0.0f;
+                vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
+                vec3 now = moved_position(start.xyz, led_displacement(texel, moved).xyz);
+                bool meets = near_ball(ball, now, now, push.contact.x) && start.w != 0.0f;
                 rows |= meets ? 1u << k : 0u;
             }
         }
@@ -101,8 +103,8 @@ void meet_all(ivec2 texel) {
     int round = 0;
     vec4 lies_on = vec4(0.0f);
     do {
-        Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
-                                           push.contact.w, true);
+        Contact contact =
+            contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y, push.contact.w, true);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
         lies_on = contact.depth > 0.0f ? vec4(contact.normal, 1.0f) : lies_on;

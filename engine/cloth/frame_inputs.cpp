@@ -31,6 +31,16 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
             static_cast<float>(w)};
 }
 
+/// Returns what none of a collider's surface moves farther than, in m, after a change of its pose; very much for a turn
+/// so wide that a line through the two poses is no good measure of a way (`most_way` in colliders.h).
+float surface_motion(const ColliderPose& change, double reach) {
+    double squared = 0;
+    for (const double element : change.rotation) squared += element * element;
+    const double turn = std::sqrt(squared / 2);  // the farthest that a point at distance 1 moves
+    if (!(turn < 0.2) || !std::isfinite(reach)) return 1e15f;
+    return static_cast<float>((length(change.center) + (turn > 0 ? turn * reach : 0)) * 1.00001);
+}
+
 }  // namespace
 
 glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out) {
@@ -55,6 +65,7 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
         record.change_x = row(change.rotation, 0, change.center[0]);
         record.change_y = row(change.rotation, 1, change.center[1]);
         record.change_z = row(change.rotation, 2, change.center[2]);
+        record.way_out.w = surface_motion(change, shape_geometry(collider.shape).reach);
     }
     return record;
 }

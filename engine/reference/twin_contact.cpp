@@ -87,7 +87,7 @@ void run_collide(const TwinPlace& where) {
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, push.contact.w);
+                                     push.contact.x, push.contact.y, push.contact.w, true);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 deepest = contact.depth > deepest ? contact.depth : deepest;

@@ -211,6 +211,41 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     return SurfacePoint(normal, distance);
 }
 
+/// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known.
+SHARED float least_half_width(int kind, vec3 size) {
+    float ends = size.y < size.z ? size.y : size.z;
+    float least = size.x < ends ? size.x : ends;
+    return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;
+}
+
+/// Returns what a particle moves at most relative to a collider that it meets on its way, m; `length`: its own
+/// displacement's, `motion`: what the collider's surface moves at most. The host says 1e15 for a collider that turns by
+/// more than a fifth of a radian.
+SHARED float most_way(float length, float motion) {
+    precise float way = (length + motion) * 1.25f;
+    return way;
+}
+
+/// Returns whether a particle's way is so long that where it ends does not say from which side it came. A plane has but
+/// one.
+SHARED bool goes_far(int kind, vec3 size, float length, float motion, float thickness) {
+    precise float middle = least_half_width(kind, size) + thickness;
+    return kind != kind_plane && most_way(length, motion) > middle;
+}
+
+/// Returns how near to a collider a particle that meets it may end, m.
+SHARED float way_reach(int kind, vec3 size, float length, float motion, float thickness) {
+    precise float behind = (most_way(length, motion) + thickness) * 2.0f;
+    return goes_far(kind, size, length, motion, thickness) ? behind : thickness;
+}
+
+SHARED float length_of(vec3 v) {
+    precise float length = sqrt(ordered_dot(v, v));
+    return length;
+}
+
+SHARED vec3 size_of(ColliderRecord collider) { return vec3(collider.shape.x, collider.shape.y, collider.shape.z); }
+
 /// Returns whether a point is so far from a collider that contact leaves it where it is. Bounds tell it without a root,
 /// with room for all rounding of the distance.
 SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
@@ -266,30 +301,89 @@ SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
     return !(ordered_dot(off, off) > squared);
 }
 
+/// The difference of two rows of poses.
+SHARED vec4 row_before(vec4 row, vec4 change) {
+    precise vec4 before = vec4(row.x - change.x, row.y - change.y, row.z - change.z, row.w - change.w);
+    return before;
+}
+
+/// Returns where a point was in the frame of the collider as the substep began.
+SHARED vec3 local_at_start(ColliderRecord collider, vec3 start) {
+    collider.pose_x = row_before(collider.pose_x, collider.change_x);
+    collider.pose_y = row_before(collider.pose_y, collider.change_y);
+    collider.pose_z = row_before(collider.pose_z, collider.change_z);
+    return local_point(collider, start);
+}
+
+/// How a particle comes into a shape.
+struct WayIn {
+    float before;     // m: how deep it was where it started, negative outside
+    vec3 at;          // where it starts or, if it goes far, comes in; local frame
+    SurfacePoint by;  // nearest to there
+    bool comes_in;
+};
+
+/// Follows a particle from `from` along `way` if it goes far. Of a shape without dents the distance is convex along a
+/// line, so Newton's rounds come to the surface from outside, or see that the line misses it.
+SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness, bool far) {
+    WayIn found = WayIn(0.0f, from, SurfacePoint(from, 0.0f), far);
+    float share = 0.0f;
+    int round = 0;
+    bool goes_on = far;
+    do {
+        found.by = collider_surface(kind, collider, world, found.at);
+        precise float inside = thickness - found.by.distance;
+        found.before = round == 0 ? inside : found.before;
+        float slope = ordered_dot(found.by.normal, way);
+        precise float next = share + inside / slope;
+        bool outside = far && inside < 0.0f;
+        if (outside && !(slope < 0.0f && next <= 1.0f)) found.comes_in = false;
+        goes_on = outside && found.comes_in && next > share && round < 24;
+        share = goes_on ? next : share;
+        precise vec3 there = from + way * share;
+        if (goes_on) found.at = there;
+        ++round;
+    } while (goes_on);
+    return found;
+}
+
 /// Contact of a particle that started the substep at `start` with a collider; `depth` is by how much it is pushed.
-/// Shaders call it with a literal kind, so that each loop holds one shape's code alone.
+/// Shaders call it with a literal kind, so that each loop holds one shape's code alone. If `all_its_way`, a particle
+/// that goes far is held by the plane on which it comes in, else only where it ends counts.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
-                                float friction, float recovery) {
+                                float friction, float recovery, bool all_its_way) {
     vec3 now = moved_position(start, displacement);
     vec3 local = local_point(collider, now);
-    if (kind == kind_ellipsoid &&
-        beyond_bounds(local, vec3(collider.shape.x, collider.shape.y, collider.shape.z), thickness))
-        return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
+    float length = length_of(displacement), motion = collider.way_out.w;
+    bool far = all_its_way && goes_far(kind, size_of(collider), length, motion, thickness);
+    float reach = far ? way_reach(kind, size_of(collider), length, motion, thickness) : thickness;
+    Contact none = Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
+    if (kind == kind_ellipsoid && beyond_bounds(local, size_of(collider), reach)) return none;
     SurfacePoint found = collider_surface(kind, collider, now, local);
     precise float inside = thickness - found.distance;
-    if (!(inside > 0.0f)) return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
+    if (!(inside > 0.0f) && !far) return none;
     // The overlap at the substep's start is measured where the collider has carried the particle's place since.
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
     vec3 local_carried = local_point(collider, carried);
-    precise float before = thickness - collider_surface(kind, collider, carried, local_carried).distance;
+    if (far) local_carried = local_at_start(collider, start);
+    precise vec3 way = local - local_carried;
+    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far);
+    if (!(inside > 0.0f) && !in_by.comes_in) return none;
+    if (in_by.comes_in) {
+        precise float beyond = in_by.by.distance + ordered_dot(in_by.by.normal, local - in_by.at);
+        precise vec3 carried_by = displacement - world_direction(collider, way);
+        found = SurfacePoint(in_by.by.normal, beyond);
+        surface = carried_by;
+    }
+    float before = in_by.before;
     if (kind == kind_box && before > recovery && has_way_out(collider)) {
         found = way_out_surface(collider, local);
-        precise float way = thickness - way_out_surface(collider, local_carried).distance;
-        before = way;
+        precise float by_one_face = thickness - way_out_surface(collider, local_carried).distance;
+        before = by_one_face;
     }
     precise float depth = thickness - found.distance - kept_depth(before, recovery);
-    if (!(depth > 0.0f)) return Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
+    if (!(depth > 0.0f)) return none;
     vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;
     return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal);

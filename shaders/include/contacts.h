@@ -17,7 +17,7 @@ void read_colliders(int first) {
 /// The same records as texels. The bounds of the colliders after the early ones are read from here, which on the
 /// default device is several times as fast (docs/devices.md).
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
-const int collider_texel_count = 8, collider_shape_texel = 6;  // texels of a record
+const int collider_texel_count = 8, collider_shape_texel = 6, collider_motion_texel = 7;  // texels of a record
 
 int kind_of_collider(int i) {
     return i < planes_end       ? kind_plane
@@ -27,42 +27,49 @@ int kind_of_collider(int i) {
                                 : kind_capsule;
 }
 
-/// Ball about collider i, counted from `first`: centre and radius, m.
-vec4 collider_ball(int first, int i) {
-    int texel = (first + i) * collider_texel_count;
+/// Ball about collider i, counted from `first`, that holds where a particle ends that meets it: centre and radius, m,
+/// less the thickness. `length`: what the particle moves at most; below 0 if only its end counts.
+vec4 collider_ball(int first, int i, float length, float thickness) {
+    int texel = (first + i) * collider_texel_count, kind = kind_of_collider(i);
+    vec3 size = imageLoad(collider_texels, texel + collider_shape_texel).xyz;
+    float motion = imageLoad(collider_texels, texel + collider_motion_texel).w;
+    float reach = length < 0.0f ? thickness : way_reach(kind, size, length, motion, thickness);
+    precise float radius = bounding_radius(kind, size) + (reach - thickness);
     return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
-                imageLoad(collider_texels, texel + 2).w,
-                bounding_radius(kind_of_collider(i), imageLoad(collider_texels, texel + collider_shape_texel).xyz));
+                imageLoad(collider_texels, texel + 2).w, radius);
 }
 
 layout(constant_id = 18) const bool leaves_out = true;  // whether colliders that are out of reach are left out
 
-/// Returns the next collider, from the i-th on, that may be near a point; `end` if there is none.
-int next_near(int first, int i, int end, vec3 now, float thickness) {
-    while (leaves_out && i < end && !near_ball(collider_ball(first, i), now, now, thickness)) ++i;
+/// Returns the next collider, from the i-th on, that a particle may meet; `end` if there is none.
+int next_near(int first, int i, int end, vec3 start, vec3 displacement, float thickness, bool all_its_way) {
+    vec3 now = moved_position(start, displacement);
+    float length = all_its_way ? length_of(displacement) : -1.0f;
+    while (leaves_out && i < end && !near_ball(collider_ball(first, i, length, thickness), now, now, thickness)) ++i;
     return i;
 }
 
-#define NEAR(kind, collider) near = near || !beyond_reach(kind, collider, now, thickness);
-#define CONTACT(kind, collider)                                                                             \
-    Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery); \
-    if (in_turn) displacement = contact.displacement;                                                       \
-    normal = contact.depth > deepest ? contact.normal : normal;                                             \
+#define NEAR(kind, collider)                          \
+    near = near || !beyond_reach(kind, collider, now, \
+                                 way_reach(kind, size_of(collider), length, collider.way_out.w, thickness));
+#define CONTACT(kind, collider)                                                                                      \
+    Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, in_turn); \
+    if (in_turn) displacement = contact.displacement;                                                                \
+    normal = contact.depth > deepest ? contact.normal : normal;                                                      \
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
-#define CONTACTS(kind, begin, end)                                                                                   \
-    EACH_EARLY(CONTACT, kind, begin, end)                                                                            \
-    if (end > early_collider_count) { /* else lavapipe does not leave the loops out */                               \
-        int i =                                                                                                      \
-            next_near(first, max(begin, early_collider_count), end, moved_position(start, displacement), thickness); \
-        for (; i < end; i = next_near(first, i + 1, end, moved_position(start, displacement), thickness)) {          \
-            CONTACT(kind, colliders[first + i])                                                                      \
-        }                                                                                                            \
+#define CONTACTS(kind, begin, end)                                                                                \
+    EACH_EARLY(CONTACT, kind, begin, end)                                                                         \
+    if (end > early_collider_count) { /* else lavapipe does not leave the loops out */                            \
+        int i = next_near(first, max(begin, early_collider_count), end, start, displacement, thickness, in_turn); \
+        for (; i < end; i = next_near(first, i + 1, end, start, displacement, thickness, in_turn)) {              \
+            CONTACT(kind, colliders[first + i])                                                                   \
+        }                                                                                                         \
     }
 
-/// Returns whether a point may be nearer than the thickness to one of the early colliders; if not, they leave it alone.
-bool near_early(vec3 now, float thickness) {
+/// Returns whether a particle that ends at a point may meet one of the early colliders; if not, they leave it alone.
+bool near_early(vec3 now, float length, float thickness) {
     bool near = false;
     EACH_EARLY(NEAR, kind_plane, 0, planes_end)
     EACH_EARLY(NEAR, kind_sphere, planes_end, spheres_end)
@@ -73,17 +80,24 @@ bool near_early(vec3 now, float thickness) {
 }
 
 /// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
-/// else all take the given one, and only the depth counts. The normal is the deepest one's.
+/// else all take the given one, and only the depth at its end counts. The normal is the deepest one's.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;
     vec3 normal = vec3(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
-    CONTACTS(kind_sphere, planes_end, spheres_end)
-    CONTACTS(kind_box, spheres_end, boxes_end)
-    if (boxes_end < ellipsoids_end) {  // else the loop within it keeps lavapipe from leaving this one out
+    // The loops within these would keep lavapipe from leaving them out.
+    if (planes_end < spheres_end) {
+        CONTACTS(kind_sphere, planes_end, spheres_end)
+    }
+    if (spheres_end < boxes_end) {
+        CONTACTS(kind_box, spheres_end, boxes_end)
+    }
+    if (boxes_end < ellipsoids_end) {
         CONTACTS(kind_ellipsoid, boxes_end, ellipsoids_end)
     }
-    CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
+    if (ellipsoids_end < capsules_end) {
+        CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
+    }
     return Contact(displacement, deepest, normal);
 }

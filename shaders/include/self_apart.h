@@ -57,8 +57,8 @@ SHARED bool self_cells_cross(SelfCell one, SelfCell other) {
     return crosses;
 }
 
-/// Returns by how much (m) cloths that started through each other should part in a substep, and by how much more than in
-/// the one before, at most.
+/// Returns by how much (m) cloths that started through each other should part in a substep, and by how much more than
+/// in the one before, at most.
 SHARED vec2 self_parting(float step) {
     precise float moves = self_parting_speed * step;
     precise float change = (self_parting_acceleration * step) * step;

@@ -25,7 +25,7 @@ struct ColliderRecord {
     vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii; capsule, along its y:
                  // half length, radius at the lower end, at the upper. w: sqrt(friction)
     vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in;
-                   // zero: by the nearest one
+                   // zero: by the nearest one. w: what none of its surface moves farther than in the substep, m
 };
 
 struct ColliderInstance {
