@@ -1,7 +1,8 @@
 // This pass ends a substep for those of a cloth's particles that contact has moved. It leaves them their velocity as the
 // substep's displacement and shifts them, so that they end where contact let them: what it held back, or led apart, is
-// no velocity. HISTORY has a method of second order go on from that velocity, and the cloth in backward Euler substeps
-// (include/bdf2.h). BEFORE, in a frame's last substep, has other methods end the frame with that velocity, too.
+// no velocity. HISTORY has the cloth go on in backward Euler substeps (include/bdf2.h). HISTORY and, in a frame's last
+// substep of other methods, BEFORE change the displacement of the substep before as contact has changed this one's, so
+// that the two tell the same acceleration by springs as without contact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants HISTORY|BEFORE BUFFERED
@@ -23,7 +24,8 @@ layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
 TRIPLE_OUT(6, PositionOut, position_out);
 #if defined(HISTORY) || defined(BEFORE)
-VECTOR_KEPT(7, DisplacementBefore, displacement_before);
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D displacement_before_in;
+TRIPLE_OUT(9, DisplacementBeforeOut, displacement_before_out);
 #endif
 #ifdef HISTORY
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
@@ -40,7 +42,8 @@ void take(ivec2 texel) {
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
     STORE_TRIPLE(displacement_out, texel, velocity, imageLoad(displacement_in, texel).w);
 #if defined(HISTORY) || defined(BEFORE)
-    STORE_VECTOR(displacement_before, texel, vec4(velocity, 0.0f));
+    vec3 last = imageLoad(displacement_before_in, texel).xyz, wanted = imageLoad(before, place_of(laid)).xyz;
+    STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, wanted, velocity), 0.0f);
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.

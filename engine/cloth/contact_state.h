@@ -49,8 +49,8 @@ std::span<const ContactRow> contact_fields();
 std::optional<ContactField> contact_field_called(std::string_view variable);
 /// "contact <name>": the resource, which no cloth's is, since those have a stroke in their names.
 std::string resource_name(const ContactRow& row);
-/// What pairs bore, as the state of a run: the entries that the list holds, without the links between them, in the order
-/// of their corners, since that of the list means nothing.
+/// Returns, as the state of a run, what pairs bore: the entries that the list holds, without the links between them, in
+/// the order of their corners, since that of the list means nothing.
 std::vector<std::byte> borne_state(std::vector<glsl::SelfBorne> list);
 /// Returns whether bytes are such a state, of places on this sheet.
 bool is_borne_state(std::span<const std::byte> bytes, const SelfContact& contact);

@@ -153,7 +153,7 @@ SHARED SelfParts self_parts_left(SelfParts all, SelfParts taken) {
     return SelfParts(self_difference(all.x, taken.x), self_difference(all.y, taken.y), self_difference(all.z, taken.z));
 }
 
-/// What a contact gives each corner: opposite parts for the two primitives, to the last unit.
+/// The parts that a contact gives each corner: opposite ones for the two primitives, to the last unit.
 struct SelfShares {
     SelfParts a, b, c, d;
 };
@@ -195,6 +195,12 @@ SHARED uint self_weight(float weight) {
 SHARED float self_holds(uint sum) {
     precise float holds = float(sum) / self_weight_units;
     return holds;
+}
+
+/// Returns a displacement changed as contact has changed that of the next substep.
+SHARED vec3 self_changed_alike(vec3 last, vec3 wanted, vec3 velocity) {
+    precise vec3 changed = last + (velocity - wanted);
+    return changed;
 }
 
 /// Returns how far a motion falls short of another, m.

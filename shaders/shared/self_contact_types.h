@@ -14,7 +14,7 @@ const int self_tree_tail = 1024;
 /// Units of a weight in 1: integers, so that atomic sums are exact in any order.
 const float self_weight_units = 65536.0f;
 
-/// Of a missing thickness so much is given back, m/s, and so many times as much where nothing is left of it.
+/// A missing thickness is given back at this speed, m/s, and so many times as fast where nothing is left of it.
 const float self_recovery_speed = 0.1f, self_deep_recovery = 10.0f;
 
 /// Box of a particle's cell while its corners make any part of their motions, or of a node of the tree of boxes, in
@@ -52,7 +52,7 @@ struct SelfTouch {
     vec4 impulse;  // xyz: on the second primitive, in masses of the first cloth's particle times m; w: friction
 };
 
-/// What a pair that touched had to bear.
+/// The force that a pair that touched had to bear.
 struct SelfBorne {
     uvec4 corners;
     uvec4 force;  // xyz: bits of the impulse over the square of the substep; w: 1 for two edges, which may have the same

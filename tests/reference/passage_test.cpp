@@ -54,7 +54,7 @@ double least_on_way(const Collider& collider, double start, double end, const Ve
         const Vec3 at = plus(a, times(share, minus(b, a)));
         return std::visit([&](const auto& shape) { return exact::shape_distance(shape, at); }, collider.shape);
     };
-    // Of a shape without dents the distance along a line has one least, which a search by thirds finds.
+    // The distance from a shape without dents has one least along a line, which a search by thirds finds.
     double low = 0, high = 1;
     for (int round = 0; round < 40; ++round) {
         const double third = (high - low) / 3;
