@@ -461,8 +461,8 @@ RunSummary run_scene(const RunRequest& request) {
         const RunParts run{request, missing, simulation,         sink,   checkpoints ? &*checkpoints : nullptr,
                            summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
-        for (const auto& warning :
-             {missed_limits(simulation.facts(), *sink.statistics()), lost_proof(simulation), still_crossed(simulation)})
+        for (const auto& warning : {missed_limits(simulation.facts(), *sink.statistics()), lost_proof(simulation),
+                                    still_crossed(simulation), simulation.possible_passage()})
             if (warning) warn(*warning);
         manifest.warnings = summary.warnings;
         manifest.self_collision = self_collision_of(simulation);

@@ -10,6 +10,7 @@
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/passage_watch.h"
 #include "cloth/together.h"
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
@@ -172,6 +173,7 @@ struct Simulation::Parts {
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
+          passages(model),
           asked(loop_options(scene, options)),
           loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
         if (given.parts_->drawing && asked.draw)
@@ -209,6 +211,7 @@ struct Simulation::Parts {
     bool keep_promises;
     SimulationModel model;
     Watch watch;
+    PassageWatch passages;
     FrameLoopOptions asked;
     FrameLoop loop;
     std::unique_ptr<Pictures> pictures;  ///< draws pictures where they have a device of their own
@@ -248,6 +251,10 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         return pictures ? pictures->draw(frame, give) : finished(frame);
     };
     const auto checked = [&](const FinishedFrame& frame) {
+        const std::uint32_t substeps = frame.effort.substeps;
+        if (!frame.statistics.empty())
+            parts_->passages.look(frame.frame, substeps > 0 ? substeps : parts_->model.scene.solver.substeps,
+                                  frame.statistics);
         const auto failure = frame_failure(parts_->model, parts_->watch, frame);
         if (!failure) return hand_out(frame);
         if (parts_->keep_promises) raise(*failure);
@@ -322,6 +329,8 @@ SimulationFacts Simulation::facts() const {
 }
 
 std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+
+std::optional<std::string> Simulation::possible_passage() const { return parts_->passages.text(); }
 
 std::vector<PassWork> Simulation::work() const {
     std::vector<PassWork> all;
