@@ -111,8 +111,8 @@ class ContactSteps {
   private:
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth),
-                              substep_ + 1 == model_.scene.solver.substeps});
+            steps_.push_back(
+                {kind, cloth, substep_, 0, contact_.cloth_push(cloth), substep_ + 1 == model_.scene.solver.substeps});
     }
     void collide() {
         add_for_cloths(StepKind::self_hand);

@@ -89,8 +89,8 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
                    fmt::format("{} and {} in one pass need two layouts", access_name(other.access),
                                access_name(use.access)));
         }
-        // One version may be read through several variables, as a shader's variables may share a resource; what a shader
-        // updates is read without one.
+        // One version may be read through several variables, as a shader's variables may share a resource; what a
+        // shader updates is read without one.
         if (other.handle == use.handle && other.access == use.access && use.variable == other.variable) {
             refuse(pass, resource.name, fmt::format("{} declared twice", access_name(use.access)));
         }

@@ -76,12 +76,12 @@ struct Manifest {
         std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
     struct SelfCollision {
-        std::vector<std::string> cloths;                           // names of cloths that meet themselves
-        bool between_cloths = false;                               // all cloths meet each other
-        std::optional<std::uint32_t> first_unproved;               // frame; nothing: no crossing in any substep
-        std::uint32_t most_pairs = 0;                              // pairs that were near each other in a substep
-        std::uint64_t truncated = 0;                               // motions cut short
-        double longest_lag = 0;  // m, the farthest that one was held back in a substep
+        std::vector<std::string> cloths;              // names of cloths that meet themselves
+        bool between_cloths = false;                  // all cloths meet each other
+        std::optional<std::uint32_t> first_unproved;  // frame; nothing: no crossing in any substep
+        std::uint32_t most_pairs = 0;                 // pairs that were near each other in a substep
+        std::uint64_t truncated = 0;                  // motions cut short
+        double longest_lag = 0;                       // m, the farthest that one was held back in a substep
         std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
         std::optional<std::uint32_t> apart_since;                  // frame from which on none of them crosses another
     };

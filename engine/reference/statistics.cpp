@@ -97,7 +97,8 @@ class Reduction {
         for (std::size_t k = 0; k < colliders_.size(); ++k) {
             const ColliderRecord& record = inputs_.colliders[static_cast<std::size_t>(push_.collider_first) + k];
             const float depth =
-                collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f, 1.0e30f, false).depth;
+                collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f, 1.0e30f, false)
+                    .depth;
             deepest = depth > deepest ? depth : deepest;
         }
         return deepest;

@@ -474,7 +474,7 @@ RunSummary run_scene(const RunRequest& request) {
                            summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
         for (const auto& warning : {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()),
-                                    lost_proof(simulation), still_crossed(simulation)})
+                                    lost_proof(simulation), still_crossed(simulation), simulation.possible_passage()})
             if (warning) warn(*warning);
         for (const std::string& warning : simulation.verdict().warnings) warn(warning);
         manifest.warnings = summary.warnings;

@@ -121,17 +121,21 @@ std::vector<WayOut> ways_out(const Cloth& cloth, const std::vector<Collider>& co
     return ways;
 }
 
-std::string overlap_text(const SceneDescription& scene, const StartOverlap& overlap) {
-    const std::size_t kind = scene.colliders[overlap.collider].shape.index();
-    const auto before = scene.colliders.begin() + static_cast<std::ptrdiff_t>(overlap.collider);
+std::string collider_place(const SceneDescription& scene, std::size_t index) {
+    const std::size_t kind = scene.colliders[index].shape.index();
+    const auto before = scene.colliders.begin() + static_cast<std::ptrdiff_t>(index);
     const auto place = std::count_if(scene.colliders.begin(), before,
                                      [&](const Collider& other) { return other.shape.index() == kind; });
+    return fmt::format("/colliders/{}/{}", collider_lists[kind], place);
+}
+
+std::string overlap_text(const SceneDescription& scene, const StartOverlap& overlap) {
     const std::string others = overlap.others == 0 ? ""
                                                    : fmt::format(", and inside {} other collider{}", overlap.others,
                                                                  overlap.others == 1 ? "" : "s");
-    return fmt::format("cloth \"{}\" starts up to {:.3g} m inside /colliders/{}/{} ({} particle{}){}",
-                       scene.cloths[overlap.cloth].name, overlap.depth, collider_lists[kind], place, overlap.particles,
-                       overlap.particles == 1 ? "" : "s", others);
+    return fmt::format("cloth \"{}\" starts up to {:.3g} m inside {} ({} particle{}){}",
+                       scene.cloths[overlap.cloth].name, overlap.depth, collider_place(scene, overlap.collider),
+                       overlap.particles, overlap.particles == 1 ? "" : "s", others);
 }
 
 }  // namespace drape

@@ -32,6 +32,9 @@ struct WayOut {
 /// shortest way to; a way along the cloth, which would press it together, counts up to three times.
 std::vector<WayOut> ways_out(const Cloth& cloth, const std::vector<Collider>& colliders, double speed);
 
+/// Returns where the scene has a collider, as in `/colliders/spheres/0`; `index` counts them sorted by kind.
+std::string collider_place(const SceneDescription& scene, std::size_t index);
+
 /// Returns a text like `starts up to 0.12 m inside /colliders/spheres/0 (37 of its particles)`.
 std::string overlap_text(const SceneDescription& scene, const StartOverlap& overlap);
 

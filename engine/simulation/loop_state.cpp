@@ -56,7 +56,7 @@ void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
     if (self_contact_)
         archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
-                self_contact_->longest_lag,                self_contact_->last_crossed);
+                self_contact_->longest_lag, self_contact_->last_crossed);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
     if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");
@@ -127,7 +127,8 @@ void FrameLoop::restore(const SimulationState& state) {
         if (name.starts_with(field_prefix)) fields[name.substr(field_prefix.size())] = bytes;
     for (const auto& [name, bytes] : solver_.download_state(*pool_)) {
         const auto found = fields.find(name);
-        if (found == fields.end() || !solver_.takes(name, bytes, found->second)) refuse(fmt::format("field '{}'", name));
+        if (found == fields.end() || !solver_.takes(name, bytes, found->second))
+            refuse(fmt::format("field '{}'", name));
     }
     rebuild_resources(fields);
 }

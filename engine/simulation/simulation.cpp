@@ -10,6 +10,7 @@
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/passage_watch.h"
 #include "cloth/together.h"
 #include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
@@ -172,6 +173,7 @@ struct Simulation::Parts {
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
+          passages(model),
           asked(judging(loop_options(scene, options))),
           loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
         if (given.parts_->drawing && asked.draw)
@@ -185,6 +187,9 @@ struct Simulation::Parts {
 
     /// Returns the frame's failure, or throws it.
     std::optional<FrameFailure> judge(const FinishedFrame& frame) {
+        const std::uint32_t substeps = frame.effort.substeps;
+        if (!frame.statistics.empty())
+            passages.look(frame.frame, substeps > 0 ? substeps : model.scene.solver.substeps, frame.statistics);
         std::optional<FrameFailure> found = frame_failure(model, watch, frame);
         if (!found) return found;
         if (keep_promises) raise(*found);
@@ -225,6 +230,7 @@ struct Simulation::Parts {
     SimulationModel model;
     Watch watch;
     std::optional<FrameFailure> failure;  ///< the first of any frame, handed out or not
+    PassageWatch passages;
     FrameLoopOptions asked;
     FrameLoop loop;
     std::unique_ptr<Pictures> pictures;  ///< draws pictures where they have a device of their own
@@ -341,6 +347,8 @@ std::optional<SelfContactReport> Simulation::self_contact() const { return parts
 RunVerdict Simulation::verdict() const {
     return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings()};
 }
+
+std::optional<std::string> Simulation::possible_passage() const { return parts_->passages.text(); }
 
 std::vector<PassWork> Simulation::work() const {
     std::vector<PassWork> all;

@@ -86,8 +86,8 @@ class ClothSolver {
 
     /// Returns the record of contact between the cloths in the slot's last simulated frame, zeros where there is none.
     glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
-    /// Returns whether saved bytes can take the place of a part of the state as it is now; a list has room for them from
-    /// the next `declare` on.
+    /// Returns whether saved bytes can take the place of a part of the state as it is now; a list has room for them
+    /// from the next `declare` on.
     bool takes(const std::string& name, std::span<const std::byte> now, std::span<const std::byte> saved);
     /// Returns how full the fullest of contact's lists was, 0 where there is none; above 1 the frame is no result.
     double self_list_use(const glsl::SelfRecord& record) const;

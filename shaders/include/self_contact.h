@@ -358,8 +358,8 @@ SHARED float self_share(SelfGap gap, float middle, float end, float side, float 
 
 /// Returns the motion along the normal that corners still lack.
 SHARED vec4 self_wants(vec4 along, vec4 shares) {
-    precise vec4 wants = vec4(along.x - along.x * shares.x, along.y - along.y * shares.y,
-                              along.z - along.z * shares.z, along.w - along.w * shares.w);
+    precise vec4 wants = vec4(along.x - along.x * shares.x, along.y - along.y * shares.y, along.z - along.z * shares.z,
+                              along.w - along.w * shares.w);
     return wants;
 }
 

@@ -58,8 +58,8 @@ float sum_value(uint first, uint second) {
 
 /// Returns an impulse, in masses of the first cloth's particle times m.
 vec3 impulse_of(SelfSum sum) {
-    vec3 units = vec3(sum_value(sum.xy.x, sum.xy.y), sum_value(sum.xy.z, sum.xy.w),
-                      sum_value(sum.z_weight.x, sum.z_weight.y));
+    vec3 units =
+        vec3(sum_value(sum.xy.x, sum.xy.y), sum_value(sum.xy.z, sum.xy.w), sum_value(sum.z_weight.x, sum.z_weight.y));
     return self_impulse_of(units, push.thickness);
 }
 #endif

@@ -55,8 +55,8 @@ struct SelfTouch {
 /// The force that a pair that touched had to bear.
 struct SelfBorne {
     uvec4 corners;
-    uvec4 force;  // xyz: bits of the impulse over the square of the substep; w: 1 for two edges, which may have the same
-                  // corners as a particle and a triangle, and twice the next entry of its chain
+    uvec4 force;  // xyz: bits of the impulse over the square of the substep; w: 1 for two edges, which may have the
+                  // same corners as a particle and a triangle, and twice the next entry of its chain
 };
 /// The first entry of the list of what pairs bore says how many follow, in its first corner. The others are chained by
 /// their first corner's place and by the parities of their third one's column and row, so that chains are short.
@@ -119,7 +119,7 @@ struct SelfContactPush {
     int cloth_count;
     int crossed_count;      // pairs of cloths that started through each other
     int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
-    SelfCloth cloth;  // the first cloth, looked up here where it is the only one
+    SelfCloth cloth;        // the first cloth, looked up here where it is the only one
 };
 
 /// Push constants of the passes between a cloth's own fields and the sheet.
@@ -144,13 +144,13 @@ struct SelfRecord {
     uint crossing_count;   // pairs of cells of cloths that started through each other and still cross in this substep
     uint touching_point_count;  // pairs of a particle and a triangle that touch in this substep
     uint touching_edge_count;   // pairs of two edges that do
-    uint most_pairs;       // largest number of pairs in a substep of the frame
-    uint most_near;        // largest number of pairs near each other by boxes
-    uint most_cells;       // largest number of pairs of cells, candidates or blocks
-    uint most_touching;    // largest number of pairs that touch
-    uint unproved;         // motions of held particles that were not proved to cross nothing, pairs that touched
-    uint truncated;        // motions of free particles that were cut short
-    uint most_lag;         // bits of the longest way (m) that a free particle was held back by in a substep
+    uint most_pairs;            // largest number of pairs in a substep of the frame
+    uint most_near;             // largest number of pairs near each other by boxes
+    uint most_cells;            // largest number of pairs of cells, candidates or blocks
+    uint most_touching;         // largest number of pairs that touch
+    uint unproved;              // motions of held particles that were not proved to cross nothing, pairs that touched
+    uint truncated;             // motions of free particles that were cut short
+    uint most_lag;              // bits of the longest way (m) that a free particle was held back by in a substep
 };
 
 #ifdef __cplusplus

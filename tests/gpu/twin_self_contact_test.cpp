@@ -7,9 +7,7 @@ namespace {
 
 using test::compare;
 
-void expect_contact(const SceneDescription& scene) {
-    EXPECT_GT(compare(scene).most_pairs, 20u) << "nothing met";
-}
+void expect_contact(const SceneDescription& scene) { EXPECT_GT(compare(scene).most_pairs, 20u) << "nothing met"; }
 
 /// A sheet that starts low and fast, so that it is folded after 18 frames.
 SceneDescription crumpling(std::uint32_t n, SolverMethod method, std::uint32_t substeps) {

@@ -63,6 +63,27 @@ TEST(TwinTest, ManyCollidersOfEveryKind) {
     compare(scene);
 }
 
+/// Thin ones that cloth goes through in a substep if its way does not count, early and late, at rest and moving.
+TEST(TwinTest, ThinCollidersOfEveryKindOnALongWay) {
+    for (const int count : {4, 8}) {
+        SceneDescription scene = everything();
+        scene.gravity = {0, -400, 0};
+        std::mt19937 random(4);
+        const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+        for (int k = 0; k < count; ++k) {
+            const Vec3 at{uniform(-0.5, 0.5), uniform(-1, -0.1), uniform(-0.5, 0.5)};
+            const ColliderShape shapes[] = {Box{at, {0.3, 0.001, 0.2}}, Sphere{at, 0.01},
+                                            Ellipsoid{at, {0.2, 0.002, 0.2}},
+                                            Capsule{at, {at[0] + 0.4, at[1], at[2]}, {0.001, 0.02}}};
+            Collider thin{shapes[k % 4], 0.3, {uniform(0, 40), 0, uniform(0, 40)}};
+            if (k % 3 == 0) thin.path = {{{0, {0, 0, 0}, {0, 0, 0}}, {0.1, {0, 1.5, 0}, {50, 20, 0}}}};
+            scene.colliders.push_back(thin);
+        }
+        if (count == 8) scene.solver.method = SolverMethod::line;
+        compare(scene);
+    }
+}
+
 TEST(TwinTest, HolesAndTwoCloths) {
     SceneDescription scene = everything();
     scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 20}, {36, 29}}};

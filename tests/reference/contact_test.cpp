@@ -275,7 +275,8 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
         const bool far_off = !glsl::near_ball(ball, now, now, kept);
         const bool left_out = far_off || glsl::beyond_reach(collider.kind(), record, now, kept);
         far[static_cast<std::size_t>(collider.kind())] += far_off;
-        const glsl::Contact contact = glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f, true);
+        const glsl::Contact contact =
+            glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f, true);
         ++(left_out ? beyond : near)[static_cast<std::size_t>(collider.kind())];
         if (!left_out) continue;
         ASSERT_EQ(contact.depth, 0.0f) << "kind " << collider.kind() << " at " << at[0] << ", " << at[1] << ", "

@@ -1,12 +1,16 @@
-// No particle passes through a collider, however long its way in a substep and however thin the collider.
+// No particle passes through a collider, however long its way in a substep and however thin the collider, and nothing
+// that is drawn between particles does without a word.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <random>
 
+#include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/passage_watch.h"
 #include "reference/kernels.h"
+#include "reference/statistics.h"
 #include "reference/twin.h"
 #include "scene/surface_distance.h"
 #include "support/sheet_state.h"
@@ -111,7 +115,11 @@ SceneDescription thrown(Random& random, double speed, std::uint32_t most_columns
     cloth.thickness = random.log_uniform(1e-3, 1e-2);
     const SolverMethod methods[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
     scene.solver.method = methods[std::uniform_int_distribution(0, 2)(random.engine)];
-    const double way = random.log_uniform(5e-3, 0.7);
+    // Half of the throws go so slowly for their substeps that nothing may pass, if the cloth does not tear open.
+    const bool slow = random.uniform(0, 1) < 0.5;
+    const double thin = slow ? random.uniform(1e-2, 3e-2) : random.log_uniform(5e-4, 3e-2);
+    const double way = slow ? random.uniform(0.2, 0.75) * (thin / 2 + cloth.thickness) : random.log_uniform(5e-3, 0.7);
+    if (slow) speed = std::min(speed, random.log_uniform(1, 20));
     scene.time.fps = std::min(speed / way, 10000.0);
     const bool cloth_moves = random.uniform(0, 1) < 0.3;
     const Vec3 u = random.direction();
@@ -119,7 +127,7 @@ SceneDescription thrown(Random& random, double speed, std::uint32_t most_columns
     v = unit_of(minus(v, times(dot(u, v), u)));
     cloth.placement = {plus(times(-0.4, plus(u, v)), random.in_cube(0.05)), u, v};
     scene.gravity = {0, 0, 0};
-    Collider collider = thin_collider(random, random.log_uniform(5e-4, 3e-2));
+    Collider collider = thin_collider(random, thin);
     const Vec3 normal = cross(u, v);
     const double ahead = 0.7 + random.uniform(1, 2) * way;
     const double until = 2 * ahead / speed;
@@ -136,11 +144,79 @@ SceneDescription thrown(Random& random, double speed, std::uint32_t most_columns
     return scene;
 }
 
+/// Returns points in the middle of a collider, in its frame: whatever passes through it passes by most of them.
+std::vector<Vec3> middle_of(const Collider& collider) {
+    const Vec3 size = shape_geometry(collider.shape).size;
+    if (collider.kind() == glsl::kind_sphere) return {{0, 0, 0}};
+    std::vector<Vec3> points;
+    const bool rod = collider.kind() == glsl::kind_capsule;
+    for (int i = -2; i <= 2; ++i)
+        for (int j = rod ? 0 : -2; j <= (rod ? 0 : 2); ++j) {
+            const double u = 0.4 * i, v = 0.4 * j;
+            if (collider.kind() == glsl::kind_ellipsoid && std::hypot(u, v) > 0.9) continue;
+            if (rod)
+                points.push_back({0, u * size[0], 0});
+            else if (size[0] < size[1])
+                points.push_back({0, u * size[1], v * size[2]});
+            else
+                points.push_back({u * size[0], 0, v * size[2]});
+        }
+    return points;
+}
+
+using Corners = std::array<Vec3, 3>;
+
+/// Returns whether a triangle that goes straight from one place to another passes over a point.
+bool passes_over(const Vec3& point, const Corners& from, const Corners& to) {
+    const auto at = [&](double share) {
+        Corners corners;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = minus(plus(times(1 - share, from[k]), times(share, to[k])), point);
+        return corners;
+    };
+    const auto volume = [&](double share) {
+        const Corners c = at(share);
+        return dot(c[0], cross(c[1], c[2]));
+    };
+    constexpr int parts = 12;
+    for (int part = 0; part < parts; ++part) {
+        double low = part / double(parts), high = (part + 1) / double(parts);
+        const bool below = volume(low) < 0;
+        if (below == (volume(high) < 0)) continue;
+        for (int round = 0; round < 40; ++round) {
+            const double middle = (low + high) / 2;
+            ((volume(middle) < 0) == below ? low : high) = middle;
+        }
+        const Corners c = at(low);
+        const Vec3 normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) inside = inside && dot(cross(c[k], c[(k + 1) % 3]), normal) > 0;
+        if (inside) return true;
+    }
+    return false;
+}
+
+/// Returns how many triangles pass over how many points.
+std::size_t passages(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& triangles,
+                     const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < triangles.size() && !from.empty(); k += 3) {
+        const auto corners = [&](const std::vector<Vec3>& all) {
+            return Corners{all[triangles[k]], all[triangles[k + 1]], all[triangles[k + 2]]};
+        };
+        for (const Vec3& point : points) count += passes_over(point, corners(from), corners(to));
+    }
+    return count;
+}
+
 struct Judged {
-    std::size_t ways = 0;  ///< judged
-    std::size_t met = 0;   ///< of them come within a millimetre of the thickness
-    double far = -1;       ///< m: the deepest in the cloth's thickness of ways longer than that and half the collider
-    double near = -1;      ///< of shorter ones, over that length: it was in the middle at 1
+    bool overlaps = false;   ///< the sheet starts in what contact keeps it from; nothing else is judged then
+    std::size_t ways = 0;    ///< judged
+    std::size_t met = 0;     ///< of them come within a millimetre of the thickness
+    double far = -1;         ///< m: the deepest in the cloth's thickness of ways longer than that and half the collider
+    double near = -1;        ///< of shorter ones, over that length: it was in the middle at 1
+    std::size_t passed = 0;  ///< triangles that passed over a point in the middle of the collider
+    std::optional<std::string> word;  ///< what the run would say
 };
 
 Judged judged(const SceneDescription& scene) {
@@ -151,14 +227,26 @@ Judged judged(const SceneDescription& scene) {
     const double thickness = scene.cloths[0].thickness;
     const glsl::vec3 size = vector(shape_geometry(collider.shape).size);
     const double middle = thickness + double(glsl::least_half_width(collider.kind(), size));
-    std::vector<Vec3> last;
-    for (std::uint32_t frame = 0; frame < scene.time.frame_count; ++frame) {
+    PassageWatch watch(model);
+    const std::vector<Vec3> points = middle_of(scene.colliders[0]);
+    const std::vector<std::uint32_t> triangles = model.cloths[0].grid.triangle_indices();
+    std::vector<Vec3> last, local;
+    for (std::uint32_t frame = 0; frame < scene.time.frame_count && !seen.overlaps; ++frame) {
         if (frame > 0) twin.run_frame(frame);
+        const glsl::StatisticsRecord record = twin_statistics(model, 0, twin.cloth(0), frame_inputs(model, frame));
+        watch.look(frame, 1, std::array{cloth_statistics(model, model.cloths[0], record)});
+        seen.word = watch.text();
+        const std::vector<Vec3> was = std::exchange(local, {});
+        const ColliderPose pose = collider_pose(scene.colliders[0], frame / scene.time.fps);
+        for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i)
+            local.push_back(exact::to_local(pose, test::position_of(twin.cloth(0), i)));
+        seen.passed += passages(points, triangles, was, local);
         for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i) {
             const Vec3 now = test::position_of(twin.cloth(0), i);
             if (!(length(now) < 1e3)) return seen;
             if (frame == 0) {
                 last.push_back(now);
+                seen.overlaps = seen.overlaps || exact::surface_distance(collider, 0, now) < thickness;
                 continue;
             }
             const double start = (frame - 1) / scene.time.fps, end = frame / scene.time.fps;
@@ -179,24 +267,33 @@ Judged judged(const SceneDescription& scene) {
     return seen;
 }
 
-TEST(PassageTest, NoParticleOfAThrownSheetPasses) {
+TEST(PassageTest, NothingPassesWithoutAWord) {
     // DRAPE_THROWS=200 is the campaign.
     const char* asked = std::getenv("DRAPE_THROWS");
-    const int count = asked ? std::atoi(asked) : 16;
+    const int count = asked ? std::atoi(asked) : 8;
     Random random{std::mt19937(480)};
-    std::size_t met = 0;
+    std::size_t judged_count = 0, met = 0, passed = 0, said = 0;
     double deepest = 0, nearest = 0;
     for (int i = 0; i < count; ++i) {
-        const Judged seen = judged(thrown(random, random.log_uniform(1, 500), asked ? 65 : 9));
+        const Judged seen = judged(thrown(random, random.log_uniform(1, 500), asked ? 33 : 9));
+        judged_count += !seen.overlaps;
         met += seen.met > 0;
         deepest = std::max(deepest, seen.far);
         nearest = std::max(nearest, seen.near);
+        passed += seen.passed > 0;
+        said += seen.word.has_value();
+        EXPECT_TRUE(seen.passed == 0 || seen.word) << "throw " << i << ": " << seen.passed << " passed without a word";
         EXPECT_LE(seen.far, 1e-5) << "throw " << i;
         EXPECT_LT(seen.near, 0.75) << "throw " << i;
     }
-    std::printf("[ measured ] %zu sheets met their collider, particles at most %.1e m in its thickness\n", met,
-                deepest);
-    EXPECT_GT(2 * met, static_cast<std::size_t>(count));
+    std::printf(
+        "[ measured ] %zu of %zu sheets met their collider; far ways came %.1e m deep at most, others %.2f of "
+        "half\n",
+        met, judged_count, deepest, nearest);
+    std::printf("[ measured ] something drawn passed in %zu of them; %zu were told of\n", passed, said);
+    EXPECT_GT(2 * met, judged_count);
+    EXPECT_GT(2 * judged_count, static_cast<std::size_t>(count));
+    EXPECT_LT(said, judged_count) << "a word about every throw would say nothing";
 }
 
 }  // namespace

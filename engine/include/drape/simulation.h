@@ -151,6 +151,9 @@ class Simulation {
     /// Returns what was proved of contact between cloths; nothing when no cloth meets itself.
     std::optional<SelfContactReport> self_contact() const;
     RunVerdict verdict() const;
+    /// Returns in which of the frames computed a collider may have passed between a cloth's particles, which one, and
+    /// what would help; nothing where contact kept it out.
+    std::optional<std::string> possible_passage() const;
     std::vector<PassWork> work() const;          ///< in order of first appearance
     std::vector<ResourceMemory> memory() const;  ///< the largest first
     /// Describes what runs in a frame that is handed out, what was skipped, and why, as "text", "json" or "dot"; two
