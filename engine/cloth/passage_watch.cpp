@@ -84,7 +84,7 @@ std::optional<PassageWatch::Passage> PassageWatch::passage(std::uint32_t frame, 
         if (collider.kind() == glsl::kind_plane) continue;
         const double motion = motion_of(collider, end, h, substeps);
         const double middle = least_half_width(collider.shape) + cloth.thickness;
-        // What turns by more than a fifth of a radian goes along an arc, which is no straight way.
+        // A collider that turns by more than a fifth of a radian goes along an arc, which is no straight way.
         const bool turns = motion > 1e14 && collider.kind() != glsl::kind_sphere;
         const bool by_way = collider.kind() == glsl::kind_box || turns;
         const double way = by_way ? 1.25 * (own + motion) : hole;
