@@ -9,7 +9,6 @@
 #include "include/every.h"
 #include "include/push.h"
 #include "include/self_contact.h"
-#include "include/self_impulse.h"
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
@@ -17,7 +16,6 @@ PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 4, std430) readonly buffer Pairs { uvec4 pairs[]; };
 layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, rgba32f) uniform readonly imageBuffer before;
-layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
@@ -35,10 +33,7 @@ struct Corner {
 
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
-    vec4 wanted = imageLoad(before, corner.place);
-    vec3 good = self_added(moved, imageLoad(made_good, corner.place).xyz);
-    moved = wanted.w != 0.0f ? good : moved;
-    if (!corner.held) moved = self_bounded(moved, wanted.xyz, carried, thickness);
+    if (!corner.held) moved = self_bounded(moved, imageLoad(before, corner.place).xyz, carried, thickness);
     return self_relative_motion(moved, carried);
 }
 

@@ -20,7 +20,8 @@ layout(set = 0, binding = 4, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer before_in;
 layout(set = 0, binding = 8, std430) writeonly buffer BeforeOut { vec4 before_out[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 10, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer velocities_in;
+layout(set = 0, binding = 10, std430) writeonly buffer VelocitiesOut { vec4 velocities_out[]; };
 layout(set = 0, binding = 11, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
 
@@ -29,7 +30,6 @@ vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/d
 struct Motion {
     bool held, cut, pushed;
     vec4 displacement;  // w: bits (self_sheet.h)
-    vec3 moved;         // with what makes a missing thickness good, m
     vec3 bounded;       // displacement that contact allows, m
     float share;        // share of the motion that crosses nothing
 };
@@ -40,12 +40,12 @@ Motion motion_of(int place) {
     bool held = !(imageLoad(positions, texel).w > 0.0f);
     vec4 displacement = imageLoad(displacements_in, texel);
     vec4 before = imageLoad(before_in, place);
-    vec3 moved = before.w != 0.0f ? self_added(displacement.xyz, imageLoad(made_good, place).xyz) : displacement.xyz;
+    vec3 moved = displacement.xyz;
     vec3 allowed = self_bounded(moved, before.xyz, carried, cloth_at(texel).thickness);
     vec3 bounded = held ? moved : allowed;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
-    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), before.w != 0.0f, displacement, moved,
-                  bounded, share);
+    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), before.w != 0.0f, displacement, bounded,
+                  share);
 }
 
 bool is_changed(int place) {
@@ -56,12 +56,18 @@ bool is_changed(int place) {
 uint unproved = 0u, truncated = 0u;
 float lag = 0.0f;
 
+vec3 velocity_of(int place, Motion motion) {
+    vec3 moved = motion.displacement.xyz;
+    vec3 pushed = self_velocity(moved, imageLoad(velocities_in, place).xyz, imageLoad(made_good, place).xyz);
+    return motion.pushed ? pushed : moved;
+}
+
 /// Returns how far a particle moves, and counts whether that is less than it would.
 vec3 made_of(Motion motion) {
-    if (!motion.cut) return motion.moved;
+    if (!motion.cut) return motion.displacement.xyz;
     ++truncated;
     vec3 made = self_truncated(carried, self_relative_motion(motion.bounded, carried), motion.share);
-    lag = self_largest(lag, self_lag(made, motion.moved));
+    lag = self_largest(lag, self_lag(made, motion.displacement.xyz));
     return made;
 }
 
@@ -70,7 +76,7 @@ void end(int place) {
     if (motion.held) {
         unproved += motion.cut ? 1u : 0u;
     } else {
-        velocities[place] = vec4(motion.displacement.xyz, 0.0f);
+        velocities_out[place] = vec4(velocity_of(place, motion), 0.0f);
         STORE_VECTOR(displacements_out, texel_of(place), vec4(made_of(motion), motion.displacement.w));
         before_out[place].w = 1.0f;
     }

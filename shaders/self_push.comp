@@ -1,5 +1,5 @@
-// This pass gives the particles the velocities that the impulses of contacts make, and says by what they are moved
-// besides to make a missing thickness good. CROSSED adds the velocity that leads their cloth apart from others.
+// This pass gives the particles the velocities that the impulses of contacts make, and moves them by these and by what
+// makes a missing thickness good. CROSSED adds the velocity that leads their cloth apart from others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIDE CROSSED BUFFERED
@@ -19,6 +19,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"
 VECTOR_OUT(4, DisplacementsOut, displacements_out);
 #include "include/self_cloths.h"
+layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer MadeGood { vec4 made_good[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Before { vec4 before[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Record { SelfRecord record[]; };
@@ -56,8 +57,9 @@ void move(int place) {
     velocity = self_led(velocity, by);
 #endif
     vec3 good = self_moved_by(leading, mass, imageLoad(supports, place).xyz);
+    velocities[place] = vec4(velocity, 0.0f);
     made_good[place] = vec4(good, 0.0f);
-    STORE_VECTOR(displacements_out, texel, vec4(velocity, moved.w));
+    STORE_VECTOR(displacements_out, texel, vec4(self_added(velocity, good), moved.w));
     before[place].w = 1.0f;
 }
 

@@ -66,13 +66,8 @@ class ContactStep {
     float inverse_mass(uint place) const { return contact_.positions[place].w; }
     bool held(uint place) const { return !(inverse_mass(place) > 0.0f); }
     vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
-    /// Returns a motion with what makes a missing thickness good.
-    vec3 led_motion(uint place) const {
-        const bool pushed = contact_.before[place].w != 0.0f;
-        return pushed ? self_added(displacement(place), xyz(contact_.made_good[place])) : displacement(place);
-    }
     vec3 bounded(uint place) const {
-        vec3 moved = led_motion(place);
+        vec3 moved = displacement(place);
         if (!held(place))
             moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried),
                                  cloth_at(place).thickness);
@@ -388,8 +383,9 @@ void ContactStep::push() {
         vec3 velocity = self_added(displacement, self_moved_by(impulse_at(self_iterations, at), mass, nothing));
         if (led) velocity = self_led(velocity, by);
         const vec3 good = self_moved_by(impulse_at(self_sum_of_thickness, at), mass, xyz(contact_.supports[i]));
+        contact_.velocities[i] = texel(velocity);
         contact_.made_good[i] = texel(good);
-        move_to(i, velocity);
+        move_to(i, self_added(velocity, good));
     }
 }
 
@@ -433,11 +429,13 @@ void ContactStep::move() {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
         }
-        const vec3 moved = led_motion(at);
+        const vec3 moved = displacement(at);
         const vec3 bound = self_bounded(moved, xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
         const bool is_cut = share < 1.0f || bound.x != moved.x || bound.y != moved.y || bound.z != moved.z;
-        if (!is_cut && contact_.before[i].w == 0.0f) continue;
-        contact_.velocities[i] = texel(displacement(at));
+        const bool pushed = contact_.before[i].w != 0.0f;
+        if (!is_cut && !pushed) continue;
+        contact_.velocities[i] =
+            texel(pushed ? self_velocity(moved, xyz(contact_.velocities[i]), xyz(contact_.made_good[i])) : moved);
         vec3 made = moved;
         if (is_cut) {
             ++record.truncated;

@@ -197,6 +197,17 @@ SHARED float self_holds(uint sum) {
     return holds;
 }
 
+/// Returns the velocity (m a substep) with which contact leaves a particle. `pushed` is the one that impulses gave it.
+/// Where a collider after them changed its motion, to `moved`, it is that motion without the part of the thickness made
+/// good that the collider let through.
+SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good) {
+    precise vec3 change = moved - self_added(pushed, made_good);
+    float squared = ordered_dot(change, change), against = self_least(ordered_dot(made_good, change), 0.0f);
+    precise vec3 let_through = made_good - change * self_ratio(against, squared);
+    precise vec3 velocity = moved - let_through;
+    return squared > 0.0f ? velocity : pushed;
+}
+
 /// Returns a displacement changed as contact has changed that of the next substep.
 SHARED vec3 self_changed_alike(vec3 last, vec3 wanted, vec3 velocity) {
     precise vec3 changed = last + (velocity - wanted);
