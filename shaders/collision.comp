@@ -1,7 +1,7 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
 // the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
 // has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what box_edges.comp left. SUPPORTING
-// keeps the normals of the surfaces that particles lie on, for contact between cloths.
+// keeps the surfaces that particles lie on, for contact between cloths.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -30,6 +30,7 @@ layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
 
 #ifdef SUPPORTING
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D support;
+layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D support_grip;
 #endif
 
 /// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a box led it:
@@ -101,20 +102,27 @@ void meet_all(ivec2 texel) {
     bool touched = led.w > 0.0f;
     // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
-    vec4 lies_on = vec4(0.0f);
+    vec3 normal = vec3(0.0f);
+    vec4 grip = vec4(0.0f);
     do {
         Contact contact =
             contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y, push.contact.w, true);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
-        lies_on = contact.depth > 0.0f ? vec4(contact.normal, 1.0f) : lies_on;
+        normal = contact.depth > 0.0f ? contact.normal : normal;
+        grip = contact.depth > 0.0f ? contact.grip : grip;
         if (!(contact.depth > push.contact.z)) break;
         ++round;
     } while (round < round_count);
     if (!touched) return;
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 #ifdef SUPPORTING
-    imageStore(support, placed(texel), lies_on);
+    // The next substep starts where a collision after impulses leaves the particle.
+    vec3 touches = push.after_impulses == 0 ? displacement : grip.xyz;
+    if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a box led it
+        imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
+        imageStore(support_grip, placed(texel), grip);
+    }
 #endif
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));

@@ -36,9 +36,11 @@ Corner corner_of(uint which, SelfCloth cloth) {
     ivec2 texel = self_texel(which);
     int place = place_of(texel);
     precise float mass = imageLoad(positions, texel).w * cloth.lightness;
-    vec3 moved = self_relative_motion(imageLoad(displacements, texel).xyz, carried);
-    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place)), mass, imageLoad(supports, place).xyz);
-    return Corner(self_added(moved, by), mass, self_holds(sum_of(0, place).z_weight.z));
+    vec3 moved = imageLoad(displacements, texel).xyz;
+    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place)), mass);
+    Support support = Support(imageLoad(supports, 2 * place), imageLoad(supports, 2 * place + 1));
+    vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried);
+    return Corner(motion, mass, self_holds(sum_of(0, place).z_weight.z));
 }
 
 void bear(bool edges, SelfTouch touch) {

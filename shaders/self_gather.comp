@@ -1,5 +1,5 @@
 // This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
-// that exist from an image (holes, cuts). SUPPORTED also lays there the normals of the colliders that they lie on.
+// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SUPPORTED BUFFERED
@@ -23,7 +23,8 @@ layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
 
 #ifdef SUPPORTED
 layout(set = 0, binding = 5, rgba32f) uniform image2D support;
-layout(set = 0, binding = 6, std430) writeonly buffer Supports { vec4 supports[]; };
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D support_grip;
+layout(set = 0, binding = 7, std430) writeonly buffer Supports { vec4 supports[]; };
 #endif
 
 bool exists(ivec2 cell, int which) {
@@ -52,10 +53,12 @@ void lay(ivec2 texel) {
     vec3 moved = imageLoad(displacement, texel).xyz;
     STORE_VECTOR(displacements, laid, vec4(moved, float(owned(texel))));
 #ifdef SUPPORTED
-    // It is taken back, as the next substep's collisions say where a particle lies then.
-    vec4 normal = imageLoad(support, texel);
-    supports[laid.y * push.columns + laid.x] = normal;
-    if (normal.w != 0.0f) imageStore(support, texel, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    // It is taken back, as this substep's last collision says where a particle lies then.
+    vec4 plane = imageLoad(support, texel);
+    int at = 2 * (laid.y * push.columns + laid.x);
+    supports[at] = plane;
+    supports[at + 1] = imageLoad(support_grip, texel);
+    if (plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f) imageStore(support, texel, vec4(0.0f));
 #endif
 }
 

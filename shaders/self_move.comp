@@ -24,6 +24,7 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer velocities_in
 layout(set = 0, binding = 10, std430) writeonly buffer VelocitiesOut { vec4 velocities_out[]; };
 layout(set = 0, binding = 11, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
+layout(set = 0, binding = 13, rgba32f) uniform readonly imageBuffer supports;
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
@@ -58,7 +59,8 @@ float lag = 0.0f;
 
 vec3 velocity_of(int place, Motion motion) {
     vec3 moved = motion.displacement.xyz;
-    vec3 pushed = self_velocity(moved, imageLoad(velocities_in, place).xyz, imageLoad(made_good, place).xyz);
+    vec3 pushed = self_velocity(moved, imageLoad(velocities_in, place).xyz, imageLoad(made_good, place).xyz,
+                                imageLoad(supports, 2 * place).xyz);
     return motion.pushed ? pushed : moved;
 }
 

@@ -49,14 +49,14 @@ void move(int place) {
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
     vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place)) : nothing;
     vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place)) : nothing;
-    vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass, nothing));
+    vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass));
 #ifdef CROSSED
     vec3 by = led[max(owner_of(place), 0)].xyz;
     bool is_held = touching && sum_of(0, place).z_weight.z != 0u;
     if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
     velocity = self_led(velocity, by);
 #endif
-    vec3 good = self_moved_by(leading, mass, imageLoad(supports, place).xyz);
+    vec3 good = self_led_by(self_moved_by(leading, mass), imageLoad(supports, 2 * place).xyz);
     velocities[place] = vec4(velocity, 0.0f);
     made_good[place] = vec4(good, 0.0f);
     STORE_VECTOR(displacements_out, texel, vec4(self_added(velocity, good), moved.w));

@@ -37,7 +37,8 @@ enum class Field : std::uint8_t {
     wind_force,                ///< N
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< displacement after the second round of boxes' edges, m; w as before
-    support,                   ///< normal of the collider's surface that the particle lies on; w 1 where it does
+    support,                   ///< Support::plane of the surface that the particle lies on (contact_law.h)
+    support_grip,              ///< Support::grip of the same
     normal,                    ///< unit normal of the front
     spring_share,              ///< share of the springs that a particle is the first of, by direction
     mass_share,                ///< mass over an inner particle's

@@ -26,7 +26,7 @@ enum class ContactField : std::uint8_t {
     borne,          ///< what pairs bore in the last substep, which the next one begins with
     first_borne,    ///< by place and chain: the first entry of a pair whose first corner it is
     sums,           ///< of impulses, by round and place
-    supports,       ///< by place: normal of the collider's surface that the particle lies on, or zero
+    supports,       ///< by place: plane and grip of the surface that the particle lies on (Support), two texels
     before,         ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
     velocities,     ///< of those, m a substep
     made_good,      ///< their motion that makes a missing thickness good, m

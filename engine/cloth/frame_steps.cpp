@@ -117,7 +117,12 @@ class ContactSteps {
     void collide() {
         add_for_cloths(StepKind::self_hand);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back({StepKind::collide, cloth, substep_, model_.scene.solver.iterations + 1});
+            steps_.push_back({.kind = StepKind::collide,
+                              .cloth = cloth,
+                              .substep = substep_,
+                              .iteration = model_.scene.solver.iterations + 1,
+                              .supporting = true,
+                              .after_impulses = true});
         add_for_cloths(StepKind::self_gather_again);
     }
 

@@ -96,8 +96,10 @@ struct Step {
     bool conditional = false;
     /// A collision, or a second `box_edges`, goes on from what `box_edges` left.
     bool after_edges = false;
-    /// A collision keeps the normals of the surfaces that particles lie on.
+    /// A collision keeps the surfaces that particles lie on.
     bool supporting = false;
+    /// A collision ends a substep after contact between cloths.
+    bool after_impulses = false;
     /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
     /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it
     /// back.

@@ -18,6 +18,7 @@ namespace drape::glsl {
 #include "include/bent_line.h"
 #include "include/box_edges.h"
 #include "include/colliders.h"
+#include "include/contact_law.h"
 #include "include/cut.h"
 #include "include/cyclic.h"
 #include "include/difference.h"

@@ -80,23 +80,30 @@ void run_collide(const TwinPlace& where) {
             displacement = xyz(state[Field::lifted][i]);
             touched = state[Field::lifted][i].w > 0.0f;
         }
-        vec4 lies_on{};
+        vec3 lies_on{};
+        vec4 on_grip{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
             vec3 normal{};
+            vec4 grip{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
                                      push.contact.x, push.contact.y, push.contact.w, true);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
+                grip = contact.depth > deepest ? contact.grip : grip;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
             }
             touched = touched || deepest > 0.0f;
-            if (deepest > 0.0f) lies_on = texel(normal, 1.0f);
+            if (deepest > 0.0f) lies_on = normal, on_grip = grip;
             if (!(deepest > push.contact.z)) break;
         }
-        if (touched && step.supporting) state[Field::support][i] = lies_on;
+        if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
+            const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;
+            state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
+            state[Field::support_grip][i] = on_grip;
+        }
         if (touched && model.scheme.second_order) {
             state[Field::displacement_before][i] = texel(displacement);
             uint& hold = state.integers(Field::line_control)[control_hold];

@@ -337,7 +337,8 @@ vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
     const vec3 impulse = impulse_at(static_cast<std::size_t>(push_.round), place);
-    return self_added(motion(place), self_moved_by(impulse, mass, xyz(contact_.supports[place])));
+    const vec3 moved = self_added(displacement(place), self_moved_by(impulse, mass));
+    return self_relative_motion(supported(moved, contact_.supports[place]), xyz(contact_.record.carried));
 }
 
 void ContactStep::work(TwinTouch& pair) {
@@ -378,11 +379,12 @@ void ContactStep::push() {
         const bool led = !contact_.led.empty();
         const vec3 by = led ? contact_.led[static_cast<std::size_t>(contact_.owners[i])] : vec3{};
         if (contact_.sums[i].weight == 0 && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) continue;
-        const vec3 displacement = xyz(contact_.displacements[i]), nothing{0, 0, 0};
+        const vec3 displacement = xyz(contact_.displacements[i]);
         const float mass = inverse_mass(at) * cloth_at(i).lightness;
-        vec3 velocity = self_added(displacement, self_moved_by(impulse_at(self_iterations, at), mass, nothing));
+        vec3 velocity = self_added(displacement, self_moved_by(impulse_at(self_iterations, at), mass));
         if (led) velocity = self_led(velocity, by);
-        const vec3 good = self_moved_by(impulse_at(self_sum_of_thickness, at), mass, xyz(contact_.supports[i]));
+        const vec3 leading = self_moved_by(impulse_at(self_sum_of_thickness, at), mass);
+        const vec3 good = self_led_by(leading, support_normal(contact_.supports[i]));
         contact_.velocities[i] = texel(velocity);
         contact_.made_good[i] = texel(good);
         move_to(i, self_added(velocity, good));
@@ -435,7 +437,9 @@ void ContactStep::move() {
         const bool pushed = contact_.before[i].w != 0.0f;
         if (!is_cut && !pushed) continue;
         contact_.velocities[i] =
-            texel(pushed ? self_velocity(moved, xyz(contact_.velocities[i]), xyz(contact_.made_good[i])) : moved);
+            texel(pushed ? self_velocity(moved, xyz(contact_.velocities[i]), xyz(contact_.made_good[i]),
+                                         support_normal(contact_.supports[i]))
+                         : moved);
         vec3 made = moved;
         if (is_cut) {
             ++record.truncated;

@@ -29,7 +29,7 @@ void run_self_gather(const TwinPlace& where) {
         meeting->positions[place] = state[Field::position][i];
         meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
         if (step.kind == StepKind::self_gather && !state[Field::support].empty())
-            meeting->supports[place] = std::exchange(state[Field::support][i], vec4{});
+            meeting->supports[place] = {std::exchange(state[Field::support][i], vec4{}), state[Field::support_grip][i]};
     }
 }
 

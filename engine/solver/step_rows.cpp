@@ -90,7 +90,11 @@ graph::PushConstants contact_push(Place p, glsl::CollisionPush push) {
     push.first = first_collider(p.model, *p.cloth->model, p.step.substep);
     return push;
 }
-graph::PushConstants collision_push(Place p) { return contact_push(p, p.cloth->model->collision); }
+graph::PushConstants collision_push(Place p) {
+    glsl::CollisionPush push = p.cloth->model->collision;
+    push.after_impulses = p.step.after_impulses ? 1 : 0;
+    return contact_push(p, push);
+}
 graph::PushConstants box_edges_push(Place p) { return contact_push(p, p.cloth->model->box_edges()); }
 graph::PushConstants residual_push(Place p) { return p.cloth->model->residual; }
 graph::PushConstants decide_push(Place p) {

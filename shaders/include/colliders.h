@@ -3,6 +3,7 @@
 #ifndef DRAPE_COLLIDERS_H
 #define DRAPE_COLLIDERS_H
 
+#include "include/contact_law.h"
 #include "include/vector.h"
 #include "shared/collider_types.h"
 
@@ -145,27 +146,11 @@ SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     return sphere_surface(vec3(local.x, upper ? below_upper : above, local.z), upper ? size.z : size.y);
 }
 
-/// Returns the displacement after contact: the particle is moved out by `depth` along `normal`, and its motion relative
-/// to the surface along the tangent is reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a)
-/// h^2 of a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): m.
-SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
-    precise vec3 relative = displacement - surface;
-    precise float along = ordered_dot(relative, normal);
-    precise vec3 tangent = relative - normal * along;
-    precise float squared = ordered_dot(tangent, tangent);
-    precise float grip = friction * depth;
-    precise vec3 pushed = displacement + normal * depth;
-    if (!(squared > 0.0f) || !(grip > 0.0f)) return pushed;
-    precise float sliding = sqrt(squared);
-    precise float kept = sliding > grip ? grip / sliding : 1.0f;
-    precise vec3 slowed = pushed - tangent * kept;
-    return slowed;
-}
-
 struct Contact {
     vec3 displacement;
     float depth;  // m; 0 when there was no contact
     vec3 normal;  // of the surface, in the world frame
+    vec4 grip;    // as in Support
 };
 
 SHARED vec3 moved_position(vec3 start, vec3 displacement) {
@@ -357,7 +342,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     float length = length_of(displacement), motion = collider.way_out.w;
     bool far = all_its_way && goes_far(kind, size_of(collider), length, motion, thickness);
     float reach = far ? way_reach(kind, size_of(collider), length, motion, thickness) : thickness;
-    Contact none = Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f));
+    Contact none = Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 0.0f, 0.0f));
     if (kind == kind_ellipsoid && beyond_bounds(local, size_of(collider), reach)) return none;
     SurfacePoint found = collider_surface(kind, collider, now, local);
     precise float inside = thickness - found.distance;
@@ -386,7 +371,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     if (!(depth > 0.0f)) return none;
     vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;
-    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal);
+    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal,
+                   vec4(surface.x, surface.y, surface.z, pair_friction));
 }
 
 #ifndef __cplusplus

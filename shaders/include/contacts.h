@@ -56,6 +56,7 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, in_turn); \
     if (in_turn) displacement = contact.displacement;                                                                \
     normal = contact.depth > deepest ? contact.normal : normal;                                                      \
+    grip = contact.depth > deepest ? contact.grip : grip;                                                            \
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
@@ -80,11 +81,12 @@ bool near_early(vec3 now, float length, float thickness) {
 }
 
 /// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
-/// else all take the given one, and only the depth at its end counts. The normal is the deepest one's.
+/// else all take the given one, and only the depth at its end counts. Normal and grip are the deepest one's.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn) {
     float deepest = 0.0f;
     vec3 normal = vec3(0.0f);
+    vec4 grip = vec4(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
     // The loops within these would keep lavapipe from leaving them out.
     if (planes_end < spheres_end) {
@@ -99,5 +101,5 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     if (ellipsoids_end < capsules_end) {
         CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     }
-    return Contact(displacement, deepest, normal);
+    return Contact(displacement, deepest, normal, grip);
 }

@@ -8,6 +8,7 @@
 #ifndef DRAPE_SELF_IMPULSE_H
 #define DRAPE_SELF_IMPULSE_H
 
+#include "include/contact_law.h"
 #include "include/self_gap.h"
 #include "shared/self_contact_types.h"
 
@@ -100,13 +101,16 @@ SHARED float self_yields(vec4 weights, vec4 inverse_mass, vec4 holds) {
     return yields;
 }
 
-/// Returns by how much an impulse moves a corner. A collider that it lies on (`support`: the surface's normal, or zero)
-/// lets nothing push it in.
-SHARED vec3 self_moved_by(vec3 impulse, float inverse_mass, vec3 support) {
+SHARED vec3 self_moved_by(vec3 impulse, float inverse_mass) {
     precise vec3 by = impulse * inverse_mass;
-    float out_by = ordered_dot(support, by);
-    precise vec3 over = by - support * self_least(out_by, 0.0f);
-    return over;
+    return by;
+}
+
+/// Returns by how much a thickness made good moves a particle: away from the surface that it lies on (`normal`, zero if
+/// none), as friction holds it along that.
+SHARED vec3 self_led_by(vec3 by, vec3 normal) {
+    precise vec3 away = normal * self_largest(ordered_dot(normal, by), 0.0f);
+    return ordered_dot(normal, normal) > 0.0f ? away : by;
 }
 
 SHARED vec3 self_added(vec3 displacement, vec3 by) {
@@ -199,13 +203,14 @@ SHARED float self_holds(uint sum) {
 
 /// Returns the velocity (m a substep) with which contact leaves a particle. `pushed` is the one that impulses gave it.
 /// Where a collider after them changed its motion, to `moved`, it is that motion without the part of the thickness made
-/// good that the collider let through.
-SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good) {
+/// good that the collider let through: none where the surface that it lies on (`normal`) bears it.
+SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good, vec3 normal) {
     precise vec3 change = moved - self_added(pushed, made_good);
     float squared = ordered_dot(change, change), against = self_least(ordered_dot(made_good, change), 0.0f);
     precise vec3 let_through = made_good - change * self_ratio(against, squared);
     precise vec3 velocity = moved - let_through;
-    return squared > 0.0f ? velocity : pushed;
+    vec3 changed = ordered_dot(normal, change) > 0.0f ? moved : velocity;
+    return squared > 0.0f ? changed : pushed;
 }
 
 /// Returns a displacement changed as contact has changed that of the next substep.

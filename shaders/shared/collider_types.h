@@ -28,6 +28,13 @@ struct ColliderRecord {
                    // zero: by the nearest one. w: what none of its surface moves farther than in the substep, m
 };
 
+/// The surface that a particle lies on. Contact between cloths needs the whole law of it: told of less, a heap takes
+/// what the floor gives its lowest particles, friction above all, for motion, and never rests.
+struct Support {
+    vec4 plane;  // xyz: normal, zero where there is no surface; w: displacement along it with which it is touched, m
+    vec4 grip;   // xyz: displacement of the surface, m; w: friction coefficient
+};
+
 struct ColliderInstance {
     vec4 pose_x, pose_y, pose_z;  // rows of world from local; w: centre
     vec4 shape;                   // xyz as in the record; plane: half side of the quad drawn, distance of the grid's

@@ -101,7 +101,7 @@ struct CollisionPush {
                    // overlap that was there before
     ivec2 grid;    // columns, rows
     int first;     // first collider of this substep
-    int unused;
+    int after_impulses;  // 1: the collision ends a substep after contact between cloths
 };
 
 struct PinPush {
