@@ -17,9 +17,10 @@ layout(constant_id = 17) const int strip_rows = 1;   // particles of a column th
 PUSH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
+TRIPLE_OUT(10, PositionOut, position_out);
 #ifdef HISTORY
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
@@ -56,7 +57,7 @@ Strip strip_at(int column, int first, int count) {
     int k = 0;
     do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
-        vec4 start = LOAD(position, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
+        vec4 start = LOAD(position_in, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
         vec3 now = moved_position(start.xyz, led.xyz);
         float way = length_of(led.xyz);
         bool near = !leaves_out || led.w > 0.0f || near_early(now, way, push.contact.x);
@@ -87,7 +88,7 @@ uint late_rows(Strip strip) {
             vec4 ball = collider_ball(push.first, begin + findLSB(near), strip.way, push.contact.x);
             for (int k = 0; k < strip.count; ++k) {
                 ivec2 texel = ivec2(strip.column, strip.first + k);
-                vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
+                vec4 start = LOAD(position_in, texel), moved = LOAD(displacement_in, texel);
                 vec3 now = moved_position(start.xyz, led_displacement(texel, moved).xyz);
                 bool meets = near_ball(ball, now, now, push.contact.x) && start.w != 0.0f;
                 rows |= meets ? 1u << k : 0u;
@@ -97,13 +98,14 @@ uint late_rows(Strip strip) {
 }
 
 void meet_all(ivec2 texel) {
-    vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel), led = led_displacement(texel, moved);
+    vec4 start = LOAD(position_in, texel), moved = LOAD(displacement_in, texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
     bool touched = led.w > 0.0f;
     // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
+    vec3 way_out = vec3(0.0f);
     do {
         Contact contact =
             contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y, push.contact.w, true);
@@ -111,10 +113,16 @@ void meet_all(ivec2 texel) {
         touched = touched || contact.depth > 0.0f;
         normal = contact.depth > 0.0f ? contact.normal : normal;
         grip = contact.depth > 0.0f ? contact.grip : grip;
+        way_out = round == 0 ? contact.led : way_out;
         if (!(contact.depth > push.contact.z)) break;
         ++round;
     } while (round < round_count);
     if (!touched) return;
+    // The way out of an overlap is no velocity, so it moves where the particle starts.
+    if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
+        STORE_TRIPLE(position_out, texel, led_sum(start.xyz, way_out), start.w);
+        displacement = displacement_of_own(displacement, way_out);
+    }
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 #ifdef SUPPORTING
     // The next substep starts where a collision after impulses leaves the particle.

@@ -1,5 +1,7 @@
 #include "cloth/frame_steps.h"
 
+#include <utility>
+
 namespace drape {
 
 namespace {
@@ -65,6 +67,7 @@ class Substep {
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         step.supporting = model_.self_contact.has_value();
+        step.leading = !std::exchange(collided_, true);
         return step;
     }
 
@@ -73,6 +76,7 @@ class Substep {
     std::size_t index_;
     std::uint32_t substep_;
     std::vector<Step>& steps_;
+    bool collided_ = false;
 };
 
 /// Adds the steps of contact between the cloths to a substep's, last of all, so that nothing moves a particle after its

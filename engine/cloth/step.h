@@ -98,6 +98,8 @@ struct Step {
     bool after_edges = false;
     /// A collision keeps the surfaces that particles lie on.
     bool supporting = false;
+    /// A collision is the first of its substep, which leads particles out of overlaps.
+    bool leading = false;
     /// A collision ends a substep after contact between cloths.
     bool after_impulses = false;
     /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it

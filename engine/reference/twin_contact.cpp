@@ -71,10 +71,11 @@ void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
+    const float recovery = step.leading ? push.contact.w : 0.0f;
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
-        vec3 displacement = xyz(state[Field::displacement][i]);
+        vec3 displacement = xyz(state[Field::displacement][i]), way_out{};
         bool touched = false;
         if (step.after_edges) {
             displacement = xyz(state[Field::lifted][i]);
@@ -84,20 +85,26 @@ void run_collide(const TwinPlace& where) {
         vec4 on_grip{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
-            vec3 normal{};
+            vec3 normal{}, led{};
             vec4 grip{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, push.contact.w, true);
+                                     push.contact.x, push.contact.y, recovery, true);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
+                led = led_sum(led, contact.led);
             }
+            if (round == 0) way_out = led;
             touched = touched || deepest > 0.0f;
             if (deepest > 0.0f) lies_on = normal, on_grip = grip;
             if (!(deepest > push.contact.z)) break;
+        }
+        if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
+            state[Field::position][i] = texel(led_sum(start, way_out), state[Field::position][i].w);
+            displacement = displacement_of_own(displacement, way_out);
         }
         if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
             const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;

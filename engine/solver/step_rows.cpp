@@ -93,6 +93,7 @@ graph::PushConstants contact_push(Place p, glsl::CollisionPush push) {
 graph::PushConstants collision_push(Place p) {
     glsl::CollisionPush push = p.cloth->model->collision;
     push.after_impulses = p.step.after_impulses ? 1 : 0;
+    if (!p.step.leading) push.contact.w = 0;
     return contact_push(p, push);
 }
 graph::PushConstants box_edges_push(Place p) { return contact_push(p, p.cloth->model->box_edges()); }

@@ -151,6 +151,7 @@ struct Contact {
     float depth;  // m; 0 when there was no contact
     vec3 normal;  // of the surface, in the world frame
     vec4 grip;    // as in Support
+    vec3 led;     // part of the displacement that leads it out of an overlap, which is no velocity, m
 };
 
 SHARED vec3 moved_position(vec3 start, vec3 displacement) {
@@ -163,6 +164,24 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
 SHARED float kept_depth(float before, float recovery) {
     precise float kept = before - recovery;
     return kept > 0.0f ? kept : 0.0f;
+}
+
+/// Returns how much of a contact's depth leads a particle out of the overlap that it began the substep with.
+SHARED float led_out(float depth, float before, float recovery) {
+    float overlap = before > 0.0f ? before : 0.0f;
+    float led = overlap < recovery ? overlap : recovery;
+    return depth < led ? depth : led;
+}
+
+SHARED vec3 led_sum(vec3 a, vec3 b) {
+    precise vec3 sum = a + b;
+    return sum;
+}
+
+/// Returns the displacement that is a particle's velocity, where it starts that much farther on the way that leads it.
+SHARED vec3 displacement_of_own(vec3 displacement, vec3 led) {
+    precise vec3 own = displacement - led;
+    return own;
 }
 
 /// Signed distance and normal of a shape other than the plane, in the shape's own frame.
@@ -342,7 +361,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     float length = length_of(displacement), motion = collider.way_out.w;
     bool far = all_its_way && goes_far(kind, size_of(collider), length, motion, thickness);
     float reach = far ? way_reach(kind, size_of(collider), length, motion, thickness) : thickness;
-    Contact none = Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    Contact none =
+        Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
     if (kind == kind_ellipsoid && beyond_bounds(local, size_of(collider), reach)) return none;
     SurfacePoint found = collider_surface(kind, collider, now, local);
     precise float inside = thickness - found.distance;
@@ -371,8 +391,9 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     if (!(depth > 0.0f)) return none;
     vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;
+    precise vec3 led = normal * led_out(depth, before, recovery);
     return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal,
-                   vec4(surface.x, surface.y, surface.z, pair_friction));
+                   vec4(surface.x, surface.y, surface.z, pair_friction), led);
 }
 
 #ifndef __cplusplus

@@ -57,6 +57,7 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
     if (in_turn) displacement = contact.displacement;                                                                \
     normal = contact.depth > deepest ? contact.normal : normal;                                                      \
     grip = contact.depth > deepest ? contact.grip : grip;                                                            \
+    led = led_sum(led, contact.led);                                                                                 \
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
@@ -87,6 +88,7 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     float deepest = 0.0f;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
+    vec3 led = vec3(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
     // The loops within these would keep lavapipe from leaving them out.
     if (planes_end < spheres_end) {
@@ -101,5 +103,5 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     if (ellipsoids_end < capsules_end) {
         CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     }
-    return Contact(displacement, deepest, normal, grip);
+    return Contact(displacement, deepest, normal, grip, led);
 }

@@ -209,8 +209,8 @@ TEST(ContactTest, NoKindOfColliderThrowsWhatStartsInIt) {
         Collider collider;
         double speed;  ///< m/s
     };
-    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 0.2},
-                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 0.2},
+    const Case cases[] = {{"plane", {Plane{{0, 1, 0}, 0.2}}, 1e-4},
+                          {"box below all of it", {Box{{0, 0, 0}, {0.7, 0.2, 0.7}}}, 1e-4},
                           {"box below the middle", {Box{{0, 0, 0}, {0.3, 0.2, 0.3}}}, 0.6},
                           {"narrow box", {Box{{0, 0, 0}, {0.05, 0.2, 0.3}}}, 0.8},
                           {"box beside it", {Box{{0.5, 0, 0}, {0.3, 0.2, 0.3}}}, 0.6},

@@ -410,5 +410,10 @@ TEST(TriangleCrossingsTest, KnowsCrossingFromTouchingAndApart) {
     EXPECT_EQ(with({0.2, 0.2, 0.01}, {5, 5, 1}, {5, 5, 2}, {0, 1, 2, 0, 1, 3}), 0u);
 }
 
+TEST(SelfContactTest, TheMessagesTellTheSpeedsOfTheShaders) {
+    EXPECT_EQ(static_cast<float>(recovery_speed), glsl::self_recovery_speed);
+    EXPECT_EQ(static_cast<float>(parting_speed), glsl::self_parting_speed);
+}
+
 }  // namespace
 }  // namespace drape
