@@ -28,7 +28,7 @@ struct ClothModel : ClothGeometry {
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
 
     double substep_length;  ///< s
-    bool collides;          ///< it can touch colliders of the scene
+    bool touches;           ///< something can touch it: a collider, or cloth
     /// An edge of the cloth is at most so long, m, where it can meet that of a box (shaders/box_edges.comp). 0: the
     /// scene has no box, the cloth's contact is of particles, or its thickness keeps everything clear.
     float edge_reach = 0;

@@ -212,7 +212,7 @@ void run_advance(const TwinPlace& where) {
         state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before];
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
         state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i]),
-                                                       model.collides ? contact_excess : free_excess));
+                                                       model.touches ? contact_excess : free_excess));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const CompensatedSum advanced =
             compensated_add(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]),

@@ -38,9 +38,7 @@ Device::Device(const std::string& selector, Validation validation)
     : parts_(std::make_shared<Parts>(selector, validation)) {}
 
 bool prefers_calling_thread(const SceneDescription& scene) {
-    const bool meets_itself =
-        std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); });
-    const std::uint64_t most_particles = meets_itself ? 85 * 85 : 72 * 72;
+    const std::uint64_t most_particles = cloths_meet(scene) ? 85 * 85 : 72 * 72;
     const auto is_small = [&](std::size_t cloth, std::size_t count) {
         const auto [columns, rows] = scene.cloths[cloth].grid;
         return std::uint64_t{columns} * rows * count <= most_particles;

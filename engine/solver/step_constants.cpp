@@ -35,7 +35,7 @@ constexpr ConstantRow constant_rows[] = {
     {"advance", [](Place p) { return p.step.substep > 0 ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
-    {"collides", [](Place p) { return p.cloth->model->collides ? 1u : 0u; }},
+    {"touches", [](Place p) { return p.cloth->model->touches ? 1u : 0u; }},
     {"directions", direction_bits},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},

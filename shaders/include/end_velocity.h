@@ -8,7 +8,7 @@
 #include "include/vector.h"
 #include "shared/closed_loop_types.h"
 
-/// Largest |e|/|d| with and without colliders: a particle just stopped by one must not be taken to rebound.
+/// Largest |e|/|d| with and without anything to touch: a particle that was just stopped must not be taken to rebound.
 const float contact_excess = 0.5f, free_excess = 1e9f;
 
 /// Returns e (m), shortened to `most` times |d|.

@@ -97,5 +97,36 @@ INSTANTIATE_TEST_SUITE_P(Of, ContactRestTest,
                                          Falling{"pile_by_line", "line", 4, 20, 6}),
                          [](const auto& which) { return which.param.name; });
 
+/// Returns how fast (m/s) a cloth slides after half a second down another that is held everywhere, from rest.
+double sliding_speed(double friction, double degrees) {
+    const double angle = degrees * 0.017453292519943295;
+    const std::string meets = R"("thickness": 0.01, "self_collision": {"friction": )" + std::to_string(friction) + "}";
+    const SimulationModel model(parse_scene(
+        R"({"time": {"frames": 31}, "gravity": [)" + std::to_string(9.81 * std::sin(angle)) + ", " +
+        std::to_string(-9.81 * std::cos(angle)) + R"(, 0], "solver": {"method": "line", "substeps": 20}, "cloths": [
+        {"name": "held", "grid": [17, 7], "size": [0.8, 0.3], "pins": [{"box": [[0, 0], [16, 6]]}],
+         "placement": {"v": [0, 0, -1]}, )" +
+        meets + R"(}, {"name": "free", "grid": [5, 5], "size": [0.16, 0.16],
+         "placement": {"origin": [0.11, 0.01005, -0.05], "v": [0, 0, -1]}, )" +
+        meets + "}]}"));
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 30; ++frame) twin.run_frame(frame);
+    double sum = 0;
+    for (const glsl::vec4& moved : twin.cloth(1)[Field::displacement]) sum += double(moved.x);
+    return sum / 25 * model.scene.solver.substeps * model.scene.time.fps;
+}
+
+TEST(ContactFrictionTest, ClothOnTiltedClothSticksOrSlidesByCoulombsLaw) {
+    // The tangent of 30.96 degrees is 0.6.
+    EXPECT_NEAR(sliding_speed(0.6, 30.9), 0, 1e-4);
+    EXPECT_NEAR(sliding_speed(0.5, 20), 0, 1e-4);
+    const auto by_closed_form = [](double friction, double degrees) {
+        const double angle = degrees * 0.017453292519943295;
+        return 0.5 * 9.81 * (std::sin(angle) - friction * std::cos(angle));
+    };
+    EXPECT_NEAR(sliding_speed(0.5, 30), by_closed_form(0.5, 30), 0.01 * by_closed_form(0.5, 30));
+    EXPECT_NEAR(sliding_speed(0.1, 10), by_closed_form(0.1, 10), 0.01 * by_closed_form(0.1, 10));
+}
+
 }  // namespace
 }  // namespace drape
