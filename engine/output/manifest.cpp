@@ -92,8 +92,22 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
     return json;
 }
 
-std::string certificate_of(const Manifest::SelfCollision& told) {
-    std::string met = "no crossing in any substep";
+Json::Value split_json(const std::vector<Manifest::SplitTriangles>& split) {
+    Json::Value json(Json::arrayValue);
+    for (const auto& [cloth, first_frame, count] : split) {
+        Json::Value row(Json::objectValue);
+        row["cloth"] = cloth;
+        row["first_frame"] = Json::Int64{first_frame};
+        row["triangles"] = Json::UInt64{count};
+        json.append(row);
+    }
+    return json;
+}
+
+/// Returns the proof of the triangles that meet others.
+std::string proof_text(const Manifest::SelfCollision& told) {
+    std::string met =
+        told.not_covered.empty() ? "no crossing in any substep" : "no crossing of whole triangles in any substep";
     if (told.first_unproved == 0u)
         met = "not proved from frame 0 on: a cloth started through itself";
     else if (told.first_unproved)
@@ -110,6 +124,12 @@ std::string certificate_of(const Manifest::SelfCollision& told) {
     return "not proved from frame 0 on: cloths that started through each other do not meet; of the others: " + met;
 }
 
+std::string certificate_of(const Manifest::SelfCollision& told) {
+    if (told.not_covered.empty()) return proof_text(told);
+    return fmt::format("{}; not covered: {} that cutters split from frame {} on", proof_text(told),
+                       triangles_text(told.not_covered), told.not_covered.front().first_frame);
+}
+
 Json::Value self_collision_json(const Manifest::SelfCollision& told) {
     Json::Value json(Json::objectValue);
     for (const std::string& cloth : told.cloths) json["cloths"].append(cloth);
@@ -124,6 +144,7 @@ Json::Value self_collision_json(const Manifest::SelfCollision& told) {
     }
     if (told.apart_since) json["apart_since_frame"] = *told.apart_since;
     if (told.first_unproved) json["first_unproved_frame"] = *told.first_unproved;
+    if (!told.not_covered.empty()) json["not_covered"] = split_json(told.not_covered);
     json["most_pairs"] = told.most_pairs;
     json["motions_cut_short"] = Json::UInt64(told.truncated);
     json["longest_lag_m"] = told.longest_lag;
@@ -194,6 +215,13 @@ std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double>
     return Manifest::FrameTime{median, sorted.front(), sorted.back()};
 }
 
+std::string triangles_text(std::span<const Manifest::SplitTriangles> split) {
+    std::uint64_t count = 0;
+    for (const Manifest::SplitTriangles& each : split) count += each.count;
+    const std::string text = fmt::format("{} triangle{}", count, count == 1 ? "" : "s");
+    return split.size() == 1 ? fmt::format("{} of cloth '{}'", text, split.front().cloth) : text;
+}
+
 std::string utc_timestamp(std::chrono::system_clock::time_point time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
@@ -238,6 +266,7 @@ Json::Value frameless_json(const Manifest& manifest) {
     json["validation"]["enabled"] = manifest.validation.enabled;
     json["validation"]["messages"] = Json::UInt64(manifest.validation.message_count);
     if (manifest.self_collision) json["self_collision"] = self_collision_json(*manifest.self_collision);
+    if (!manifest.off_box_edges.empty()) json["box_edges"]["not_covered"] = split_json(manifest.off_box_edges);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);
@@ -281,6 +310,10 @@ static std::span<const JsonRule> manifest_rules() {
         {"/validation/messages", whole_number},
         {"/self_collision/proved", boolean},
         {"/self_collision/certificate", text},
+        {"/self_collision/not_covered", list},
+        {"/self_collision/not_covered/*/cloth", text},
+        {"/self_collision/not_covered/*/first_frame", whole_number},
+        {"/self_collision/not_covered/*/triangles", whole_number},
         {"/cuts", list},
         {"/cuts/*/cloth", text},
         {"/cuts/*/frame", whole_number},

@@ -75,10 +75,16 @@ struct Manifest {
         std::string reason;
         std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
+    struct SplitTriangles {  // of a cloth, by cutters: contact leaves them out
+        std::string cloth;
+        std::int64_t first_frame = 0;  // in which some are split
+        std::uint64_t count = 0;       // in the last frame
+    };
     struct SelfCollision {
         std::vector<std::string> cloths;              // names of cloths that meet themselves
         bool between_cloths = false;                  // all cloths meet each other
         std::optional<std::uint32_t> first_unproved;  // frame; nothing: no crossing in any substep
+        std::vector<SplitTriangles> not_covered;      // nothing is said of these; the earliest first
         std::uint32_t most_pairs = 0;                 // pairs that were near each other in a substep
         std::uint64_t truncated = 0;                  // motions cut short
         double longest_lag = 0;                       // m, the farthest that one was held back in a substep
@@ -121,6 +127,7 @@ struct Manifest {
     std::vector<Compromise> compromises;
     std::vector<std::string> warnings;  // the texts that were told, compromises among them
     std::optional<SelfCollision> self_collision;
+    std::vector<SplitTriangles> off_box_edges;  // edges of boxes are not kept off these; the earliest first
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     // Calls the visitor for every frame, in order, as a long run's are not all in memory. Null: there are none.
@@ -135,6 +142,9 @@ struct Manifest {
 
 // Returns median, minimum and maximum; nothing for no frames.
 std::optional<Manifest::FrameTime> summarize_frame_times(std::span<const double> milliseconds);
+
+// Returns "46 triangles of cloth 'flag'", or of several cloths "58 triangles".
+std::string triangles_text(std::span<const Manifest::SplitTriangles> split);
 
 // Returns a time as "2024-05-31T12:00:00Z".
 std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chrono::system_clock::now());

@@ -8,6 +8,7 @@
 #include "output/png_sequence.h"
 #include "output/progress.h"
 #include "run/checkpoints.h"
+#include "run/contact_proof.h"
 #include "run/frame_sink.h"
 #include "run/reproducer.h"
 #include "run/run.h"
@@ -285,31 +286,6 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
 /// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
 bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
 
-/// Returns the frame from which on cloths that started through each other are apart.
-std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
-    if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
-    return *told.last_crossed + 1;
-}
-
-std::optional<Manifest::SelfCollision> self_collision_of(const Simulation& simulation) {
-    const std::optional<SelfContactReport> told = simulation.self_contact();
-    if (!told) return {};
-    const std::vector<Cloth>& cloths = simulation.scene().cloths;
-    std::vector<std::string> names;
-    for (const Cloth& cloth : cloths)
-        if (cloth.self_collision) names.push_back(cloth.name);
-    std::vector<std::pair<std::string, std::string>> crossed;
-    for (const auto& [one, other] : told->crossed) crossed.emplace_back(cloths[one].name, cloths[other].name);
-    return Manifest::SelfCollision{names,
-                                   cloths.size() > 1,
-                                   told->first_unproved,
-                                   told->most_pairs,
-                                   told->truncated,
-                                   told->longest_lag,
-                                   crossed,
-                                   apart_since(*told, simulation)};
-}
-
 /// Simulates what is missing. Returns whether all is there.
 bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, const FrameRange& range) {
     const bool to_the_end = needs_every_frame(run.simulation.scene());
@@ -332,23 +308,6 @@ std::optional<std::string> missed_limits(const SimulationFacts& facts, const Run
         "the stretch error came to {:.3g} RMS and {:.3g} in a single spring; method auto would have kept {:.3g} and "
         "{:.3g}",
         rms, largest, facts.tolerance_rms, facts.tolerance_worst);
-}
-
-/// Returns what to tell a run whose cloths met and may have crossed; those that started so were told of before.
-std::optional<std::string> lost_proof(const Simulation& simulation) {
-    const std::optional<SelfContactReport> told = simulation.self_contact();
-    if (!told || !told->first_unproved || *told->first_unproved == 0) return std::nullopt;
-    return fmt::format(
-        "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
-        "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
-        *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
-}
-
-/// Returns what to tell a run whose cloths started through each other and did not come apart.
-std::optional<std::string> still_crossed(const Simulation& simulation) {
-    const std::optional<SelfContactReport> told = simulation.self_contact();
-    if (!told || !told->last_crossed || apart_since(*told, simulation)) return std::nullopt;
-    return "cloths that started through each other still are in the last frame";
 }
 
 /// While there is one.
@@ -479,7 +438,8 @@ RunSummary run_scene(const RunRequest& request) {
         for (const std::string& warning : simulation.verdict().warnings) warn(warning);
         manifest.warnings = summary.warnings;
         manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
-        manifest.self_collision = self_collision_of(simulation);
+        describe_contact(manifest, simulation, sink.cuts());
+        if (const auto note = left_out_of_contact(manifest)) say("note: " + *note);
         finish_files(sink, manifest, summary, failure);
     }
     summary.validation_count = earlier_validation + device.validation_count();

@@ -120,6 +120,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Kill{"ArraysTerminated", {"simulate", "--export", "npz", "-s", "4"}, {15}, SIGTERM}),
     [](const auto& each) { return std::string(each.param.name); });
 
+TEST(Checkpoint, KeepsWhatContactLeavesOut) {
+    const SceneFolder folder(eventful_scene(9000));
+    std::vector<std::string> arguments{"simulate", folder.scene(),
+                                       "--set",    "/cloths/1/self_collision=true",
+                                       "--set",    R"(/colliders/boxes=[{"half_extents": [0.1, 0.1, 0.1]}])"};
+    std::vector<std::string> into = arguments;
+    into.insert(into.end(), {"-o", folder.out()});
+    const std::string end = std::to_string(kill_after(20, folder, into) + 4);  // the cutters have done their work
+    into.insert(into.end(), {"--resume", "-e", end});
+    const Outcome resumed = drape(into);
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("meet no cloth and no edge of a box"));
+    const Json::Value manifest = lasting_manifest(folder.out());
+    EXPECT_EQ(manifest["self_collision"]["not_covered"].size(), 2u);
+    arguments.insert(arguments.end(), {"-e", end});
+    expect_whole(folder, arguments);
+}
+
 TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
     const SceneFolder folder(eventful_scene(9000));
     Running program(DRAPE_PROGRAM, {"render", folder.scene(), "-o", folder.out(), "-q"});

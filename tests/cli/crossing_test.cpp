@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "run/contact_proof.h"
 #include "scenes.h"
 
 namespace drape {
@@ -91,6 +92,63 @@ TEST(Crossings, OfAClothThatStartsThroughItselfLeaveNothingProved) {
     EXPECT_FALSE(contact["proved"].asBool());
     EXPECT_EQ(contact["certificate"].asString(), "not proved from frame 0 on: a cloth started through itself");
     EXPECT_EQ(drape({"check", folder.scene(), "--set", "/overlap=\"refuse\""}).code, 3);
+}
+
+const std::string cut_across_a_box = R"({"name": "cut", "time": {"frames": 13},
+"cloths": [{"name": "sheet", "grid": [9, 9], "self_collision": true,
+            "placement": {"origin": [-0.5, 0.5, -0.5], "v": [0, 0, 1]}}],
+"colliders": {"boxes": [{"half_extents": [0.3, 0.3, 0.3]}]},
+"cutters": [{"triangle": [[0.06, -9, -9], [0.03, -9, 9], [0.05, 9, 0]], "active": [0.075, 0.075]}],
+"solver": {"method": "line", "substeps": 4}})";
+
+TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
+    const SceneFolder folder(cut_across_a_box);
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    // The blade cuts in frame 5, and passes through 8 rows of cells, one triangle each at least.
+    const Json::Value manifest = lasting_manifest(folder / "out"), &contact = manifest["self_collision"];
+    ASSERT_EQ(manifest["cuts"].size(), 1u);
+    const Json::Value count = manifest["cuts"][0]["triangles"];
+    EXPECT_GE(count.asUInt(), 8u);
+    const std::string split = count.asString() + " triangles of cloth 'sheet' that cutters split from frame 6 on";
+    EXPECT_TRUE(contact["proved"].asBool());
+    EXPECT_EQ(contact["certificate"].asString(),
+              "no crossing of whole triangles in any substep; not covered: " + split);
+    for (const Json::Value& list : {contact["not_covered"], manifest["box_edges"]["not_covered"]}) {
+        ASSERT_EQ(list.size(), 1u);
+        EXPECT_EQ(list[0]["cloth"].asString(), "sheet");
+        EXPECT_EQ(list[0]["first_frame"].asInt(), 6);
+        EXPECT_EQ(list[0]["triangles"], count);
+    }
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a box; a finer grid"),
+                                   Not(HasSubstr("warning"))));
+    EXPECT_EQ(drape({"report", folder.out()}).code, 0);
+    EXPECT_THAT(read_text(folder / "out/report.html"),
+                HasSubstr("Not covered: " + count.asString() + " triangles of cloth 'sheet', from frame 6 on."));
+}
+
+TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
+    const SceneFolder folder(cut_across_a_box);
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "-e", "5"});
+    const Json::Value manifest = lasting_manifest(folder / "out");
+    EXPECT_EQ(manifest["cuts"].size(), 1u);
+    EXPECT_EQ(manifest["self_collision"]["certificate"].asString(), "no crossing in any substep");
+    EXPECT_FALSE(manifest.isMember("box_edges"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("note: ")));
+}
+
+TEST(Crossings, AreCountedByClothFromTheFirstFrameOn) {
+    const std::vector<Manifest::Cut> cuts{
+        {3, "a", 2, 0, 0}, {4, "b", 9, 5, 0}, {7, "a", 3, 1, 0}, {8, "b", 9, 6, 0}, {9, "a", 3, 4, 0}};
+    const auto split = split_triangles(cuts, 9);
+    ASSERT_EQ(split.size(), 2u);
+    EXPECT_EQ(split[0].cloth, "b");
+    EXPECT_EQ(split[0].first_frame, 5);
+    EXPECT_EQ(split[0].count, 11u);
+    EXPECT_EQ(split[1].first_frame, 8);
+    EXPECT_EQ(split[1].count, 1u) << "the cut of the last frame acts after it";
+    EXPECT_EQ(triangles_text(split), "12 triangles");
+    EXPECT_TRUE(split_triangles(cuts, 4).empty());
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ const std::map<std::string, Kind>& kinds() {
         {"twist", {3, [](const Numbers& n) { return twisted_strip(n[0], n[1], n[2]); }, "CELLS FRAMES SUBSTEPS"}},
         {"wrung", {1, [](const Numbers& n) { return wrung_strip(n[0]); }, "FRAMES"}},
         {"fold", {3, [](const Numbers& n) { return folding_sheet(n[0], n[1], n[2]); }, "PARTICLES FRAMES SUBSTEPS"}},
+        {"cut", {3, [](const Numbers& n) { return cut_folds(n[0], n[1], n[2]); }, "PARTICLES FRAMES SUBSTEPS"}},
         {"stack",
          {5, [](const Numbers& n) { return falling_stack(n[0], n[1], n[2], n[3], n[4]); },
           "SHEETS PARTICLES FRAMES SUBSTEPS APART_MM"}},

@@ -34,6 +34,14 @@ std::string key(double time, double along, double degrees) {
     return fmt::format(R"({{"t": {}, "translate": [{}, 0, 0], "rotate": [{}, 0, 0]}})", time, along, degrees);
 }
 
+/// An upright sheet of n x n particles that falls on its lower edge.
+std::string folding_parts(std::uint32_t n) {
+    return fmt::format(R"("cloths": [{{"name": "sheet", "grid": [{0}, {0}],
+  "placement": {{"origin": [-0.5, 1.05, 0], "u": [1, 0, 0.02], "v": [-0.001, -1, 0.05]}}, {1}, "damping": 1,
+  "self_collision": {{"thickness": {2}}}}}], "colliders": {{"planes": [{{"friction": 0.6}}]}})",
+                       n, limp, 0.5 / (n - 1));
+}
+
 }  // namespace
 
 std::string twisted_strip(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
@@ -65,11 +73,13 @@ std::string wrung_strip(std::uint32_t frames) {
 }
 
 std::string folding_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
-    return scene("fold", frames, substeps,
-                 fmt::format(R"("cloths": [{{"name": "sheet", "grid": [{0}, {0}],
-  "placement": {{"origin": [-0.5, 1.05, 0], "u": [1, 0, 0.02], "v": [-0.001, -1, 0.05]}}, {1}, "damping": 1,
-  "self_collision": {{"thickness": {2}}}}}], "colliders": {{"planes": [{{"friction": 0.6}}]}})",
-                             n, limp, 0.5 / (n - 1)));
+    return scene("fold", frames, substeps, folding_parts(n));
+}
+
+std::string cut_folds(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
+    // The blade is far larger than the folds, and aslant, so that it splits triangles of every layer.
+    return scene("cut folds", frames, substeps, folding_parts(n) + R"(,
+ "cutters": [{"triangle": [[-0.1, -1, -3], [0.25, -1, 3], [0.1, 5, 0]], "active": [0.7, 0.7]}])");
 }
 
 std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps,

@@ -16,6 +16,9 @@ std::string wrung_strip(std::uint32_t frames);
 /// A sheet of n x n particles falls on its lower edge, so that it folds to and fro on the ground.
 std::string folding_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
 
+/// The same sheet, which a blade cuts in two after 0.7 s, while it folds.
+std::string cut_folds(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
+
 /// Sheets of n x n particles, so far apart, each turned against the one below, fall onto a ball and each other.
 std::string falling_stack(std::uint32_t count, std::uint32_t n, std::uint32_t frames, std::uint32_t substeps,
                           std::uint32_t apart_mm);

@@ -82,5 +82,29 @@ TEST(SceneOracleNameTest, EveryCheckThatAFileMayNameIsJudged) {
     EXPECT_THROW(verify::judge(run, {"looks_nice", {}}), std::invalid_argument);
 }
 
+/// An upright cloth stands beside a lying one, and through it in the frame `crossed` alone; in frame 1 a cutter has
+/// split all of the upright one.
+verify::SceneRun cut_in_frame_1(std::size_t crossed) {
+    SceneDescription scene;
+    scene.cloths = {Cloth{.name = "lying", .grid = {2, 2}}, Cloth{.name = "upright", .grid = {2, 2}}};
+    verify::SceneRun run{scene, {}, {}};
+    for (std::size_t frame = 0; frame < 3; ++frame) {
+        const float x = frame == crossed ? 0.3f : 2.0f;
+        run.frames.push_back({{{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {1, 0, 1, 1}},
+                              {{x, -1, 0.2f, 1}, {x, -1, 0.7f, 1}, {x, 1, 0.2f, 1}, {x, 1, 0.7f, 1}}});
+    }
+    const std::vector<std::uint32_t> whole{0, 1, 2, 1, 3, 2};
+    run.cuts = {{0, 0, 0, 1, 0, 1, whole}, {0, 1, 0, 1, 0, 1, whole}, {1, 1, 4, 4, 0, 1, {}}};
+    return run;
+}
+
+TEST(SceneOracleUncrossedTest, CountsTrianglesToTheEndOfTheFrameThatSplitsThem) {
+    EXPECT_FALSE(verify::judge(cut_in_frame_1(0), {"uncrossed", {}}).met);
+    EXPECT_FALSE(verify::judge(cut_in_frame_1(1), {"uncrossed", {}}).met);
+    const verify::Verdict after = verify::judge(cut_in_frame_1(2), {"uncrossed", {}});
+    EXPECT_TRUE(after.met) << after.text;
+    EXPECT_TRUE(after.text.ends_with("; 2 that cutters split do not count")) << after.text;
+}
+
 }  // namespace
 }  // namespace drape

@@ -151,6 +151,10 @@ std::string status(const RunFolder& run) {
     if (const Json::Value& contact = manifest["self_collision"]; !contact.isNull())
         html += fmt::format("<h2>Certificate</h2>\n<p class=\"{}\">{}</p>\n",
                             contact["proved"].asBool() ? "good" : "bad", xml_text(contact["certificate"].asString()));
+    for (const Json::Value& split : manifest["self_collision"]["not_covered"])
+        html += fmt::format("<p>Not covered: {} triangles of cloth '{}', from frame {} on.</p>\n",
+                            split["triangles"].asUInt64(), xml_text(split["cloth"].asString()),
+                            split["first_frame"].asInt64());
     return html;
 }
 

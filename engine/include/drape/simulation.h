@@ -71,6 +71,7 @@ struct SimulationFacts {
 struct SelfContactReport {
     /// The frame in which a held particle first moved so that a crossing could not be ruled out, or cloth touched; 0
     /// where a cloth started through itself. Nothing: no triangle that meets another passed through it in any substep.
+    /// Those that cutters split meet none (SimulationOptions::on_cut tells of them).
     std::optional<std::uint32_t> first_unproved;
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, that were near each other
     std::uint64_t truncated = 0;   ///< motions that were cut short because they would have crossed

@@ -1,0 +1,91 @@
+#include "run/contact_proof.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/contact_shape.h"
+
+namespace drape {
+
+namespace {
+
+/// Returns the frame from which on cloths that started through each other are apart.
+std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
+    if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
+    return *told.last_crossed + 1;
+}
+
+Manifest::SelfCollision self_collision_of(const Simulation& simulation, const SelfContactReport& told) {
+    const std::vector<Cloth>& cloths = simulation.scene().cloths;
+    Manifest::SelfCollision proof{.cloths = {},
+                                  .between_cloths = cloths.size() > 1,
+                                  .first_unproved = told.first_unproved,
+                                  .not_covered = {},
+                                  .most_pairs = told.most_pairs,
+                                  .truncated = told.truncated,
+                                  .longest_lag = told.longest_lag,
+                                  .crossed = {},
+                                  .apart_since = apart_since(told, simulation)};
+    for (const Cloth& cloth : cloths)
+        if (cloth.self_collision) proof.cloths.push_back(cloth.name);
+    for (const auto& [one, other] : told.crossed) proof.crossed.emplace_back(cloths[one].name, cloths[other].name);
+    return proof;
+}
+
+bool meets_box_edges(const SceneDescription& scene, const std::string& name) {
+    const auto cloth = std::ranges::find(scene.cloths, name, &Cloth::name);
+    return cloth != scene.cloths.end() && meets_box_edges(*cloth, scene.colliders);
+}
+
+}  // namespace
+
+std::vector<Manifest::SplitTriangles> split_triangles(std::span<const Manifest::Cut> cuts, std::int64_t last) {
+    std::vector<Manifest::SplitTriangles> all;
+    for (const Manifest::Cut& cut : cuts) {
+        if (cut.triangle_count == 0 || cut.frame >= last) continue;
+        auto found = std::ranges::find(all, cut.cloth, &Manifest::SplitTriangles::cloth);
+        if (found == all.end()) found = all.insert(all.end(), {cut.cloth, cut.frame + 1, 0});
+        found->count += cut.triangle_count;
+    }
+    return all;
+}
+
+void describe_contact(Manifest& manifest, const Simulation& simulation, std::span<const Manifest::Cut> cuts) {
+    const std::vector<Manifest::SplitTriangles> split = split_triangles(cuts, manifest.frames.end);
+    if (const std::optional<SelfContactReport> told = simulation.self_contact()) {
+        manifest.self_collision = self_collision_of(simulation, *told);
+        manifest.self_collision->not_covered = split;
+    }
+    for (const Manifest::SplitTriangles& each : split)
+        if (meets_box_edges(simulation.scene(), each.cloth)) manifest.off_box_edges.push_back(each);
+}
+
+std::optional<std::string> left_out_of_contact(const Manifest& manifest) {
+    const bool of_cloths = manifest.self_collision && !manifest.self_collision->not_covered.empty();
+    const bool of_edges = !manifest.off_box_edges.empty();
+    if (!of_cloths && !of_edges) return std::nullopt;
+    const auto& split = of_cloths ? manifest.self_collision->not_covered : manifest.off_box_edges;
+    return fmt::format("{} that cutters split from frame {} on {}; a finer grid makes the strip of them narrower",
+                       triangles_text(split), split.front().first_frame,
+                       of_cloths && of_edges ? "meet no cloth and no edge of a box"
+                       : of_cloths           ? "meet no cloth"
+                                             : "meet no edge of a box");
+}
+
+std::optional<std::string> lost_proof(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->first_unproved || *told->first_unproved == 0) return std::nullopt;
+    return fmt::format(
+        "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
+        "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
+        *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
+}
+
+std::optional<std::string> still_crossed(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->last_crossed || apart_since(*told, simulation)) return std::nullopt;
+    return "cloths that started through each other still are in the last frame";
+}
+
+}  // namespace drape
