@@ -7,39 +7,65 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
+#include "cloth/statistics_transfer.h"
 #include "drape/statistics.h"
 
 namespace drape {
 
 /// Contact keeps particles out of every collider, however fast. What is drawn between them it keeps out
-/// - of a box if nothing near it goes farther in a substep than half of what the box measures at its thinnest and the
-///   thickness, because edges meet edges only where they end;
+/// - of a box if nothing near it goes farther in a substep than half of what the box measures at its thinnest, because
+///   edges meet edges only where they end, and at no thickness, and no spring is stretched by more than half, or the
+///   cloth is so thick that its particles keep it out;
+/// - of a collider that turns if it turns by less than 0.2 radians in a substep, since an arc is no straight way;
 /// - of round colliders if no triangle of the cloth is so wide that the collider fits between its corners.
 /// It is judged by a frame's statistics: the fastest particle at its begin and end, the longest spring, and a ball
 /// about the centre of mass that holds the cloth. So what is far from the cloth is left out, and nothing is read back
 /// for it.
+struct Passage {
+    enum class By : std::uint8_t { way, turn, hole };
+    By by = By::way;
+    std::uint32_t frame = 0, cloth = 0, collider = 0;
+    double found = 0, kept = 0;  ///< m, of a turn radians: what there was, and up to which contact is sure
+};
+
+/// Returns by how much the ways and turns of a frame's substeps exceed what contact is sure of, found over kept of the
+/// worst; 0 where nothing is near. More substeps lessen it, unlike a hole. `before`: statistics of the frame's begin.
+double passage_judgement(const SimulationModel& model, std::uint32_t frame, std::uint32_t substeps,
+                         std::span<const ClothStatistics> before, std::span<const ClothStatistics> now);
+
+/// Returns of the statistics of frame 0, known without a device, those that the above asks for.
+std::vector<ClothStatistics> starting_statistics(const SimulationModel& model);
+
 class PassageWatch {
   public:
-    explicit PassageWatch(const SimulationModel& model);
+    /// `model` must outlive this.
+    explicit PassageWatch(const SimulationModel& model) : model_(model) {}
     /// Frames come in order; `substeps`: those of this frame.
     void look(std::uint32_t frame, std::uint32_t substeps, std::span<const ClothStatistics> cloths);
     /// Returns what to tell the run; nothing if contact kept its bounds in every frame seen.
     std::optional<std::string> text() const;
 
-  private:
-    struct Passage {
-        std::uint32_t frame;
-        std::size_t cloth, collider;
-        double way, kept;  ///< m: what went by, or the widest hole, and what contact allows
-        bool by_way;       ///< else a triangle is too wide
-    };
-    std::optional<Passage> passage(std::uint32_t frame, std::uint32_t substeps, std::size_t cloth,
-                                   const ClothStatistics& before, const ClothStatistics& now) const;
+    /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
+    /// was read is nothing that it can come to.
+    template <class Archive>
+    bool transfer(Archive& archive) {
+        bool seen = !last_.empty();
+        auto by = static_cast<std::uint8_t>(first_.by);
+        archive(last_frame_, frames_, seen, by, first_.frame, first_.cloth, first_.collider, first_.found, first_.kept);
+        first_.by = static_cast<Passage::By>(by);
+        last_.resize(seen ? model_.cloths.size() : 0);
+        for (ClothStatistics& cloth : last_) transfer_statistics(archive, cloth);
+        const bool told =
+            frames_ == 0 || (first_.cloth < model_.cloths.size() && first_.collider < model_.scene.colliders.size());
+        return told && by <= static_cast<std::uint8_t>(Passage::By::hole);
+    }
 
+  private:
     const SimulationModel& model_;
     std::vector<ClothStatistics> last_;  ///< of the frame seen last; empty before the first
-    std::uint32_t last_frame_ = 0, frames_ = 0;
-    std::optional<Passage> first_;
+    std::uint32_t last_frame_ = 0;
+    std::uint32_t frames_ = 0;  ///< in which something may have passed
+    Passage first_;             ///< means nothing while there are none
 };
 
 }  // namespace drape

@@ -49,7 +49,7 @@ std::size_t SubstepControl::rung_of(double substeps) const {
 const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     if (eventful) interval_ = 1;
     if (eventful) until_probe_ = 0;
-    tried_ = eventful ? std::min(rung_ + 2, rungs_.size() - 1) : rung_;
+    tried_ = std::max(eventful ? std::min(rung_ + 2, rungs_.size() - 1) : rung_, passage_rung_);
     const bool probes = until_probe_ == 0 && room >= 2 && !resolves_;
     began_ = rung_;
     before_ = {};
@@ -62,9 +62,11 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
+    passage_rung_ = rung_of(judgement.passage * segment_.substeps);
     if (turned_back_) return accept_unpredictable(judgement, tried_);
-    if (segment_.probes) learn_order(judgement);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
+    if (worst <= 1 && passes(judgement)) return keep_out(judgement);
+    if (segment_.probes) learn_order(judgement);
     if (worst <= 1) {
         succeed(judgement);
         return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
@@ -87,6 +89,18 @@ bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
     return !hopeless_ && segment_.probes && judgement.stretch <= 1 && std::isfinite(judgement.motion);
 }
 
+/// Returns whether something drawn may pass a collider that more substeps would stop. An attempt with a quarter of the
+/// top's looks at the motion alone.
+bool SubstepControl::passes(const Judgement& judgement) const {
+    return judgement.passage > 1 && !at_top() && top_motion_ == 0;
+}
+
+/// Takes the substeps at which nothing passes. They are known at once, and say nothing of what other frames need.
+SubstepControl::Verdict SubstepControl::keep_out(const Judgement& judgement) {
+    constexpr double margin = 1.2;  // what is followed more finely may be faster
+    return try_again_with(std::max(tried_ + 1, rung_of(margin * judgement.passage * segment_.substeps)));
+}
+
 SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
     tried_ = rung;
     segment_.substeps = rungs_[tried_];
@@ -96,7 +110,8 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
 /// Returns whether more substeps made nonsense of what with fewer only moved too inexactly: the strain that a long step
 /// leaves in rigid cloth becomes speed when the step shrinks a hundredfold.
 bool SubstepControl::turn_back(const Judgement& judgement) {
-    const bool only_motion = judgement.plausible && judgement.stretch <= 1 && std::isfinite(judgement.motion);
+    const bool only_motion =
+        judgement.plausible && judgement.stretch <= 1 && std::isfinite(judgement.motion) && !passes(judgement);
     if (only_motion) only_motion_failed_ = tried_;
     turned_back_ = !judgement.plausible && only_motion_failed_.has_value();
     return turned_back_;
@@ -127,6 +142,7 @@ bool SubstepControl::hardly_fell(const Judgement& judgement) const {
 /// Returns whether four times the substeps or more have hardly reduced it.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
+    if (passes(judgement)) return false;
     return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
 }
 

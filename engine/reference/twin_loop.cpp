@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "cloth/passage_watch.h"
 #include "cloth/texels.h"
 #include "reference/kernels.h"
 #include "reference/statistics.h"
@@ -91,19 +92,23 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     };
     const auto run = [&](Twin& twin, std::uint32_t k, std::uint32_t substeps) {
         twin.run_frame(frame + k);
-        const std::vector<ClothStatistics> found = statistics(twin, frame + k, at(substeps));
-        attempt_statistics_.push_back(found);
-        return std::pair(stretch_judgement(model_, found), watch_.excess(frame + k, found));
+        attempt_statistics_.push_back(statistics(twin, frame + k, at(substeps)));
+        return stretch_judgement(model_, attempt_statistics_.back());
     };
     Twin coarse = begin(segment.probes ? segment.substeps / 2 : segment.substeps), fine = begin(segment.substeps);
     for (std::uint32_t k = 0; segment.probes && k < segment.frame_count; ++k)
-        judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2).first);
+        judgement.coarse_stretch = std::max(judgement.coarse_stretch, run(coarse, k, segment.substeps / 2));
     attempt_statistics_.clear();  // the coarse run's are of no use
     for (std::uint32_t k = 0; k < segment.frame_count; ++k) {
-        const auto [stretch, implausible] = run(fine, k, segment.substeps);
+        const double stretch = run(fine, k, segment.substeps);
+        const std::vector<ClothStatistics>& found = attempt_statistics_.back();
+        const double implausible = watch_.excess(frame + k, found);
+        judgement.passage =
+            std::max(judgement.passage, passage_judgement(model_, frame + k, segment.substeps,
+                                                          k == 0 ? before_ : attempt_statistics_[k - 1], found));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch, implausible});
-        if (judgement.stretch > 1 && !control_.at_top()) return judgement;
+        if (control_.fails(judgement)) return judgement;
         frames.push_back(fine);
     }
     if (segment.probes) judgement.motion = motion(fine, coarse);
@@ -118,6 +123,7 @@ void TwinLoop::run(std::uint32_t last,
             finished(next_++, state_, {.attempts = 0, .asleep = true});
             continue;
         }
+        before_ = attempt_statistics_.empty() ? starting_statistics(model_) : attempt_statistics_.back();
         control_.begin(probe_room(model_, next_), drive_.eventful(next_));
         if (control_.segment().probes) drive_.probed(next_, control_.segment().frame_count);
         FrameEffort effort{.attempts = 0};

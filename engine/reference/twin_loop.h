@@ -39,6 +39,7 @@ class TwinLoop {
     Sleep sleep_;
     Drive drive_;
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
+    std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
     Twin state_;
     std::uint32_t next_ = 1, state_substeps_;
     double motion_error_ = 0;

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "cloth/impossible_pins.h"
+#include "cloth/passage_watch.h"
 #include "cloth/substep_change.h"
 #include "simulation/frame_loop.h"
 
@@ -117,13 +118,16 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
         submit_run(slot, run, attempt, asked);
         deliver(next_slot_, finished);  // hands out the frame before while this one is simulated
         judged = take_judged(slot, run.substeps);
+        judgement.passage = std::max(
+            judgement.passage, passage_judgement(model_, frame, run.substeps,
+                                                 k == 0 ? before_ : attempt_statistics_.back(), judged.statistics));
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_record);
         const double implausible =
             std::max(watch_.excess(frame, judged.statistics), solver_.self_list_use(judged.self_record));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
-        if (judgement.stretch > 1 && !control_->at_top()) return judged;
+        if (control_->fails(judgement)) return judged;
         if (!segment.probes) return judged;
         if (last) judgement.motion = motion_of(slot);
         submit_output(frame, judged, frame > asked.last || asked.wanted(frame), withhold_);
@@ -175,6 +179,7 @@ bool FrameLoop::simulate_unless_stopped(std::uint32_t frame, const Asked& asked)
 
 void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     if (sleep_.asleep(frame)) return sleep_through(frame, asked);
+    before_ = attempt_statistics_.empty() ? starting_statistics(model_) : attempt_statistics_.back();
     const Segment& begun = control_->begin(probe_room(model_, frame), drive_.eventful(frame));
     if (begun.probes) drive_.probed(frame, begun.frame_count);
     if (begun.probes) deliver_all(asked.finished);  // then only withheld frames are in flight

@@ -235,6 +235,7 @@ class FrameLoop {
     Sleep sleep_;
     Drive drive_;
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
+    std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
     std::vector<glsl::SelfRecord>
         attempt_self_records_;    ///< per frame of the last attempt, in order, like the statistics
     glsl::SelfRecord fullest_{};  ///< most entries of every list in the last attempt

@@ -8,6 +8,7 @@
 
 #include "base/byte_stream.h"
 #include "cloth/directions.h"
+#include "cloth/statistics_transfer.h"
 #include "cloth/texels.h"
 #include "scene/frame_limit.h"
 #include "simulation/frame_loop.h"
@@ -20,22 +21,6 @@ constexpr const char* loop_part = "loop";
 constexpr std::string_view field_prefix = "field/";
 
 std::string cuts_part(const ClothModel& cloth) { return "cuts/" + cloth.name; }
-
-template <class Archive, class Strain>
-void transfer_strain(Archive& archive, Strain& strain) {
-    archive(strain.spring_count, strain.rms, strain.largest, strain.smallest);
-}
-
-/// Transfers the last frame's statistics, which a sleeping one repeats.
-template <class Archive>
-void transfer_statistics(Archive& archive, ClothStatistics& s) {
-    transfer_strain(archive, s.stretch);
-    transfer_strain(archive, s.shear);
-    archive(s.stretch_error_rms, s.stretch_error_max, s.kinetic_energy, s.potential_energy, s.elastic_energy, s.mass,
-            s.center_of_mass[0], s.center_of_mass[1], s.center_of_mass[2], s.penetration, s.largest_distance,
-            s.largest_speed, s.iteration_count, s.non_finite_count, s.first_non_finite, s.farthest, s.fastest,
-            s.deepest, s.most_stretched);
-}
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("the saved state is not of this scene: " + why); }
 
@@ -63,6 +48,7 @@ void FrameLoop::transfer(Archive& archive) {
     bool has_statistics = !attempt_statistics_.empty();
     archive(has_statistics);
     if (!has_statistics) return attempt_statistics_.clear();
+    // A sleeping frame repeats the last one's, and its successor's ways begin there.
     if (attempt_statistics_.empty()) attempt_statistics_.emplace_back(model_.cloths.size());
     for (ClothStatistics& statistics : attempt_statistics_.back()) transfer_statistics(archive, statistics);
 }

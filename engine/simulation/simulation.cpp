@@ -163,7 +163,31 @@ const SceneDescription& checked(const SceneDescription& scene) {
 
 }  // namespace
 
+namespace {
+
 constexpr const char* watch_part = "watch";
+constexpr const char* passages_part = "passages";
+
+template <class Kept>
+std::vector<std::byte> written(Kept& kept) {
+    ByteWriter writer;
+    kept.transfer(writer);
+    return writer.take();
+}
+
+/// Returns what a part of a saved state holds. Throws Error where it is not one of this model.
+template <class Kept>
+ByteReader checked_part(const SimulationState& state, const char* name, const SimulationModel& model) {
+    const auto part = state.find(name);
+    if (part == state.end())
+        throw Error(fmt::format("the saved state is not of this scene: it has no part '{}'", name));
+    ByteReader reader(part->second);
+    if (!Kept(model).transfer(reader) || reader.left() > 0)
+        throw Error(fmt::format("the saved state is not of this scene: its part '{}' is of something else", name));
+    return ByteReader(part->second);
+}
+
+}  // namespace
 
 struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
@@ -289,20 +313,17 @@ bool Simulation::can_save() const { return parts_->loop.can_save(); }
 
 SimulationState Simulation::save() const {
     SimulationState state = parts_->loop.save();
-    ByteWriter writer;
-    parts_->watch.transfer(writer);
-    state[watch_part] = writer.take();
+    state[watch_part] = written(parts_->watch);
+    state[passages_part] = written(parts_->passages);
     return state;
 }
 
 void Simulation::restore(const SimulationState& state) {
-    const auto part = state.find(watch_part);
-    if (part == state.end()) throw Error("the saved state is not of this scene: it has no part 'watch'");
-    ByteReader reader(part->second), again(part->second);
-    if (!Watch(parts_->model).transfer(reader) || reader.left() > 0)
-        throw Error("the saved state is not of this scene: its part 'watch' is of something else");
+    ByteReader watch = checked_part<Watch>(state, watch_part, parts_->model);
+    ByteReader passages = checked_part<PassageWatch>(state, passages_part, parts_->model);
     parts_->loop.restore(state);
-    parts_->watch.transfer(again);
+    parts_->watch.transfer(watch);
+    parts_->passages.transfer(passages);
     if (parts_->pictures) parts_->pictures->follow(parts_->loop.topologies());
 }
 

@@ -177,6 +177,46 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_EQ(verdict, Verdict::give_up);
 }
 
+/// Judges frames whose only trouble is that at fewer substeps than that something drawn may pass a collider.
+std::uint32_t substeps_taken(SubstepControl& loop, double needed, std::uint32_t& attempts) {
+    loop.begin(1, false);
+    Verdict verdict = Verdict::again;
+    for (attempts = 0; verdict == Verdict::again; ++attempts)
+        verdict = loop.judge({.stretch = 0.5, .passage = needed / loop.segment().substeps});
+    EXPECT_EQ(verdict, Verdict::keep);
+    return loop.segment().substeps;
+}
+
+TEST(SubstepControl, WhatPassesAColliderTakesItsSubstepsAndOtherFramesTakeTheirs) {
+    SubstepControl loop = control(8);
+    std::uint32_t attempts = 0;
+    EXPECT_EQ(substeps_taken(loop, 7.9, attempts), 8u);
+    EXPECT_EQ(substeps_taken(loop, 600, attempts), 768u);
+    EXPECT_EQ(attempts, 2u) << "what it takes is known";
+    EXPECT_EQ(substeps_taken(loop, 550, attempts), 768u);
+    EXPECT_EQ(attempts, 1u) << "the next frame will take as many";
+    substeps_taken(loop, 0, attempts);
+    EXPECT_EQ(substeps_taken(loop, 0, attempts), 8u);
+}
+
+TEST(SubstepControl, WhatPassesAColliderEvenAtTheTopIsKept) {
+    SubstepControl loop = control(8);
+    std::uint32_t attempts = 0;
+    EXPECT_EQ(substeps_taken(loop, 1e6, attempts), 4096u);
+    EXPECT_EQ(attempts, 2u);
+}
+
+TEST(SubstepControl, AProbeInWhichSomethingMayPassIsDoneAgain) {
+    SubstepControl loop = control(8);
+    loop.begin(6, false);
+    ASSERT_TRUE(loop.segment().probes);
+    EXPECT_TRUE(loop.fails({.passage = 1.2}));
+    EXPECT_EQ(loop.judge({.passage = 1.2}), Verdict::again);
+    EXPECT_EQ(loop.segment().substeps, 12u);
+    EXPECT_FALSE(loop.fails({.passage = 1}));
+    EXPECT_EQ(loop.judge({.stretch = 0.5, .motion = 0.9, .coarse_stretch = 0.9, .passage = 1}), Verdict::keep);
+}
+
 TEST(SubstepControl, BeginsWithTheSubstepsThatTheLawProposes) {
     for (const std::uint32_t proposed : {4u, 8u, 32u})
         EXPECT_EQ(control(proposed).begin(6, false).substeps, first_rung(row_of(SolverMethod::line), proposed));

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
@@ -15,37 +14,12 @@
 #include "scene/surface_distance.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "support/throws.h"
 
 namespace drape {
 namespace {
 
-struct Random {
-    std::mt19937 engine;
-    double uniform(double from, double to) { return std::uniform_real_distribution(from, to)(engine); }
-    double log_uniform(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
-    Vec3 in_cube(double half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
-    Vec3 direction() {
-        Vec3 v = in_cube(1);
-        while (!(length(v) > 0.1 && length(v) < 1)) v = in_cube(1);
-        return unit_of(v);
-    }
-};
-
-/// Returns a shelf, rod, ball, plate or tapered capsule about the origin whose thinnest part is `thin` m thick.
-Collider thin_collider(Random& random, double thin) {
-    const double half = thin / 2;
-    const auto wide = [&] { return random.uniform(0.15, 0.6); };
-    const ColliderShape shapes[] = {Sphere{{0, 0, 0}, half},
-                                    Box{{0, 0, 0}, {wide(), half, wide()}},
-                                    Box{{0, 0, 0}, {half, wide(), half}},
-                                    Ellipsoid{{0, 0, 0}, {wide(), half, wide()}},
-                                    Capsule{{-wide(), 0, 0}, {wide(), 0, 0}, {half, half}},
-                                    Capsule{{0, -wide(), 0}, {0, wide(), 0}, {half, half * random.uniform(2, 20)}}};
-    Collider collider{shapes[std::uniform_int_distribution(0, 5)(random.engine)]};
-    collider.rotate = {random.uniform(0, 360), random.uniform(0, 360), random.uniform(0, 360)};
-    collider.friction = random.uniform(0, 1);
-    return collider;
-}
+using test::Random;
 
 /// Returns the least distance to a collider of what goes straight, in its frame, from one place to another while the
 /// collider goes from its pose at one time to that at another; m.
@@ -80,7 +54,7 @@ TEST(PassageTest, AParticleThatGoesFarIsHeldOnTheSideThatItCameFrom) {
     int held = 0, missed = 0;
     double deepest = 0;
     for (int i = 0; i < 6000; ++i) {
-        Collider collider = thin_collider(random, random.log_uniform(5e-4, 3e-2));
+        Collider collider = test::thin_collider(random, random.log_uniform(5e-4, 3e-2));
         const double turn = i % 2 == 0 ? 0 : random.uniform(-40, 40);
         const Vec3 shift = i % 3 == 0 ? Vec3{} : random.in_cube(1);
         collider.path = {{{0, {0, 0, 0}, {0, 0, 0}}, {1, shift, {turn, -turn, turn / 2}}}};
@@ -107,115 +81,13 @@ TEST(PassageTest, AParticleThatGoesFarIsHeldOnTheSideThatItCameFrom) {
     EXPECT_GT(missed, 1000);
 }
 
-/// A sheet and a collider thrown at each other, one substep a frame, so that every substep can be judged.
-SceneDescription thrown(Random& random, double speed, std::uint32_t most_columns) {
-    const auto columns = static_cast<std::uint32_t>(std::lround(random.log_uniform(5, most_columns)));
-    SceneDescription scene = test::sheet(columns, columns, 0.8, 0.8, 1);
-    Cloth& cloth = scene.cloths[0];
-    cloth.thickness = random.log_uniform(1e-3, 1e-2);
-    const SolverMethod methods[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
-    scene.solver.method = methods[std::uniform_int_distribution(0, 2)(random.engine)];
-    // Half of the throws go so slowly for their substeps that nothing may pass, if the cloth does not tear open.
-    const bool slow = random.uniform(0, 1) < 0.5;
-    const double thin = slow ? random.uniform(1e-2, 3e-2) : random.log_uniform(5e-4, 3e-2);
-    const double way = slow ? random.uniform(0.2, 0.75) * (thin / 2 + cloth.thickness) : random.log_uniform(5e-3, 0.7);
-    if (slow) speed = std::min(speed, random.log_uniform(1, 20));
-    scene.time.fps = std::min(speed / way, 10000.0);
-    const bool cloth_moves = random.uniform(0, 1) < 0.3;
-    const Vec3 u = random.direction();
-    Vec3 v = random.direction();
-    v = unit_of(minus(v, times(dot(u, v), u)));
-    cloth.placement = {plus(times(-0.4, plus(u, v)), random.in_cube(0.05)), u, v};
-    scene.gravity = {0, 0, 0};
-    Collider collider = thin_collider(random, thin);
-    const Vec3 normal = cross(u, v);
-    const double ahead = 0.7 + random.uniform(1, 2) * way;
-    const double until = 2 * ahead / speed;
-    const double turn = random.uniform(0, 1) < 0.5 ? 0 : random.uniform(-90, 90);
-    if (cloth_moves) {  // the same fall, the cloth pulled at the collider
-        scene.gravity = times(speed * speed / (2 * ahead), normal);
-        collider.path = {{{0, times(ahead, normal), {0, 0, 0}}, {until, times(ahead, normal), {turn, turn, 0}}}};
-        scene.time.frame_count = static_cast<std::uint32_t>(std::ceil(2.2 * ahead / speed * scene.time.fps)) + 4;
-    } else {
-        collider.path = {{{0, times(ahead, normal), {0, 0, 0}}, {until, times(-ahead, normal), {turn, turn, 0}}}};
-        scene.time.frame_count = static_cast<std::uint32_t>(std::ceil(until * scene.time.fps)) + 4;
-    }
-    scene.colliders = {collider};
-    return scene;
-}
-
-/// Returns points in the middle of a collider, in its frame: whatever passes through it passes by most of them.
-std::vector<Vec3> middle_of(const Collider& collider) {
-    const Vec3 size = shape_geometry(collider.shape).size;
-    if (collider.kind() == glsl::kind_sphere) return {{0, 0, 0}};
-    std::vector<Vec3> points;
-    const bool rod = collider.kind() == glsl::kind_capsule;
-    for (int i = -2; i <= 2; ++i)
-        for (int j = rod ? 0 : -2; j <= (rod ? 0 : 2); ++j) {
-            const double u = 0.4 * i, v = 0.4 * j;
-            if (collider.kind() == glsl::kind_ellipsoid && std::hypot(u, v) > 0.9) continue;
-            if (rod)
-                points.push_back({0, u * size[0], 0});
-            else if (size[0] < size[1])
-                points.push_back({0, u * size[1], v * size[2]});
-            else
-                points.push_back({u * size[0], 0, v * size[2]});
-        }
-    return points;
-}
-
-using Corners = std::array<Vec3, 3>;
-
-/// Returns whether a triangle that goes straight from one place to another passes over a point.
-bool passes_over(const Vec3& point, const Corners& from, const Corners& to) {
-    const auto at = [&](double share) {
-        Corners corners;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = minus(plus(times(1 - share, from[k]), times(share, to[k])), point);
-        return corners;
-    };
-    const auto volume = [&](double share) {
-        const Corners c = at(share);
-        return dot(c[0], cross(c[1], c[2]));
-    };
-    constexpr int parts = 12;
-    for (int part = 0; part < parts; ++part) {
-        double low = part / double(parts), high = (part + 1) / double(parts);
-        const bool below = volume(low) < 0;
-        if (below == (volume(high) < 0)) continue;
-        for (int round = 0; round < 40; ++round) {
-            const double middle = (low + high) / 2;
-            ((volume(middle) < 0) == below ? low : high) = middle;
-        }
-        const Corners c = at(low);
-        const Vec3 normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
-        bool inside = true;
-        for (std::size_t k = 0; k < 3; ++k) inside = inside && dot(cross(c[k], c[(k + 1) % 3]), normal) > 0;
-        if (inside) return true;
-    }
-    return false;
-}
-
-/// Returns how many triangles pass over how many points.
-std::size_t passages(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& triangles,
-                     const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < triangles.size() && !from.empty(); k += 3) {
-        const auto corners = [&](const std::vector<Vec3>& all) {
-            return Corners{all[triangles[k]], all[triangles[k + 1]], all[triangles[k + 2]]};
-        };
-        for (const Vec3& point : points) count += passes_over(point, corners(from), corners(to));
-    }
-    return count;
-}
-
 struct Judged {
     bool overlaps = false;   ///< the sheet starts in what contact keeps it from; nothing else is judged then
     std::size_t ways = 0;    ///< judged
     std::size_t met = 0;     ///< of them come within a millimetre of the thickness
     double far = -1;         ///< m: the deepest in the cloth's thickness of ways longer than that and half the collider
     double near = -1;        ///< of shorter ones, over that length: it was in the middle at 1
-    std::size_t passed = 0;  ///< triangles that passed over a point in the middle of the collider
+    std::size_t passed = 0;  ///< points in the middle of the collider that the sheet passed over in a substep
     std::optional<std::string> word;  ///< what the run would say
 };
 
@@ -228,7 +100,7 @@ Judged judged(const SceneDescription& scene) {
     const glsl::vec3 size = vector(shape_geometry(collider.shape).size);
     const double middle = thickness + double(glsl::least_half_width(collider.kind(), size));
     PassageWatch watch(model);
-    const std::vector<Vec3> points = middle_of(scene.colliders[0]);
+    const std::vector<Vec3> points = test::middle_of(scene.colliders[0]);
     const std::vector<std::uint32_t> triangles = model.cloths[0].grid.triangle_indices();
     std::vector<Vec3> last, local;
     for (std::uint32_t frame = 0; frame < scene.time.frame_count && !seen.overlaps; ++frame) {
@@ -240,7 +112,7 @@ Judged judged(const SceneDescription& scene) {
         const ColliderPose pose = collider_pose(scene.colliders[0], frame / scene.time.fps);
         for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i)
             local.push_back(exact::to_local(pose, test::position_of(twin.cloth(0), i)));
-        seen.passed += passages(points, triangles, was, local);
+        for (const int net : test::passages(points, triangles, was, local)) seen.passed += net != 0;
         for (std::size_t i = 0; i < model.cloths[0].position.size(); ++i) {
             const Vec3 now = test::position_of(twin.cloth(0), i);
             if (!(length(now) < 1e3)) return seen;
@@ -275,7 +147,7 @@ TEST(PassageTest, NothingPassesWithoutAWord) {
     std::size_t judged_count = 0, met = 0, passed = 0, said = 0;
     double deepest = 0, nearest = 0;
     for (int i = 0; i < count; ++i) {
-        const Judged seen = judged(thrown(random, random.log_uniform(1, 500), asked ? 33 : 9));
+        const Judged seen = judged(test::thrown(random, random.log_uniform(1, 500), asked ? 33 : 9));
         judged_count += !seen.overlaps;
         met += seen.met > 0;
         deepest = std::max(deepest, seen.far);
