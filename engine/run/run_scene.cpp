@@ -439,7 +439,7 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.warnings = summary.warnings;
         manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
         describe_contact(manifest, simulation, sink.cuts());
-        if (const auto note = left_out_of_contact(manifest)) say("note: " + *note);
+        if (const auto note = left_out_of_contact(manifest); note && !request.quiet) say("note: " + *note);
         finish_files(sink, manifest, summary, failure);
     }
     summary.validation_count = earlier_validation + device.validation_count();
