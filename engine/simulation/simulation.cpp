@@ -12,7 +12,6 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/passage_watch.h"
 #include "cloth/together.h"
-#include "graph/copy_bandwidth.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
@@ -21,6 +20,7 @@
 #include "scene/start_crossings.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
+#include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
 
 namespace drape {
@@ -81,7 +81,7 @@ std::uint64_t Device::memory_used() const {
 }
 
 std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
-double Device::copy_bandwidth() const { return graph::copy_bandwidth(parts_->device); }
+double Device::copy_bandwidth() const { return drape::copy_bandwidth(parts_->device, copy_ruler(parts_->device)); }
 
 namespace {
 

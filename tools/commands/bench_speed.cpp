@@ -11,8 +11,8 @@ void add_bench_speed(Program& program) {
 Per substep of every solver: Drape's time, the device's share of it, and that of
 the same arithmetic, to the same bits, in C++ built for this processor: on all
 cores, on one, and on one without vectors. GB/s and GFLOP/s follow from what the
-passes declare; `of copy` is the share of what a copy of 64 MiB between buffers
-moves. Sheets of 32x32 to 2048x2048 particles, up to 64 cloths and 64 colliders;
+passes declare; `of copy` is the share of what a copy between buffers moves (64
+MiB on a CPU, 1 GiB by a pass on a GPU). Sheets of 32x32 to 2048x2048 particles, up to 64 cloths and 64 colliders;
 pictures; what skips save on the shipped scenes; starts of a program, with an
 empty shader cache (cold) and a full one (warm). The sides of a comparison take
 turns. Medians over rounds; times whose interquartile range is above 30 % are

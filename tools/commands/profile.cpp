@@ -42,9 +42,9 @@ void add_profile(Program& program) {
 Runs the scene, writes no frame, and tells per frame how long the device spent on each stage (or pass), with the spread
 over the measured frames; `frame` is the time from one frame's end to the next. Where a second device draws, as in
 `render` on a CPU, both work at once, and `device`, the sum of all stages, is longer. Bytes are those of what each pass
-declares, read and written once; GB/s and the share of what a copy of 64 MiB moves follow from them. Flops are those
-that a kernel's functions take per particle or spring, counted; GFLOP/s follow. Where timestamps are not supported it
-says "unavailable".
+declares, read and written once; GB/s and the share of what a copy moves (64 MiB on a CPU, 1 GiB by a pass on a GPU)
+follow from them. Flops are those that a kernel's functions take per particle or spring, counted; GFLOP/s follow. Where
+timestamps are not supported it says "unavailable".
 
 Examples:
   drape profile scenes/flag.json

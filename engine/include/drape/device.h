@@ -46,8 +46,8 @@ class Device {
     std::uint64_t validation_count() const;  ///< number of messages so far
     std::uint64_t memory_used() const;       ///< bytes that this library uses
     std::uint64_t memory_limit() const;      ///< bytes
-    /// Returns the bytes per second that a copy of 64 MiB reads and writes, the median of several; 0 without
-    /// timestamps.
+    /// Returns the bytes per second that a copy between buffers reads and writes, 64 MiB on a CPU and 1 GiB by a pass
+    /// on a GPU, the median of several; 0 without timestamps.
     double copy_bandwidth() const;
 
   private:
