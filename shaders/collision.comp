@@ -97,18 +97,20 @@ uint late_rows(Strip strip) {
     return rows;
 }
 
-void meet_all(ivec2 texel) {
+/// Returns whether that is done. It is not where a particle goes so far that its way has to be followed, unless this
+/// `follows` it, which takes several times as long.
+bool meet_all(ivec2 texel, bool follows) {
     vec4 start = LOAD(position_in, texel), moved = LOAD(displacement_in, texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
-    bool touched = led.w > 0.0f;
+    bool touched = led.w > 0.0f, went_far = false;
     // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
     vec3 way_out = vec3(0.0f);
     do {
-        Contact contact =
-            contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y, push.contact.w, true);
+        Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
+                                           push.contact.w, true, follows, went_far);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
         normal = contact.depth > 0.0f ? contact.normal : normal;
@@ -117,7 +119,8 @@ void meet_all(ivec2 texel) {
         if (!(contact.depth > push.contact.z)) break;
         ++round;
     } while (round < round_count);
-    if (!touched) return;
+    if (went_far && !follows) return false;
+    if (!touched) return true;
     // The way out of an overlap is no velocity, so it moves where the particle starts.
     if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
         STORE_TRIPLE(position_out, texel, led_sum(start.xyz, way_out), start.w);
@@ -138,6 +141,7 @@ void meet_all(ivec2 texel) {
     if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
         imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
 #endif
+    return true;
 }
 
 void main() {
@@ -148,9 +152,14 @@ void main() {
     if (capsules_end > early_collider_count) strip.rows |= late_rows(strip);
     // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
     // for a particle.
-    uint rows = strip.rows;
+    // For the same reason those that go far are kept for a loop of their own.
+    uint rows = strip.rows, far = 0u;
     do {
-        if (rows != 0u) meet_all(ivec2(column, first + findLSB(rows)));
+        if (rows != 0u && !meet_all(ivec2(column, first + findLSB(rows)), false)) far |= 1u << findLSB(rows);
         rows &= max(rows, 1u) - 1u;
     } while (rows != 0u);
+    do {
+        if (far != 0u) meet_all(ivec2(column, first + findLSB(far)), true);
+        far &= max(far, 1u) - 1u;
+    } while (far != 0u);
 }

@@ -80,8 +80,11 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
     // count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
+    bool far = false;
     if (record.counts.x == 0u && around.here.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false).depth;
+        record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false,
+                                            false, far)
+                               .depth;
 #endif
     return record;
 }

@@ -58,7 +58,7 @@ double radius_of(const Cloth& cloth, double strain) {
     return 0.6 * std::hypot(cloth.size[0], cloth.size[1]) * scale * (1 + strain);
 }
 
-/// What a collider does in a substep, at most.
+/// The way and turn of a collider in a substep, at most.
 struct Motion {
     double way = 0;   ///< m: no point of the surface moves farther
     double turn = 0;  ///< radians

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// What a copy between two buffers is made by. On a GPU a copy command moves a fifth of what a pass can (H200: 820 and
+/// This says how two buffers are copied. On a GPU a copy command moves a fifth of what a pass can (H200: 820 and
 /// 4,260 GB/s), and 64 MiB lie in its cache; on a CPU a pass moves less than the command, which is the library's
 /// memcpy.
 struct CopyRuler {

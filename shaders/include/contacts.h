@@ -52,12 +52,13 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
 #define NEAR(kind, collider)                          \
     near = near || !beyond_reach(kind, collider, now, \
                                  way_reach(kind, size_of(collider), length, collider.way_out.w, thickness));
-#define CONTACT(kind, collider)                                                                                      \
-    Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, in_turn); \
-    if (in_turn) displacement = contact.displacement;                                                                \
-    normal = contact.depth > deepest ? contact.normal : normal;                                                      \
-    grip = contact.depth > deepest ? contact.grip : grip;                                                            \
-    led = led_sum(led, contact.led);                                                                                 \
+#define CONTACT(kind, collider)                                                                                       \
+    went_far = went_far || goes_far(kind, size_of(collider), length_of(displacement), collider.way_out.w, thickness); \
+    Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, follows);  \
+    if (in_turn) displacement = contact.displacement;                                                                 \
+    normal = contact.depth > deepest ? contact.normal : normal;                                                       \
+    grip = contact.depth > deepest ? contact.grip : grip;                                                             \
+    led = led_sum(led, contact.led);                                                                                  \
     deepest = contact.depth > deepest ? contact.depth : deepest;
 #define EACH_EARLY(WORK, kind, begin, end) \
     [[unroll]] for (int i = begin; i < min(end, early_collider_count); ++i) { WORK(kind, early_colliders[i]) }
@@ -82,9 +83,11 @@ bool near_early(vec3 now, float length, float thickness) {
 }
 
 /// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
-/// else all take the given one, and only the depth at its end counts. Normal and grip are the deepest one's.
+/// else all take the given one, and only the depth at its end counts. Without `follows`, a particle that goes so far
+/// that its way has to be followed is held by its end alone, and `went_far` becomes true. Normal and grip are the
+/// deepest one's.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
-                         bool in_turn) {
+                         bool in_turn, bool follows, inout bool went_far) {
     float deepest = 0.0f;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
