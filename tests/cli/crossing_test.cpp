@@ -103,7 +103,7 @@ const std::string cut_across_a_box = R"({"name": "cut", "time": {"frames": 13},
 
 TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
     const SceneFolder folder(cut_across_a_box);
-    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q"});
+    const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out()});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     // The blade cuts in frame 5, and passes through 8 rows of cells, one triangle each at least.
     const Json::Value manifest = lasting_manifest(folder / "out"), &contact = manifest["self_collision"];
