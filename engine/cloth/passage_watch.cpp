@@ -8,6 +8,7 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
+#include "scene/collider_pose.h"
 #include "scene/contact_shape.h"
 #include "scene/vectors.h"
 

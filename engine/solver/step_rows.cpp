@@ -127,26 +127,20 @@ std::string box_edges_alias(Place p, std::string_view name, bool written) {
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
 }
 
+using Variants = std::vector<VariantRow>;
+
 // clang-format off: every kernel is a line.
-/// Returns the rows by StepKind, but for contact's between cloths: label, kernels, push constants, turn, aliases.
-std::vector<StepRow> cloth_rows() {
+/// Returns the rows by StepKind up to bending, then those up to contact between cloths: label, kernels, push constants,
+/// turn, aliases.
+std::vector<StepRow> first_rows() {
     using enum Kernel;
-    using Variants = std::vector<VariantRow>;
-    const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
-        cut{{"masked", masked}, {"buffered", buffered}},
+    const Variants none, masked_only{{"masked", masked}}, cut{{"masked", masked}, {"buffered", buffered}},
         release{{"tension", releases_tension}, {"masked", releases_masked_tension}, {"second_order", second_order}},
         predict{{"wind", windy}, {"buffered", buffered}},
         force{{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
         explicit_step{{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
         all_twist{{"masked", masked}, {"second_order", second_order}},
-        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}},
-        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
-        springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
-        line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}},
-        nested_reduced{{"masked", masked}, {"sheared", shears}},
-        nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-        collide{{"history", second_order}, {"led", after_edges}, {"supporting", supporting}, {"buffered", buffered}},
-        advance{{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}};
+        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}};
     return {
         {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
         {StepKind::wind, "wind", {{plain, "wind.comp", cut, over_wide_columns}}, wind_push},
@@ -168,6 +162,21 @@ std::vector<StepRow> cloth_rows() {
          {{twist_stream, "twist_stream.comp", all_twist, over_twist_stream}},
          nullptr,
          turns_displacement},
+    };
+}
+
+std::vector<StepRow> other_rows() {
+    using enum Kernel;
+    const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
+        cut{{"masked", masked}, {"buffered", buffered}},
+        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
+        springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
+        line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}},
+        nested_reduced{{"masked", masked}, {"sheared", shears}},
+        nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
+        collide{{"history", second_order}, {"led", after_edges}, {"supporting", supporting}, {"buffered", buffered}},
+        advance{{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}};
+    return {
         {StepKind::spring,
          spring_label,
          {{plain, "spring.comp", spring, over_springs}},
@@ -216,7 +225,8 @@ std::vector<StepRow> cloth_rows() {
 
 std::vector<StepRow> all_rows() {
     std::vector<StepRow> rows;
-    for (const auto& some : {cloth_rows(), contact_step_rows()}) rows.insert(rows.end(), some.begin(), some.end());
+    for (const auto& some : {first_rows(), other_rows(), contact_step_rows()})
+        rows.insert(rows.end(), some.begin(), some.end());
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].kind != static_cast<StepKind>(k)) throw std::logic_error("rows of steps are not by StepKind");
     return rows;
