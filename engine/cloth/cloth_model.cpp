@@ -16,9 +16,10 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
       touches(!scene.colliders.empty() || cloths_meet(scene)),
-      scheme(row_of(scene.solver.method)
-                 .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, scene.gravity,
-                                 scene.solver.strain_damping, !scene.colliders.empty(), options.skip})) {
+      scheme(
+          row_of(scene.solver.method)
+              .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, scene.gravity,
+                              scene.solver.strain_damping, !scene.colliders.empty(), options.skip, options.device})) {
     set_constants(scene, scene.cloths[cloth_index]);
 }
 

@@ -12,7 +12,7 @@ struct ModelOptions {
     /// false keeps the exact skips' work (masks of whole cloths, tensions of single iterations) to prove that skipping
     /// changes no bit.
     bool skip = true;
-    DeviceKind device = DeviceKind::cpu;  ///< method `auto` chooses for this
+    DeviceKind device = DeviceKind::cpu;  ///< for this `auto` chooses, and methods leave out what others do cheaper
     bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
 };
 

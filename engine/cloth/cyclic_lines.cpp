@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <span>
 
 #include "shared/cyclic_types.h"
 
@@ -10,14 +9,6 @@ namespace drape {
 
 bool can_reduce(const glsl::LinePush& push) {
     return push.bend == 0 && push.particle_count <= glsl::cyclic_most_particles;
-}
-
-bool can_reduce(const glsl::NestedPush& push, const MethodScheme& scheme) {
-    const auto fits = [&](const glsl::ivec4& block) {
-        return std::min(2 * block.x + 1, push.grid.x) <= glsl::cyclic_most_particles &&
-               std::min(2 * block.y + 1, push.grid.y) <= glsl::cyclic_most_particles;
-    };
-    return std::ranges::all_of(std::span(scheme.nested_table).first(static_cast<std::size_t>(push.block_count)), fits);
 }
 
 std::uint32_t cyclic_shared_bytes(std::uint32_t invocations) {

@@ -10,9 +10,6 @@ namespace drape {
 /// (cyclic_most_particles).
 bool can_reduce(const glsl::LinePush& push);
 
-/// Returns whether a workgroup holds every line of the nested boxes of a step.
-bool can_reduce(const glsl::NestedPush& push, const MethodScheme& scheme);
-
 /// Returns the shared memory of a workgroup of so many invocations, bytes.
 std::uint32_t cyclic_shared_bytes(std::uint32_t invocations);
 

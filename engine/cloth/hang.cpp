@@ -88,7 +88,6 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
     hang.calm = hang.by_an_edge && !scene.wind.blows();
     hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];
-    hang.longest_line = std::max(cloth.grid[0], cloth.grid[1]);
     return hang;
 }
 

@@ -15,7 +15,6 @@ struct Hang {
     bool by_lone_pins;    ///< particles held alone carry it, and nothing stands in its way
     bool calm;            ///< besides, no wind blows
     std::size_t particle_count;
-    double longest_line;  ///< particles
 };
 
 /// Returns m/s^2 of wind at a speed (m/s): its pressure on a plate across it. It is 0 without wind.

@@ -121,14 +121,10 @@ void stream_single_steps(const SimulationModel& model, std::vector<Step>& steps)
             step.kernel = Kernel::explicit_stream;
 }
 
-void reduce_lines(const SimulationModel& model, const Kernels& kernels, std::vector<Step>& steps) {
-    for (Step& step : steps) {
+void reduce_lines(const Kernels& kernels, std::vector<Step>& steps) {
+    for (Step& step : steps)
         if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) && can_reduce(step.push<glsl::LinePush>()))
             step.kernel = Kernel::line_cyclic;
-        if (step.kind == StepKind::nested && kernels.has(Kernel::nested_cyclic) &&
-            can_reduce(step.push<glsl::NestedPush>(), model.cloths[step.cloth].scheme))
-            step.kernel = Kernel::nested_cyclic;
-    }
 }
 
 }  // namespace
@@ -164,7 +160,7 @@ std::vector<Step> springs_together(const SimulationModel& model, Kernel kernel, 
     return joined.steps();
 }
 
-std::vector<Step> twists_together(const std::vector<Step>& steps) {
+std::vector<Step> twists_together(Kernel kernel, const std::vector<Step>& steps) {
     JoinedSteps joined;
     for (const Step& step : steps) {
         const auto is_same = [&step](const Step& other) {
@@ -176,7 +172,7 @@ std::vector<Step> twists_together(const std::vector<Step>& steps) {
             const auto& push = step.push<glsl::TwistPush>();
             Step all = step;
             all.kind = StepKind::all_twist;
-            all.kernel = Kernel::twist_stream;
+            all.kernel = kernel;
             all.constants = glsl::AllTwistPush{push.grid, push.compliance, push.compliance_bdf2};
             joined.add_joined(all);
         }
@@ -211,8 +207,9 @@ std::vector<Step> kernel_steps(const SimulationModel& model, const Kernels& kern
     }
     for (const Kernel kernel : {Kernel::spring_stream, Kernel::spring_tile})
         if (kernels.has(kernel)) steps = springs_together(model, kernel, steps);
-    if (kernels.has(Kernel::twist_stream)) steps = twists_together(steps);
-    reduce_lines(model, kernels, steps);
+    for (const Kernel kernel : {Kernel::twist_stream, Kernel::twist_tile})
+        if (kernels.has(kernel)) steps = twists_together(kernel, steps);
+    reduce_lines(kernels, steps);
     return steps;
 }
 

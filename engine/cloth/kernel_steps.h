@@ -29,8 +29,8 @@ std::vector<Step> explicit_steps_together(const std::vector<Step>& steps, Kernel
 /// steps begins with a prediction that turns, so that every substep leaves the displacement where it found it.
 std::vector<Step> springs_together(const SimulationModel& model, Kernel kernel, const std::vector<Step>& steps);
 
-/// The twist of all colours of a cloth's cells becomes one step of kernel twist_stream, and turns as springs do.
-std::vector<Step> twists_together(const std::vector<Step>& steps);
+/// The twist of all colours of a cloth's cells becomes one step of `kernel`, and turns as springs do.
+std::vector<Step> twists_together(Kernel kernel, const std::vector<Step>& steps);
 
 /// Whether a step of all springs has springs of that direction (cloth/directions.h).
 bool has_direction(const glsl::AllSpringsPush& push, int direction);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloth/cloth_geometry.h"
+#include "cloth/device_costs.h"
 #include "cloth/hang.h"
 #include "cloth/step.h"
 
@@ -22,6 +23,7 @@ struct MethodSettings {
     double strain_damping;               ///< SolverSettings' value
     bool collides;                       ///< the scene has colliders
     bool skip = true;                    ///< false: keep needless work that changes no bit
+    DeviceKind device = DeviceKind::cpu;
 };
 
 /// A method does this with one cloth at one number of substeps.
@@ -67,11 +69,8 @@ struct Method {
     SolverMethod method;
     MethodScheme (*scheme)(const ClothGeometry& cloth, const MethodSettings& settings);
 
-    // `auto` needs the law of the stretch error, substeps per frame (a real number) that keep a tolerance, and what a
-    // substep costs (cloth/solver_choice.cpp).
-    double (*substeps)(const Hang& hang, double frame, double tolerance);
-    double dispatches, particle_ns;
-    bool in_lines;  ///< springs are solved along whole lines
+    /// `auto` needs the law of the stretch error: substeps per frame (a real number) that keep a tolerance.
+    double (*substeps)(const Hang& hang, double frame, double tolerance, const DeviceCosts& costs);
     /// A closed loop judges its substeps by probes (probed), or needs none, as substeps that follow everything resolve
     /// whatever moves (resolves); with neither it is not chosen, since it damps what it does not resolve.
     enum class Trust : std::uint8_t { none, probed, resolves } trust;

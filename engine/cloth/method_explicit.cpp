@@ -72,7 +72,7 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
     return scheme;
 }
 
-double explicit_substeps(const Hang& hang, double frame, double tolerance) {
+double explicit_substeps(const Hang& hang, double frame, double tolerance, const DeviceCosts&) {
     constexpr double clamp = 0.45 / (1.1 * 1.4);
     const double frame_over_spacing = frame / hang.spacing;
     const double law =

@@ -28,6 +28,6 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
 
 /// Clamped springs have strain g L/c_s^2 at the top, 1/sqrt 6 of it RMS over rows and columns, c_s^2 = K l^2/h^2 with
 /// K = 0.45/((1 + r_s)(1 + 2 kappa)), r_s = 0.1, kappa = 0.2 (docs/solvers.md, "Explicit micro-step").
-double explicit_substeps(const Hang& hang, double frame, double tolerance);
+double explicit_substeps(const Hang& hang, double frame, double tolerance, const DeviceCosts& costs);
 
 }  // namespace drape

@@ -154,7 +154,7 @@ MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& setti
     add_prediction(cloth, settings, scheme);
     add_twist_relaxation(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, scheme);
     add_lines(cloth, settings, scheme);
-    add_nested_boxes(cloth, scheme);
+    add_nested_boxes(cloth, settings, scheme);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) scheme.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)
@@ -168,7 +168,7 @@ MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& setti
     return scheme;
 }
 
-double line_substeps(const Hang& hang, double frame, double tolerance) {
+double line_substeps(const Hang& hang, double frame, double tolerance, const DeviceCosts& costs) {
     const double root = std::sqrt(std::min(1.0, tolerance / default_tolerance));
     // A tenth of the wind counts: implicit tension carries most of what it adds.
     const double pull = hang.gravity + 0.1 * (hang.acceleration - hang.gravity);
@@ -177,7 +177,9 @@ double line_substeps(const Hang& hang, double frame, double tolerance) {
     const double resolving = frame * std::sqrt(pull / hang.length) / 0.013;
     if (hang.by_an_edge) return std::max(resolving, waves / (3.3 * root * hang.edge_spacing));
     const double finer = std::max(1.0, hang.length / (64 * hang.spacing));
-    const double waves_per_link = hang.by_lone_pins ? 0.75 * std::cbrt(finer) : 0.35 / std::pow(finer, 0.25);
+    const double waves_per_link = !hang.by_lone_pins   ? 0.35 / std::pow(finer, 0.25)
+                                  : costs.nested_boxes ? 0.75 * std::cbrt(finer)
+                                                       : std::min(0.35 * std::cbrt(finer), 1.1 / std::sqrt(finer));
     return std::max(resolving, waves / (waves_per_link * root * hang.spacing));
 }
 

@@ -56,7 +56,7 @@ MethodScheme relax_scheme(const ClothGeometry& cloth, const MethodSettings& sett
     return scheme;
 }
 
-double relax_substeps(const Hang& hang, double frame, double tolerance) {
+double relax_substeps(const Hang& hang, double frame, double tolerance, const DeviceCosts&) {
     const double law =
         0.83 / std::sqrt(2.0) * (hang.length / hang.spacing) * hang.acceleration * (frame * frame) / (2 * hang.spacing);
     return std::sqrt(motion_factor(hang) * law / tolerance);

@@ -126,10 +126,11 @@ glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodScheme
 
 }  // namespace
 
-void add_nested_boxes(const ClothGeometry& cloth, MethodScheme& scheme) {
+void add_nested_boxes(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     const auto skip = [&](const char* reason) { scheme.skipped.push_back({cloth.name + "/nested boxes", reason}); };
     const std::vector<ivec2> pins = lone_pins(cloth);
     if (pins.empty()) return skip("no particle is held alone");
+    if (!costs_of(settings.device).nested_boxes) return skip("on such a device more substeps are cheaper");
     glsl::NestedPush push = nested_constants(cloth, scheme);
     if (!(push.rest_length.x > 0)) return skip("zero stiffness");
     const std::vector<NestedBlock> blocks = nested_blocks(cloth.grid);

@@ -7,7 +7,7 @@ namespace drape {
 
 /// Adds the sweeps around every held particle without a held neighbour to the steps of an iteration, after the lines of
 /// the scheme; or says why not. Sets its `nested_table`.
-void add_nested_boxes(const ClothGeometry& cloth, MethodScheme& scheme);
+void add_nested_boxes(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 
 /// Returns the rounds of loops of an invocation of a workgroup of `width`, which follows the lines of a pin's blocks.
 std::uint64_t nested_rounds(const MethodScheme& scheme, const glsl::NestedPush& push, glsl::ivec2 pin, int width);

@@ -8,44 +8,20 @@
 #include "cloth/method.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
-#include "shared/cyclic_types.h"
 
 namespace drape {
 
 namespace {
 
-struct SubstepWork {
-    double dispatches, particle_ns;
-};
-
-/// Returns the method's work, and what wind and contact add to any. Nanoseconds are those of lavapipe on one core.
-SubstepWork substep_work(const Method& method, const SceneDescription& scene, const Cloth& cloth) {
-    constexpr double wind_ns = 64, collider_ns = 27, box_edges_ns = 48;
-    SubstepWork work{method.dispatches, method.particle_ns};
-    if (scene.wind.blows()) work = {work.dispatches + 1, work.particle_ns + wind_ns};
+/// Returns the milliseconds of one substep of one cloth.
+double substep_ms(const Method& method, const SceneDescription& scene, const Cloth& cloth, DeviceKind device) {
+    const DeviceCosts& costs = costs_of(device);
+    SubstepCost cost = costs.of(method.method);
+    if (scene.wind.blows()) cost += costs.wind;
     if (const auto count = static_cast<double>(scene.colliders.size()); count > 0)
-        work = {work.dispatches + 1, work.particle_ns + count * collider_ns};
-    if (meets_box_edges(cloth, scene.colliders)) work = {work.dispatches + 2, work.particle_ns + box_edges_ns};
-    return work;
-}
-
-/// Returns the milliseconds of one substep of a cloth on a GPU solved along its lines: by cyclic reduction where a
-/// workgroup holds them, else walked. These are estimates, no measurement: 0.2 us a round of a reduction, 0.3 us a
-/// particle of a walk, two systems in each of four directions, 3 us a direction of a box of nested boxes.
-double lines_ms(const Hang& hang) {
-    constexpr double systems = 4 * 2, round_ms = 2e-4, walk_ms = 3e-4, nested_ms = 4e-3;
-    const bool reduced = hang.longest_line <= glsl::cyclic_most_particles;
-    const double solves = systems * (reduced ? std::log2(hang.longest_line) * round_ms : hang.longest_line * walk_ms);
-    return solves + (hang.by_lone_pins ? hang.longest_line * nested_ms : 0);
-}
-
-/// Returns the milliseconds of one substep of one cloth. On a CPU they go by dispatch and by particle, measured on
-/// lavapipe with 2 cores. On a GPU dispatches wait for each other: estimates, no measurement.
-double substep_ms(const Hang& hang, DeviceKind device, const SubstepWork& work, bool in_lines) {
-    const auto count = static_cast<double>(hang.particle_count);
-    if (device == DeviceKind::cpu) return work.dispatches * 0.07 + count * work.particle_ns * 1e-6;
-    constexpr double dispatch_ms = 0.004, pass_particle_ms = 1e-8;
-    return work.dispatches * (dispatch_ms + count * pass_particle_ms) + (in_lines ? lines_ms(hang) : 0);
+        cost += {costs.colliders.ms, count * costs.colliders.particle_ns};
+    if (meets_box_edges(cloth, scene.colliders)) cost += costs.box_edges;
+    return cost.ms + static_cast<double>(cloth.grid[0]) * cloth.grid[1] * cost.particle_ns * 1e-6;
 }
 
 /// No substep of a closed loop is longer, over the time sqrt(size / gravity) of a sheet that swings down. A sheet of 1
@@ -83,7 +59,7 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     const double frame = 1.0 / scene.time.fps;
     double substeps = 1;
     for (const Cloth& cloth : scene.cloths)
-        substeps = std::max(substeps, method.substeps(hang_of(scene, cloth), frame, tolerance));
+        substeps = std::max(substeps, method.substeps(hang_of(scene, cloth), frame, tolerance, costs_of(device)));
     double swings = 1;
     for (const Cloth& cloth : scene.cloths) swings = std::max(swings, std::ceil(frame / swing_substep(scene, cloth)));
     auto least = static_cast<std::uint32_t>(std::min<double>(swings, method.most_substeps));
@@ -94,8 +70,7 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
     for (const Cloth& cloth : scene.cloths)
-        result.predicted_ms += result.substeps * substep_ms(hang_of(scene, cloth), device,
-                                                            substep_work(method, scene, cloth), method.in_lines);
+        result.predicted_ms += result.substeps * substep_ms(method, scene, cloth, device);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/device_costs.h"
 #include "drape/scene.h"
 
 namespace drape {
@@ -15,9 +16,6 @@ inline constexpr double default_tolerance = 0.01;
 inline constexpr double default_tolerance_worst = 0.1;
 /// The motion may err by this per second, over the cloth's longer side.
 inline constexpr double default_motion_share = 0.02;
-
-/// On a CPU every store of a pass counts; on a GPU small dispatches cost what the next one waits.
-enum class DeviceKind { cpu, gpu };
 
 /// One method with the fewest substeps that its law allows.
 struct SolverCandidate {

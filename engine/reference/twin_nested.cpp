@@ -1,7 +1,6 @@
 // The twin relaxes nested boxes around lone pins.
 #include "cloth/texels.h"
 #include "reference/kernels.h"
-#include "reference/reduced_system.h"
 #include "reference/twin.h"
 
 namespace drape {
@@ -53,23 +52,11 @@ struct NestedLine {
         return changes;
     }
 
-    std::vector<float> reduced_changes(const std::vector<LineSpring>& springs) const {
-        const std::size_t count = springs.size();
-        std::vector<CyclicRow> rows;
-        for (std::size_t e = 0; e < count; ++e)
-            rows.push_back(spring_row(e > 0 ? springs[e - 1].normal : none, springs[e],
-                                      e + 1 < count ? springs[e + 1].normal : none, weight(e), weight(e + 1), share(e),
-                                      push.compression, compliance, tension_in_use(stored(e), reciprocal(followed))));
-        std::vector<float> changes;
-        for (const vec3& change : reduced(rows)) changes.push_back(change.x);
-        return changes;
-    }
-
-    void solve(bool by_reduction) const {
+    void solve() const {
         const std::size_t count = particles.size() - 1;
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < count; ++e) springs.push_back(spring(e));
-        const std::vector<float> change = by_reduction ? reduced_changes(springs) : changes(springs);
+        const std::vector<float> change = changes(springs);
         for (std::size_t p = 0; p <= count; ++p) {
             const bool is_first = p == 0, is_last = p == count;
             const vec3 correction =
@@ -85,7 +72,7 @@ struct NestedLine {
 };
 
 void solve_direction(const ClothModel& model, TwinCloth& state, const NestedPush& push, const NestedBox& box,
-                     int direction, bool is_bdf2, bool by_reduction) {
+                     int direction, bool is_bdf2) {
     if (!(component(push.rest_length, direction) > 0.0f)) return;
     const ivec2 step = nested_step(direction);
     const int seam = nested_seam(step, box.size.x);
@@ -104,7 +91,7 @@ void solve_direction(const ClothModel& model, TwinCloth& state, const NestedPush
             line.particles.push_back({box.first.x + in_box.x, box.first.y + in_box.y});
             in_box = next_on_line(in_box, step, box.size.x);
         }
-        line.solve(by_reduction);
+        line.solve();
     }
 }
 
@@ -121,7 +108,7 @@ void run_nested(const TwinPlace& where) {
             for (int sweep = 0; sweep < table[block].z; ++sweep)
                 for (int order = 0; order < 4; ++order)
                     solve_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
-                                    nested_direction(order), is_bdf2, step.kernel == Kernel::nested_cyclic);
+                                    nested_direction(order), is_bdf2);
     }
 }
 

@@ -77,9 +77,9 @@ constexpr KernelRule rules[] = {
      "shared memory holds the particles for all eight passes"},
     {Kernel::twist_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
      "a particle is loaded and stored once instead of four times"},
+    {Kernel::twist_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+     "shared memory holds the particles for all four passes"},
     {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
-     "a line waits for memory some log n times instead of 3 n times"},
-    {Kernel::nested_cyclic, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
      "a line waits for memory some log n times instead of 3 n times"},
 };
 
@@ -142,8 +142,7 @@ Kernels used_kernels(const SimulationModel& model, const Kernels& kernels) {
 }
 
 bool concerns(const KernelSet& set, SolverMethod method) {
-    const bool is_line = method == SolverMethod::line;
-    return set.name == "tile" ? !is_line : set.name != "cyclic" || is_line;
+    return set.name != "cyclic" || method == SolverMethod::line;
 }
 
 std::vector<KernelVerdict> kernel_verdicts(const vulkan::Device& device, const SimulationModel& model,

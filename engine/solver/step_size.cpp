@@ -136,8 +136,8 @@ DispatchSize over_twist_stream(const StepPlace& place, const ComputePipeline&) {
 }
 
 std::uint32_t tile_halo(const StepPlace& place) {
-    const bool moves = place.step.kind == StepKind::explicit_step;
-    return tile_halo_of(place.cloth->model->grid, moves ? glsl::tile_halo : glsl::spring_tile_halo);
+    const bool springs = place.step.kind == StepKind::all_springs;
+    return tile_halo_of(place.cloth->model->grid, springs ? glsl::spring_tile_halo : glsl::tile_halo);
 }
 
 DispatchSize over_tiles(const StepPlace& place, const ComputePipeline&) {

@@ -134,6 +134,17 @@ TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {
     EXPECT_NE(choice.reason.find("does not"), std::string::npos);
 }
 
+TEST(SolverChoiceTest, WithoutNestedBoxesLonePinsTakeMoreSubsteps) {
+    SceneDescription scene = automatic(256);
+    scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(256, 0, 256, 0)};
+    const auto substeps = [&](DeviceKind device) {
+        return of(choose_solver(scene, device), SolverMethod::line).substeps;
+    };
+    EXPECT_GT(substeps(DeviceKind::gpu), substeps(DeviceKind::cpu));
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    EXPECT_EQ(substeps(DeviceKind::gpu), substeps(DeviceKind::cpu));
+}
+
 TEST(SolverChoiceTest, ExplicitStepsThatWouldSoftenTheBendingAreNotChosen) {
     SceneDescription scene = automatic(16);
     scene.cloths[0].stiffness.bend = 1e4;

@@ -68,28 +68,6 @@ TEST(TwinCyclicTest, LinesThatAreTooLongAreWalked) {
     compare_reduced(scene, 3, 1);
 }
 
-/// Software takes long for workgroups of a thousand.
-SceneDescription brief_lone_pins() {
-    SceneDescription scene = test::lone_pins();
-    scene.solver.substeps = 2;
-    return scene;
-}
-
-TEST(TwinCyclicTest, NestedBoxesAroundLonePins) {
-    const std::vector<Step> steps = kernel_steps(SimulationModel(brief_lone_pins()), cyclic_kernels);
-    EXPECT_TRUE(std::ranges::all_of(steps, [](const Step& step) {
-        return (step.kernel != Kernel::plain) == (step.kind == StepKind::line || step.kind == StepKind::nested);
-    }));
-    compare_reduced(brief_lone_pins(), 4 * 2);
-}
-
-TEST(TwinCyclicTest, NestedBoxesWithHolesSoftInCompressionWithoutShear) {
-    SceneDescription scene = brief_lone_pins();
-    scene.cloths[0].stiffness = {false, 800, 0, 0, 0.03};
-    scene.cloths[0].holes = {{{3, 4}, {9, 10}}, {{52, 25}, {60, 33}}};
-    compare_reduced(scene, 2 * 2);
-}
-
 class TwinCyclicGridTest : public testing::TestWithParam<std::pair<std::uint32_t, std::uint32_t>> {};
 
 TEST_P(TwinCyclicGridTest, RigidLines) {

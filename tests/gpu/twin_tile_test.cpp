@@ -1,5 +1,5 @@
-// Explicit micro-steps that tiles take several at once, and springs that they sweep, equal the twin's, which takes
-// steps and passes one by one (lavapipe).
+// Explicit micro-steps that tiles take several at once, and springs and twist that they sweep, equal the twin's, which
+// takes steps and passes one by one (lavapipe).
 #include "cloth/kernel_steps.h"
 #include "twin_comparison.h"
 
@@ -70,6 +70,30 @@ TEST_P(TwinTileTest, SweepsWithHolesSoftInCompression) {
     scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
     scene.cloths[0].stiffness.compression = 0.1;
     compare_sweeps(scene, 5);
+}
+
+/// Cells twist.
+void compare_twist(SceneDescription scene) {
+    scene.cloths[0].stiffness.bend = 1e-3;
+    const std::vector<Step> steps = kernel_steps(SimulationModel(scene), tile_kernels);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::all_twist, &Step::kind), scene.solver.substeps);
+    EXPECT_EQ(std::ranges::count(steps, StepKind::twist, &Step::kind), 0);
+    test::compare(scene, {}, test::gpu().device, {.drawing = true}, tile_kernels);
+}
+
+TEST_P(TwinTileTest, TwistOfLinesInBothOrders) {
+    SceneDescription scene = test::thrown_sheet(GetParam(), 5);
+    scene.solver.method = SolverMethod::line;
+    scene.cloths[0].pins.pop_back();
+    compare_twist(scene);
+}
+
+TEST_P(TwinTileTest, TwistOfRelaxationWithHolesInWind) {
+    SceneDescription scene = test::thrown_sheet(GetParam(), 3);
+    const auto [columns, rows] = GetParam();
+    if (columns >= 4) scene.cloths[0].holes = {{{columns / 2, rows / 2}, {columns - 1, rows - 1}}, {{1, 0}, {2, 1}}};
+    scene.wind.velocity = {2, 0.5, -1};
+    compare_twist(scene);
 }
 
 TEST(TwinTileTest, SweepsWithoutShearAndOfShearAlone) {

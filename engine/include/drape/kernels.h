@@ -19,8 +19,8 @@ enum class Kernel : std::uint8_t {
     spring_stream,    ///< all springs of a relaxation iteration, down the rows
     spring_tile,      ///< all springs of a relaxation iteration, in tiles of shared memory
     twist_stream,     ///< the twist of all cells, down the rows
+    twist_tile,       ///< the twist of all cells, in tiles of shared memory
     line_cyclic,      ///< lines by cyclic reduction, an invocation per particle: other rounding
-    nested_cyclic,    ///< nested boxes by cyclic reduction: other rounding
 };
 
 /// The name of a kernel on the command line, in manifests and in `drape graph`.
@@ -36,8 +36,8 @@ inline constexpr KernelName kernel_names[] = {
     {"spring_stream", Kernel::spring_stream},
     {"spring_tile", Kernel::spring_tile},
     {"twist_stream", Kernel::twist_stream},
+    {"twist_tile", Kernel::twist_tile},
     {"line_cyclic", Kernel::line_cyclic},
-    {"nested_cyclic", Kernel::nested_cyclic},
 };
 inline constexpr std::string_view name_of(Kernel kernel) { return kernel_names[static_cast<std::size_t>(kernel)].name; }
 
@@ -88,7 +88,6 @@ class Kernels {
 
 /// Kernels that belong together.
 inline const Kernels stream_kernels{Kernel::explicit_stream, Kernel::spring_stream, Kernel::twist_stream},
-    tile_kernels{Kernel::explicit_tile, Kernel::spring_tile},
-    cyclic_kernels{Kernel::line_cyclic, Kernel::nested_cyclic};
+    tile_kernels{Kernel::explicit_tile, Kernel::spring_tile, Kernel::twist_tile}, cyclic_kernels{Kernel::line_cyclic};
 
 }  // namespace drape
