@@ -1,10 +1,12 @@
 // This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. HOME brings
 // position and displacement back from the spare images, where an odd number of explicit steps leaves them, to those
-// that the next frame starts from. EXCESS keeps how much faster the cloth is at the frame's end than in its last
+// that the next frame starts from, and CONTROL_HOME the line method's control, where an odd number of substeps leaves
+// it. EXCESS keeps how much faster the cloth is at the frame's end than in its last
 // substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HOME EXCESS BUFFERED
+#pragma variants HOME|CONTROL_HOME EXCESS BUFFERED
+#include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
 #include "include/push.h"
@@ -23,6 +25,18 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_befo
 VECTOR_OUT(10, EndExcessOut, end_excess_out);
 #endif
 
+#ifdef CONTROL_HOME
+layout(set = 0, binding = 11, r32ui) uniform readonly uimage2D line_control_in;
+layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D line_control_out;
+
+void bring_control_home() {
+    int texel = int(gl_GlobalInvocationID.x);
+    ivec2 at = ivec2(texel, gl_WorkGroupID.z);
+    if (texel < control_texel_count && gl_GlobalInvocationID.y == 0u)
+        imageStore(line_control_out, at, imageLoad(line_control_in, at));
+}
+#endif
+
 void finish(ivec2 texel) {
     vec4 moved = LOAD(displacement_in, texel);
     advance_position(texel, LOAD(position_in, texel), moved.xyz);
@@ -36,4 +50,9 @@ void finish(ivec2 texel) {
 #endif
 }
 
-void main() { FOR_STRIP(texel, push.grid, finish(texel)) }
+void main() {
+#ifdef CONTROL_HOME
+    bring_control_home();
+#endif
+    FOR_STRIP(texel, push.grid, finish(texel))
+}

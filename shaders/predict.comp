@@ -1,6 +1,6 @@
 // This pass is the prediction of the line solver in second order: it finishes the last substep (X += d, after the first
-// substep of a frame), moves the history on and predicts the next displacement, by BDF2 or backward Euler as the
-// control says. WIND adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+// substep of a frame), decides for each cloth whether the substep is BDF2 or backward Euler, moves the history on and
+// predicts the next displacement. WIND adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants WIND BUFFERED
@@ -21,9 +21,30 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_befo
 TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
 TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
-layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control;
+layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control_in;
+layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out;
 
-bool second_order;  // read where nothing has branched yet (docs/devices.md)
+bool second_order;  // decided where nothing has branched yet (docs/devices.md)
+
+uint control_before(int texel) { return imageLoad(line_control_in, ivec2(texel, gl_WorkGroupID.z)).x; }
+
+void store_control(int texel, uint value) {
+    imageStore(line_control_out, ivec2(texel, gl_WorkGroupID.z), uvec4(value, 0u, 0u, 0u));
+}
+
+/// Every invocation decides, and one of each cloth writes what it decided.
+void decide_order() {
+    LineControl control =
+        next_control(LineControl(control_before(control_order), control_before(control_wrong_lines),
+                                 control_before(control_hold)),
+                     push.most_wrong);
+    second_order = control.order == 2u;
+    if (gl_GlobalInvocationID.xy == uvec2(0u)) {
+        store_control(control_order, control.order);
+        store_control(control_wrong_lines, control.wrong_lines);
+        store_control(control_hold, control.hold);
+    }
+}
 
 void predict(ivec2 texel) {
     vec4 position = LOAD(position_in, texel);
@@ -56,6 +77,6 @@ void predict(ivec2 texel) {
 }
 
 void main() {
-    second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    decide_order();
     FOR_STRIP(texel, push.grid, predict(texel))
 }

@@ -93,6 +93,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
+        {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
         {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},

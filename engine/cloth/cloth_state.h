@@ -34,6 +34,7 @@ enum class Field : std::uint8_t {
     end_excess,                ///< at a frame's end: h times the velocity there - displacement, m (end_velocity.h)
     statistics_reference,      ///< xyz: point that positions are summed relative to, m; w: thickness, m
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
+    line_control_spare,        ///< that of every other substep
     wind_force,                ///< N
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< displacement after the second round of boxes' edges, m; w as before

@@ -97,6 +97,19 @@ double enough_substeps(const ClothGeometry& cloth, const MethodSettings& setting
     return std::ceil(settings.substeps * settings.substep_length / std::sqrt(undamped * cloth.inner_mass / least));
 }
 
+/// At most this share of a cloth's lines may meet a spring that is wrong without asking for backward Euler: those
+/// around a lone pin of a fine grid do in most substeps, and where one such line is enough, sheets held at two corners
+/// lose two thirds of their accuracy to it (docs/solvers.md, "BDF2 or backward Euler").
+constexpr double most_wrong_share = 1.0 / 16;
+
+std::uint32_t most_wrong_lines(const ClothGeometry& cloth) {
+    double lines = 0;
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
+        if (cloth.stiffness_constant.spring[direction] > 0)
+            lines += spring_directions[direction].offset.y == 0 ? cloth.grid.rows() : cloth.grid.columns();
+    return static_cast<std::uint32_t>(most_wrong_share * lines);
+}
+
 glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSettings& settings) {
     const glsl::ForcePush euler = force_constants(cloth, settings);
     const auto [f, loss, forced] = bdf2_step(cloth, settings);
@@ -108,20 +121,11 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
             {euler.force_step, rounded(step / cloth.inner_mass)},
             {rounded(f * 2 / 9), rounded(f * 8 / 9)},
             euler.gravity_step,
-            {rounded(step * gravity[0]), rounded(step * gravity[1]), rounded(step * gravity[2]), 0}};
-}
-
-/// At most this share of a cloth's lines may meet a spring that is wrong without asking for backward Euler: those
-/// around a lone pin of a fine grid do in most substeps, and where one such line is enough, sheets held at two corners
-/// lose two thirds of their accuracy to it (docs/solvers.md, "BDF2 or backward Euler").
-constexpr double most_wrong_share = 1.0 / 16;
-
-glsl::LineControlPush control_constants(const ClothGeometry& cloth) {
-    double lines = 0;
-    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
-        if (cloth.stiffness_constant.spring[direction] > 0)
-            lines += spring_directions[direction].offset.y == 0 ? cloth.grid.rows() : cloth.grid.columns();
-    return {static_cast<std::uint32_t>(most_wrong_share * lines)};
+            {rounded(step * gravity[0]), rounded(step * gravity[1]), rounded(step * gravity[2]), 0},
+            most_wrong_lines(cloth),
+            0,
+            0,
+            0};
 }
 
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
@@ -130,8 +134,7 @@ void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, 
     const Vec3& v = cloth.velocity;
     // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
     scheme.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
-    scheme.prediction = {{StepKind::control, control_constants(cloth)},
-                         {StepKind::predict, predict_constants(cloth, settings)}};
+    scheme.prediction = {{StepKind::predict, predict_constants(cloth, settings)}};
 }
 
 void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {

@@ -21,7 +21,6 @@ inline constexpr std::size_t most_loop_rounds = 60000;
 enum class StepKind {
     release,
     wind,
-    control,
     predict,
     force,
     explicit_step,
@@ -67,9 +66,9 @@ inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind
 /// The push structure of a step whose constants are its method's own. `SpringPush::first_iteration` is set per
 /// iteration.
 using StepConstants =
-    std::variant<std::monostate, glsl::ForcePush, glsl::LineControlPush, glsl::PredictPush, glsl::ExplicitPush,
-                 glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
-                 glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
+    std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendPush,
+                 glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush, glsl::LinePush,
+                 glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

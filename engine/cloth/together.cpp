@@ -35,7 +35,6 @@ bool in_images(const Step& step) {
     switch (step.kind) {
         case StepKind::wind:
         case StepKind::pin:
-        case StepKind::control:
         case StepKind::predict:
         case StepKind::force:
         case StepKind::explicit_step:

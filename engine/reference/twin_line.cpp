@@ -12,19 +12,20 @@ using namespace glsl;
 
 namespace {
 
-void run_control(const TwinPlace& where) {
-    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+/// Returns whether the substep is BDF2.
+bool decide_order(TwinCloth& state, uint most_wrong) {
     auto& texels = state.integers(Field::line_control);
-    const LineControl next = next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]},
-                                          step.push<LineControlPush>().most_wrong);
+    const LineControl next =
+        next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]}, most_wrong);
     texels = {next.order, next.wrong_lines, next.hold};
+    return next.order == 2u;
 }
 
 void run_predict(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
-    const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
+    const bool is_bdf2 = decide_order(state, push.most_wrong);
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const vec4 position = state[Field::position][i];
         const vec3 displacement = xyz(state[Field::displacement][i]);
@@ -249,8 +250,6 @@ void run_line(const TwinPlace& where) {
 
 }  // namespace
 
-std::vector<TwinRow> twin_line_rows() {
-    return {{StepKind::control, run_control}, {StepKind::predict, run_predict}, {StepKind::line, run_line}};
-}
+std::vector<TwinRow> twin_line_rows() { return {{StepKind::predict, run_predict}, {StepKind::line, run_line}}; }
 
 }  // namespace drape

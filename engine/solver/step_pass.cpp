@@ -60,10 +60,20 @@ void turn(ClothState& cloth, Turn turned) {
     if (turned == Turn::displacement) cloth.turn_displacement();
 }
 
+/// The image that holds the line method's control for a step. A prediction reads that of the substep before, which
+/// earlier steps of its substep take too, and writes the other; a frame begins and ends with it at home.
+Field control_of(const Step& step, bool written) {
+    const bool ends_frame = step.kind == StepKind::advance;
+    if (ends_frame && written) return Field::line_control;
+    const bool is_before = ends_frame || step.kind == StepKind::release || (step.kind == StepKind::predict && !written);
+    return (step.substep + (is_before ? 0 : 1)) % 2 == 0 ? Field::line_control : Field::line_control_spare;
+}
+
 /// Names of resources that a step takes for others: the spare images where it writes those, and the row's own.
 std::string alias_of(const StepRow& row, const StepPlace& place, Turn turned, std::string_view name, bool written) {
     if (row.alias)
         if (std::string other = row.alias(place, name, written); !other.empty()) return other;
+    if (name == row_of(Field::line_control).variable()) return row_of(control_of(place.step, written)).variable();
     for (const auto& [field, spare] : spare_fields)
         if (written && name == row_of(field).variable() &&
             (turned == Turn::state || (turned == Turn::displacement && field == Field::displacement)))

@@ -28,6 +28,7 @@ bool after_edges(Place p) { return p.step.after_edges; }
 bool supporting(Place p) { return p.step.supporting; }
 bool keeps_excess(Place p) { return has(p, Field::end_excess); }
 bool comes_home(Place p) { return p.cloth->away; }
+bool control_comes_home(Place p) { return second_order(p) && p.step.substep % 2 == 1; }
 bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
 bool carries_to_release(Place p) { return scheme_of(p).release_stiffness.x > 0; }
 bool releases_tension(Place p) { return carries_to_release(p) && !masked(p); }
@@ -144,7 +145,6 @@ std::vector<StepRow> first_rows() {
     return {
         {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
         {StepKind::wind, "wind", {{plain, "wind.comp", cut, over_wide_columns}}, wind_push},
-        {StepKind::control, "line control", {{plain, "line_control.comp", none, one_invocation}}},
         {StepKind::predict, "predict", {{plain, "predict.comp", predict, over_strips}}, nullptr, turns_if_asked},
         {StepKind::force, "force", {{plain, "force.comp", force, over_strips}}, nullptr, turns_if_asked},
         {StepKind::explicit_step,
@@ -175,7 +175,10 @@ std::vector<StepRow> other_rows() {
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}},
         nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
         collide{{"history", second_order}, {"led", after_edges}, {"supporting", supporting}, {"buffered", buffered}},
-        advance{{"home", comes_home}, {"excess", keeps_excess}, {"buffered", buffered}};
+        advance{{"home", comes_home},
+                {"control_home", control_comes_home},
+                {"excess", keeps_excess},
+                {"buffered", buffered}};
     return {
         {StepKind::spring,
          spring_label,

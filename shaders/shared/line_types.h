@@ -31,10 +31,6 @@ struct LinePush {
     float compression;  // share of a spring's stiffness where it is pushed together
 };
 
-struct LineControlPush {
-    uint most_wrong;  // lines that may meet a spring wrong by more than line_violation_limit
-};
-
 /// Push constants of the line solver's prediction in second order (include/bdf2.h).
 struct PredictPush {
     ivec2 grid;
@@ -43,9 +39,12 @@ struct PredictPush {
     vec2 weight;             // f 2/9, f 8/9
     vec4 gravity_step;       // xyz: phi h^2 g, metres; w unused
     vec4 gravity_step_bdf2;  // xyz: f (4/9) h^2 g, metres; w unused
+    uint most_wrong;         // lines that may meet a spring wrong by more than line_violation_limit
+    uint unused_x, unused_y, unused_z;
 };
 
-/// Texels of the line solver's control image (LineControl in include/bdf2.h).
+/// Texels of the line solver's control image (LineControl in include/bdf2.h). A prediction reads the control of the
+/// substep before and writes that of its own to another image, which the substep's other passes take.
 const int control_order = 0, control_wrong_lines = 1, control_hold = 2, control_texel_count = 3;
 /// A spring that a substep meets wrong by more than its own length, beyond what the carried tension explains, shows
 /// that BDF2 extrapolates nonsense there. Where many lines have one the next substeps are backward Euler.

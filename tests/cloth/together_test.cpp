@@ -83,9 +83,9 @@ TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
     const std::vector<Step> steps = frame_steps(model), merged = steps_together(steps, lists);
     for (std::size_t cloth = 0; cloth < 4; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
-    // Each of three substeps has control, predict, pins, four directions and collision.
-    EXPECT_EQ(count_of(merged, true), 3u * 8);
-    EXPECT_EQ(count_of(merged, false), 3u * 8 + 1);
+    // Each of three substeps has predict, pins, four directions and collision.
+    EXPECT_EQ(count_of(merged, true), 3u * 7);
+    EXPECT_EQ(count_of(merged, false), 3u * 7 + 1);
 }
 
 TEST(TogetherTest, WhatSomeDoNotDoOrDoOtherwiseStaysTheirs) {
@@ -95,13 +95,13 @@ TEST(TogetherTest, WhatSomeDoNotDoOrDoOtherwiseStaysTheirs) {
     ASSERT_EQ(lists.size(), 1u);
     std::vector<Step> steps = frame_steps(SimulationModel(scene));
     std::vector<Step> merged = steps_together(steps, lists);
-    EXPECT_EQ(count_of(merged, true), 3u * 6) << "one moves a pin";
+    EXPECT_EQ(count_of(merged, true), 3u * 5) << "one moves a pin";
     EXPECT_EQ(count_of(merged, false), 3u + 1);
     for (Step& step : steps)
         if (step.cloth == 2 && step.kind == StepKind::line && step.substep == 1)
             std::get<glsl::LinePush>(step.constants).compliance *= 2;
     merged = steps_together(steps, lists);
-    EXPECT_EQ(count_of(merged, true), 3u * 6 - 4) << "and another is softer in one substep";
+    EXPECT_EQ(count_of(merged, true), 3u * 5 - 4) << "and another is softer in one substep";
     for (std::size_t cloth = 0; cloth < 3; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
 }

@@ -52,7 +52,6 @@ double passes_of(const SimulationModel& model) {
     for (const Step& step : frame_steps(model)) switch (step.kind) {
             case StepKind::release:
             case StepKind::pin:
-            case StepKind::control:
             case StepKind::residual:
             case StepKind::decide:
             case StepKind::nested:

@@ -58,10 +58,9 @@ class NativeRun::Sheet {
         const Rows rows = worker.share(view_.rows);
         const bool advance = step.substep > 0;
         switch (step.kind) {
-            case StepKind::control:
-                if (worker.index == 0) control(step.push<LineControlPush>().most_wrong);
-                return worker.wait();
             case StepKind::predict:
+                if (worker.index == 0) control(step.push<PredictPush>().most_wrong);
+                worker.wait();
                 kernels_.predict_rows(view_, step.push<PredictPush>(), advance, is_bdf2(), rows);
                 return worker.wait();
             case StepKind::force:
@@ -200,8 +199,8 @@ NativeRun::NativeRun(const SimulationModel& model, NativeWay way)
             throw std::invalid_argument("iterations without a native kernel");
         sheets_.push_back(std::make_unique<Sheet>(cloth, way.vectors ? vector_kernels() : scalar_kernels(), sharing));
     }
-    constexpr std::array known{StepKind::control, StepKind::predict, StepKind::force,  StepKind::explicit_step,
-                               StepKind::line,    StepKind::spring,  StepKind::advance};
+    constexpr std::array known{StepKind::predict, StepKind::force,  StepKind::explicit_step,
+                               StepKind::line,    StepKind::spring, StepKind::advance};
     for (const Step& step : frame_steps(model)) {
         if (std::ranges::find(known, step.kind) == known.end() || step.conditional)
             throw std::invalid_argument("a step without a native kernel");
