@@ -110,6 +110,23 @@ TEST(SpeedReport, KernelsSayWhichAreTakenAndWhichAreTheFastest) {
     EXPECT_THAT(speed_json(report), HasSubstr("\"taken\": \"plain\""));
 }
 
+TEST(SpeedReport, TheCostOfASubstepIsAPartPerDispatchAndOnePerParticle) {
+    std::vector<SpeedResult> results;
+    for (const std::uint32_t size : {32u, 64u, 256u}) {
+        SpeedResult& result = results.emplace_back(
+            SpeedResult{{.name = "kernels/line", .kind = SpeedKind::kernels, .variable = size, .size = size}});
+        const double ms = result.about.substeps() * (0.03 + 2e-6 * result.about.particles());
+        result.times = {{"frame", profile::Statistics{.median = ms}}};
+    }
+    const std::vector<MeasuredCost> costs = fit_costs(results);
+    ASSERT_EQ(costs.size(), 1u);
+    EXPECT_EQ(costs[0].method, SolverMethod::line);
+    EXPECT_NEAR(costs[0].cost.ms, 0.03, 1e-9);
+    EXPECT_NEAR(costs[0].cost.particle_ns, 2, 1e-6);
+    results.resize(1);
+    EXPECT_TRUE(fit_costs(results).empty()) << "one size is no fit";
+}
+
 TEST(SpeedCases, OfKernelsAreThoseOfSheetsAndCloths) {
     std::set<std::string> names;
     for (const SpeedCase& each : kernel_cases(true)) {

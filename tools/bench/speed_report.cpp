@@ -44,6 +44,29 @@ std::vector<ScalingFit> fit_scaling(const std::vector<SpeedResult>& results) {
     return fits;
 }
 
+std::vector<MeasuredCost> fit_costs(const std::vector<SpeedResult>& results) {
+    std::vector<MeasuredCost> costs;
+    for (const SolverMethodName& method : solver_method_names) {
+        // t = a + b x, each equation over t: the sums of the normal equations.
+        double count = 0, ones = 0, mixed = 0, squares = 0, right = 0, right_x = 0;
+        for (const SpeedResult& result : results) {
+            const SpeedTime* time = result.find("frame");
+            if (result.about.kind != SpeedKind::kernels || result.about.method != method.method ||
+                result.about.cloths > 1 || !time)
+                continue;
+            const double t = time->statistics.median / result.about.substeps(), x = result.about.particles();
+            ++count, ones += 1 / (t * t), mixed += x / (t * t), squares += x * x / (t * t);
+            right += 1 / t, right_x += x / t;
+        }
+        const double determinant = ones * squares - mixed * mixed;
+        if (count < 2 || !(determinant > 0)) continue;
+        costs.push_back({method.method,
+                         {(right * squares - right_x * mixed) / determinant,
+                          1e6 * (right_x * ones - right * mixed) / determinant}});
+    }
+    return costs;
+}
+
 namespace {
 
 /// A side that Drape is compared with: its name among the times, the head of its column.
@@ -148,6 +171,25 @@ std::string kernel_table(const SpeedReport& report) {
     return head + fmt::format("  {:<14}{:>6}  {}\n", "fastest", "ratio", "taken") + text;
 }
 
+std::string cost_table(const SpeedReport& report) {
+    std::string text;
+    for (const MeasuredCost& measured : fit_costs(report.results)) {
+        text += fmt::format("{:<12}{:>12.4f}{:>12.3f}", named(measured.method).name, measured.cost.ms,
+                            measured.cost.particle_ns);
+        for (const DeviceKind kind : {DeviceKind::cpu, DeviceKind::gpu}) {
+            const SubstepCost& known = costs_of(kind).of(measured.method);
+            text += fmt::format("{:>14.4f}{:>12.3f}", known.ms, known.particle_ns);
+        }
+        text += "\n";
+    }
+    if (text.empty()) return text;
+    return fmt::format(
+               "\nCosts of a bare substep: ms, and ns for each particle; on kinds of devices: what `auto` goes by\n"
+               "{:<12}{:>12}{:>12}{:>14}{:>12}{:>14}{:>12}\n",
+               "method", "measured", "", "on a CPU", "", "on a GPU", "") +
+           text;
+}
+
 std::string fit_table(const SpeedReport& report) {
     std::string text;
     for (const ScalingFit& fit : fit_scaling(report.results))
@@ -232,7 +274,7 @@ std::string speed_text(const SpeedReport& report) {
     std::string text = fmt::format("{}, {} cores, {}\n", report.text(), report.cores, report.created);
     if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
     if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
-    return text + solver_table(report) + kernel_table(report) + fit_table(report) +
+    return text + solver_table(report) + kernel_table(report) + cost_table(report) + fit_table(report) +
            parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
            skip_table(report) + parts_table(report, SpeedKind::start, "Starts");
 }

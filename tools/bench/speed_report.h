@@ -6,6 +6,7 @@
 
 #include "bench/bench_run.h"
 #include "bench/speed_case.h"
+#include "cloth/device_costs.h"
 #include "plot/plot.h"
 #include "profile/profile.h"
 
@@ -44,6 +45,16 @@ struct ScalingFit {
 /// For sheets the growth of ms per substep with the particles, from 64x64 on; for several cloths with their number.
 /// There are three points at least.
 std::vector<ScalingFit> fit_scaling(const std::vector<SpeedResult>& results);
+
+/// The cost of a bare substep as it was measured: what cloth/device_costs.h has for every kind of device.
+struct MeasuredCost {
+    SolverMethod method;
+    SubstepCost cost;
+};
+
+/// Fits "frame" of the cases of kernels by method, with the least squares of relative errors. There are two sizes of a
+/// single cloth at least.
+std::vector<MeasuredCost> fit_costs(const std::vector<SpeedResult>& results);
 
 struct SpeedReport : ReportHead {
     int cores = 1;
