@@ -67,6 +67,7 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
 Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model) {
     for (const Kernel kernel : {Kernel::line_cyclic, Kernel::nested_cyclic})
         if (kernels.has(kernel)) kernels_.add(kernel);
+    kernels_.group = kernels.group;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
