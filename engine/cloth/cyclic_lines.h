@@ -6,12 +6,16 @@
 
 namespace drape {
 
-/// Returns whether cyclic reduction can solve the lines of a step: they do not bend, and a workgroup holds a line
-/// (cyclic_most_particles).
-bool can_reduce(const glsl::LinePush& push);
+/// Returns the most particles of a line that a workgroup of such limits holds: 1024 and, where it bends, 896 in 32 KiB
+/// of shared memory; 672 and 448 in 16 KiB.
+int cyclic_most(const GroupLimits& limits, bool bent);
+
+/// Returns whether cyclic reduction can solve the lines of a step: a workgroup holds a line, and they do not bend too
+/// stiffly (cyclic_most_bend).
+bool can_reduce(const glsl::LinePush& push, const GroupLimits& limits);
 
 /// Returns the shared memory of a workgroup of so many invocations, bytes.
-std::uint32_t cyclic_shared_bytes(std::uint32_t invocations);
+std::uint32_t cyclic_shared_bytes(std::uint32_t invocations, bool bent);
 
 /// Returns the size of a workgroup for lines of so many particles: x invocations along a line, y lines, which are
 /// several where lines are short.

@@ -123,7 +123,8 @@ void stream_single_steps(const SimulationModel& model, std::vector<Step>& steps)
 
 void reduce_lines(const Kernels& kernels, std::vector<Step>& steps) {
     for (Step& step : steps)
-        if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) && can_reduce(step.push<glsl::LinePush>()))
+        if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) &&
+            can_reduce(step.push<glsl::LinePush>(), kernels.group))
             step.kernel = Kernel::line_cyclic;
 }
 

@@ -21,6 +21,7 @@ namespace drape::glsl {
 #include "include/contact_law.h"
 #include "include/cut.h"
 #include "include/cyclic.h"
+#include "include/cyclic_bent.h"
 #include "include/difference.h"
 #include "include/end_velocity.h"
 #include "include/explicit.h"

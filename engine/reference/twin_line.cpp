@@ -131,6 +131,19 @@ std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>&
     return reduced(rows);
 }
 
+/// Solves the first system of a line that bends by cyclic reduction.
+std::vector<vec3> reduced_bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
+    const auto spring = [&](std::size_t e) {  // places before the first spring wrap around to beyond the last
+        return e < line.spring_count() ? BentSpring(line.edge(e), stiffness[e], line.share(e))
+                                       : BentSpring({0, 0, 0}, 0, 0);
+    };
+    std::vector<BentRow> rows;
+    for (std::size_t p = 0; p < line.particles.size(); ++p)
+        rows.push_back(
+            bent_row(spring(p - 2), spring(p - 1), spring(p), spring(p + 1), bend, line.weight(p), p % 2 != 0));
+    return reduced(rows);
+}
+
 /// Solves the first system of a line that bends.
 std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& stiffness, float bend) {
     std::vector<BentParticle> eliminated;
@@ -162,9 +175,10 @@ void filter(LineView& line, float compliance, float followed, bool by_reduction,
                                                 line.push.rest_length));
         stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), reciprocal(compliance)));
     }
-    line.delta = by_reduction ? reduced_deltas(line, stiffness)
-                 : bend > 0   ? bent_deltas(line, stiffness, bend)
-                              : tension_deltas(line, stiffness);
+    if (by_reduction)
+        line.delta = bend > 0 ? reduced_bent_deltas(line, stiffness, bend) : reduced_deltas(line, stiffness);
+    else
+        line.delta = bend > 0 ? bent_deltas(line, stiffness, bend) : tension_deltas(line, stiffness);
     for (std::size_t p = 0; p < line.particles.size(); ++p)
         line.moved[p] = moved_by(line.moved[p], line.delta[p], 1.0f);
     for (std::size_t e = 0; e < line.spring_count(); ++e)

@@ -44,15 +44,26 @@ std::string shuffle_obstacle(const vulkan::Device& device, const SimulationModel
                                   : fmt::format("the device has no subgroups of {} that shuffle", lanes);
 }
 
-/// Why no workgroup can hold a tile of a cloth or its longest line.
+/// Why no workgroup can hold a tile of a cloth or the longest line of a nested box.
 std::string large_group_obstacle(const vulkan::Device& device, const SimulationModel&) {
     constexpr std::uint32_t most = glsl::cyclic_most_particles;
     const VkPhysicalDeviceLimits& limits = device.limits();
     if (limits.maxComputeWorkGroupInvocations < most || limits.maxComputeWorkGroupSize[0] < most)
         return fmt::format("the device has no workgroups of {} invocations", most);
-    if (limits.maxComputeSharedMemorySize < cyclic_shared_bytes(most))
-        return fmt::format("the device's workgroups share less than {} bytes", cyclic_shared_bytes(most));
+    constexpr bool bent = false;
+    if (limits.maxComputeSharedMemorySize < cyclic_shared_bytes(most, bent))
+        return fmt::format("the device's workgroups share less than {} bytes", cyclic_shared_bytes(most, bent));
     return {};
+}
+
+/// Workgroups are as large as the lines that they hold, and others are walked (cyclic_most).
+std::string no_obstacle(const vulkan::Device&, const SimulationModel&) { return {}; }
+
+/// Returns the workgroups that kernels ask for, as far as a device has them.
+GroupLimits group_limits(const vulkan::Device& device, const GroupLimits& asked) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    return {std::min({asked.invocations, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]}),
+            std::min(asked.shared_bytes, limits.maxComputeSharedMemorySize)};
 }
 
 /// A kernel, the kind of device that it is the fastest on (`drape bench speed --tune` measures it), the kernel that it
@@ -79,7 +90,7 @@ constexpr KernelRule rules[] = {
      "a particle is loaded and stored once instead of four times"},
     {Kernel::twist_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
      "shared memory holds the particles for all four passes"},
-    {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+    {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, no_obstacle,
      "a line waits for memory some log n times instead of 3 n times"},
 };
 
@@ -121,6 +132,7 @@ std::string buffer_store_obstacle(const vulkan::Device& device, const Grid& grid
 
 Kernels possible_kernels(const vulkan::Device& device, const SimulationModel& model, const Kernels& asked) {
     Kernels kernels;
+    kernels.group = group_limits(device, asked.group);
     for (const KernelRule& rule : rules) {
         if (asked.is_automatic() ? rule.best_on != device_kind(device.info()) : !asked.has(rule.kernel)) continue;
         const std::string obstacle = obstacle_of(device, model, rule);

@@ -10,6 +10,13 @@ void hand_out(vec4 value) {
     barrier();
 }
 
+void hand_out(vec4 value, vec2 more) {
+    barrier();
+    handed[gl_LocalInvocationIndex] = value;
+    handed_too[gl_LocalInvocationIndex] = more;
+    barrier();
+}
+
 bool has_neighbour(int by) {
     int place = group_place + by;
     return place >= 0 && place < group_width;
@@ -31,10 +38,7 @@ CyclicRow row_of_neighbour(int by) {
 /// of each system hold its rows. Every invocation of the workgroup must get here, with the same count.
 CyclicRow uncoupled(CyclicRow row, int count) {
     for (int distance = 1; distance < count; distance *= 2) {
-        barrier();
-        handed[gl_LocalInvocationIndex] = vec4(row.shift, row.before, row.after, row.right.x);
-        handed_too[gl_LocalInvocationIndex] = row.right.yz;
-        barrier();
+        hand_out(vec4(row.shift, row.before, row.after, row.right.x), row.right.yz);
         row = reduced_row(row, row_of_neighbour(-distance), row_of_neighbour(distance));
     }
     return row;

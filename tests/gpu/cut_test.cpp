@@ -190,10 +190,12 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
 
 /// Runs `frames` frames on the device and on the twin: the bits after each are the same, and there are at least ten
 /// cuts. Returns the tethers of the twin's first cloth as the cuts left them.
-std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription& scene, std::uint32_t frames) {
-    test::TwinWithCuts twin(scene);
+std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription& scene, std::uint32_t frames,
+                                                         const Kernels& kernels = Kernels::automatic()) {
+    test::TwinWithCuts twin(scene, kernels);
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     FrameLoopOptions options = positions_only();
+    options.kernels = kernels;
     options.on_cut = [&](const CutEvent&, const CutTopology&) { ++device_cuts; };
     FrameLoop loop(test::gpu().device, twin.model(), options);
     loop.run(
@@ -228,22 +230,29 @@ TEST(CutTest, TheLineSolverCarriesItsHistoryThroughCuts) {
     EXPECT_EQ(expect_the_twins_cuts(scene, frames)[5 * 40].anchor_a, -1);
 }
 
-class CutBending : public testing::TestWithParam<SolverMethod> {};
+constexpr std::uint32_t bending_frames = 30;
 
-TEST_P(CutBending, EndsAtCuts) {
-    constexpr std::uint32_t frames = 30;
+SceneDescription bending_cut(SolverMethod method) {
     SceneDescription scene = test::sheet(40, 36, 0.9, 0.8, 3);
-    scene.time.frame_count = frames + 1;
-    scene.solver.method = GetParam();
+    scene.time.frame_count = bending_frames + 1;
+    scene.solver.method = method;
     scene.cloths[0].stiffness = {false, 20, 2, 1e-4};
     scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
     scene.gravity = {0, -0.5, 0.3};
-    scene.cutters = random_blades(frames - 5, scene.time.fps, 0.9);
-    expect_the_twins_cuts(scene, frames);
+    scene.cutters = random_blades(bending_frames - 5, scene.time.fps, 0.9);
+    return scene;
 }
+
+class CutBending : public testing::TestWithParam<SolverMethod> {};
+
+TEST_P(CutBending, EndsAtCuts) { expect_the_twins_cuts(bending_cut(GetParam()), bending_frames); }
 
 INSTANTIATE_TEST_SUITE_P(Methods, CutBending,
                          testing::Values(SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line));
+
+TEST(CutTest, BendingByCyclicReductionEndsAtCuts) {
+    expect_the_twins_cuts(bending_cut(SolverMethod::line), bending_frames, cyclic_kernels);
+}
 
 TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
     SceneDescription scene = test::sheet(9, 9, 0.8, 0.8, 4);

@@ -41,6 +41,12 @@ inline constexpr KernelName kernel_names[] = {
 };
 inline constexpr std::string_view name_of(Kernel kernel) { return kernel_names[static_cast<std::size_t>(kernel)].name; }
 
+/// How large the workgroups may be that a kernel sizes by the scene. A device may allow less.
+struct GroupLimits {
+    std::uint32_t invocations = 1024, shared_bytes = 32768;
+    bool operator==(const GroupLimits&) const = default;
+};
+
 /// A set of kernels that a simulation may use beside the plain ones; `auto` stands for those that suit the device and
 /// the scene.
 class Kernels {
@@ -80,6 +86,8 @@ class Kernels {
     bool has(Kernel kernel) const { return kernel == Kernel::plain || (bits_ >> static_cast<unsigned>(kernel) & 1u); }
     void add(Kernel kernel) { bits_ |= 1u << static_cast<unsigned>(kernel) & ~1u; }
     bool operator==(const Kernels&) const = default;
+
+    GroupLimits group;
 
   private:
     std::uint32_t bits_ = 0;
