@@ -1,8 +1,10 @@
 // This pass makes the boxes over the sheet as it is at the start of a substep, one per particle about the cell whose
 // first corner that is. It resets the lists of what pairs bore by their first corner and keeps the motions that the
-// particles would make without contact. Where a cell has left the box with which it was last looked for, it asks for a new search.
+// particles would make without contact. Where a cell has left the box with which it was last looked for, it asks for a
+// new search. CROSSED also resets what is found of cloths that started through each other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/self_contact.h"
@@ -18,6 +20,10 @@ layout(set = 0, binding = 7, std430) readonly buffer Record { SelfRecord record[
 layout(set = 0, binding = 8, std430) writeonly buffer Before { vec4 before[]; };
 layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer kept;  // boxes of the last search
 layout(set = 0, binding = 10, std430) buffer Sizes { uvec4 sizes[]; };
+#ifdef CROSSED
+layout(set = 0, binding = 11, std430) writeonly buffer Crossings { SelfCrossings crossings[]; };
+void forget_crossings(int k) { crossings[k] = SelfCrossings(0, 0); }
+#endif
 #include "include/self_lists.h"
 
 vec3 carried, travel;  // those of record[0], read where nothing has branched yet (docs/devices.md)
@@ -68,5 +74,8 @@ void main() {
     travel = record[0].travel.xyz;
     int count = push.grid.x * push.grid.y;
     FOR_EVERY(place, count, begin(place, count))
+#ifdef CROSSED
+    FOR_EVERY(k, push.crossed_count, forget_crossings(k))
+#endif
     dispatch(self_size_search, searches ? 1u : 0u);
 }

@@ -9,7 +9,7 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfClothPush)
-#define STATE_COLUMNS push.columns
+#define STATE_COLUMNS push.sheet.x
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement;

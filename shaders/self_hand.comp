@@ -17,7 +17,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;     /
 
 bool was_moved(ivec2 texel) {
     ivec2 laid = push.first + texel;
-    return imageLoad(before, laid.y * push.columns + laid.x).w != 0.0f;
+    return imageLoad(before, laid.y * push.sheet.x + laid.x).w != 0.0f;
 }
 
 void hand(ivec2 texel) {

@@ -31,7 +31,7 @@ TRIPLE_OUT(9, DisplacementBeforeOut, displacement_before_out);
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
 #endif
 
-int place_of(ivec2 laid) { return laid.y * push.columns + laid.x; }
+int place_of(ivec2 laid) { return laid.y * push.sheet.x + laid.x; }
 
 bool was_moved(ivec2 texel) { return imageLoad(before, place_of(push.first + texel)).w != 0.0f; }
 

@@ -88,10 +88,8 @@ class ContactSteps {
 
     void add() {
         glsl::SelfContactPush push = contact_.push;
-        push.first = substep_ == 0 ? 1 : 0;
         const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
         add_for_cloths(StepKind::self_gather);
-        add_one(StepKind::self_common);
         for (const StepKind kind : {StepKind::self_boxes, StepKind::self_search, StepKind::self_kept}) add_one(kind);
         for (push.level = 1; push.level <= push.top; push.level = push.last + 1) {
             push.last = last_level(push, push.level);
@@ -115,8 +113,8 @@ class ContactSteps {
   private:
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back(
-                {kind, cloth, substep_, 0, contact_.cloth_push(cloth), substep_ + 1 == model_.scene.solver.substeps});
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0),
+                              substep_ + 1 == model_.scene.solver.substeps});
     }
     void collide() {
         add_for_cloths(StepKind::self_hand);

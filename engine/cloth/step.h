@@ -41,7 +41,6 @@ enum class StepKind {
     advance,
     self_gather,
     self_gather_again,
-    self_common,
     self_boxes,
     self_search,
     self_kept,

@@ -15,8 +15,30 @@ namespace {
 std::size_t place_of(const SelfClothPush& push, std::size_t particle) {
     const auto columns = static_cast<std::size_t>(push.grid.x);
     const std::size_t column = particle % columns, row = particle / columns;
-    return (static_cast<std::size_t>(push.first.y) + row) * static_cast<std::size_t>(push.columns) +
+    return (static_cast<std::size_t>(push.first.y) + row) * static_cast<std::size_t>(push.sheet.x) +
            static_cast<std::size_t>(push.first.x) + column;
+}
+
+/// Begins a substep's contact, when all cloths are on the sheet.
+void begin_contact(TwinContact& contact, const SelfClothPush& push) {
+    SelfRecord& record = contact.record;
+    if (push.begins_frame != 0) record = {};
+    std::vector<vec3> samples;
+    for (const SelfCloth& cloth : contact.model->cloths)
+        for (int k = 0; push.held == 0 && k < self_cloth_samples; ++k) {
+            const ivec2 sample = self_sample(cloth.grid, k);
+            const int place = (cloth.first.y + sample.y) * push.sheet.x + cloth.first.x + sample.x;
+            samples.push_back(xyz(contact.displacements[static_cast<std::size_t>(place)]));
+        }
+    vec3 sum{};
+    for (const vec3& sample : samples) sum = sum + sample;
+    const vec3 mean = self_mean(sum, push.cloth_count);
+    float least = 1;
+    for (const vec3& sample : samples) least = self_least(least, self_part_made(sample, mean));
+    record.carried = texel(self_common_motion(mean, least));
+    record.point_count = record.edge_count = 0;
+    record.touching_point_count = record.touching_edge_count = 0;
+    record.cell_count = 0;
 }
 
 void run_self_gather(const TwinPlace& where) {
@@ -31,6 +53,7 @@ void run_self_gather(const TwinPlace& where) {
         if (step.kind == StepKind::self_gather && !state[Field::support].empty())
             meeting->supports[place] = {std::exchange(state[Field::support][i], vec4{}), state[Field::support_grip][i]};
     }
+    if (step.kind == StepKind::self_gather && push.cloth_count > 0) begin_contact(*meeting, push);
 }
 
 void run_self_hand(const TwinPlace& where) {

@@ -96,8 +96,7 @@ std::vector<StepRow> contact_step_rows() {
     return {
         of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
         of_cloth(self_gather_again, "self gather again", "self_gather_again.comp", {}),
-        of_all(self_common, "self common", "self_common.comp", one_invocation, if_crossed),
-        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
+        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet, if_crossed),
         of_all(self_search, "self search", "self_search.comp", found<glsl::self_size_search>),
         of_all(self_kept, "self kept", "self_kept.comp", found<glsl::self_size_kept>),
         in_tree(self_levels, "self levels", "self_levels.comp", found_at_level),

@@ -2,7 +2,7 @@
 // buffers of the same memory; on the default device image stores take longer (docs/devices.md). Loads go through the
 // images either way. VECTOR_KEPT declares an image whose texels are not all written; TRIPLE_OUT and STORE_TRIPLE one
 // that is updated in place where the value `beside` xyz stays, which a buffer need not be told. The includer has
-// `push.grid`, and STATE_COLUMNS where that is not the images' own.
+// `push.grid`, and STATE_COLUMNS where that is not the images' own. LOAD_KEPT loads what VECTOR_KEPT declared.
 #include "include/together.h"
 #ifndef STATE_COLUMNS
 #define STATE_COLUMNS push.grid.x
@@ -23,6 +23,7 @@ struct StateTriple {
     layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
 #define VECTOR_KEPT(slot, block, name) \
     layout(set = 0, binding = slot, std430) buffer block { vec4 name[]; }
+#define LOAD_KEPT(name, texel) name[placed(texel).y * vector_pitch() + (texel).x]
 #define STORE_VECTOR(name, texel, value) name[placed(texel).y * vector_pitch() + (texel).x] = value
 #define STORE_TRIPLE(name, texel, value, beside) name[placed(texel).y * vector_pitch() + (texel).x].xyz = value
 #define STORE_SCALAR(name, texel, value) name[placed(texel).y * scalar_pitch() + (texel).x] = value
@@ -31,6 +32,7 @@ struct StateTriple {
 #define TRIPLE_OUT VECTOR_OUT
 #define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, r32f) uniform writeonly image2D name
 #define VECTOR_KEPT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform image2D name
+#define LOAD_KEPT(name, texel) imageLoad(name, placed(texel))
 #define STORE_VECTOR(name, texel, value) imageStore(name, placed(texel), value)
 #define STORE_TRIPLE(name, texel, value, beside) imageStore(name, placed(texel), vec4(value, beside))
 #define STORE_SCALAR(name, texel, value) imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f))

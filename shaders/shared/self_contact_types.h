@@ -113,9 +113,7 @@ struct SelfContactPush {
     int level;          // boxes: the first level that this pass makes
     int last;           // boxes: the last level
     int top;            // level of the root
-    int first;          // 1: the frame's first substep
     int round;          // contact, push, room: which round
-    int held;           // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
     int crossed_count;      // pairs of cloths that started through each other
     int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
@@ -124,9 +122,13 @@ struct SelfContactPush {
 
 /// Push constants of the passes between a cloth's own fields and the sheet.
 struct SelfClothPush {
-    ivec2 grid;   // the cloth's
-    ivec2 first;  // where it lies on the sheet
-    int columns;  // the sheet's
+    ivec2 grid;        // the cloth's
+    ivec2 first;       // where it lies on the sheet
+    ivec2 sheet;       // columns, rows of the sheet
+    int cloth_count;   // gather: cloths on the sheet where this is the last to be laid there, else 0
+    int held;          // gather: 1: some particles are always held, so that nothing is carried along with all
+    int begins_frame;  // gather: 1: the frame's first substep
+    int unused;
 };
 
 /// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room.
