@@ -117,15 +117,14 @@ class ContactSteps {
                               substep_ + 1 == model_.scene.solver.substeps});
     }
     void collide() {
-        add_for_cloths(StepKind::self_hand);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             steps_.push_back({.kind = StepKind::collide,
                               .cloth = cloth,
                               .substep = substep_,
                               .iteration = model_.scene.solver.iterations + 1,
+                              .constants = contact_.cloth_push(cloth, false),
                               .supporting = true,
                               .after_impulses = true});
-        add_for_cloths(StepKind::self_gather_again);
     }
 
     const SimulationModel& model_;

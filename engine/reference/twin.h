@@ -105,6 +105,9 @@ struct TwinPlace {
     TwinContact* contact;  ///< null where no cloths meet
 };
 
+/// Returns where a cloth's particle lies on the sheet.
+std::size_t place_on_sheet(const glsl::SelfClothPush& push, std::size_t particle);
+
 /// A kind of step and its function. Every file of such functions gives their rows.
 struct TwinRow {
     StepKind kind;

@@ -95,7 +95,6 @@ std::vector<StepRow> contact_step_rows() {
     returned.alias = before_alias;
     return {
         of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
-        of_cloth(self_gather_again, "self gather again", "self_gather_again.comp", {}),
         of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet, if_crossed),
         of_all(self_search, "self search", "self_search.comp", found<glsl::self_size_search>),
         of_all(self_kept, "self kept", "self_kept.comp", found<glsl::self_size_kept>),
@@ -115,7 +114,6 @@ std::vector<StepRow> contact_step_rows() {
                {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         of_all(self_move, "self move", "self_move.comp", over_sheet, {{"buffered", sheet_is_buffered}}),
-        of_cloth(self_hand, "self hand", "self_hand.comp", {}),
         returned,
     };
 }
