@@ -106,7 +106,6 @@ class ContactSteps {
         add_one(StepKind::self_push);
         if (!model_.scene.colliders.empty()) collide();
         for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_limit);
-        add_one(StepKind::self_move);
         add_for_cloths(StepKind::self_return);
     }
 

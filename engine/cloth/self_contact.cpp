@@ -143,9 +143,9 @@ std::vector<int> SelfContact::owners() const {
 }
 
 glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, bool begins_frame) const {
-    const bool is_last = cloth + 1 == cloths.size();
-    return {cloths[cloth].grid, cloths[cloth].first,  push.grid, is_last ? push.cloth_count : 0,
-            held ? 1 : 0,       begins_frame ? 1 : 0, 0};
+    const glsl::SelfCloth& laid = cloths[cloth];
+    const int count = cloth + 1 == cloths.size() ? push.cloth_count : 0;
+    return {laid.grid, laid.first, push.grid, count, held ? 1 : 0, begins_frame ? 1 : 0, laid.thickness};
 }
 
 double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {

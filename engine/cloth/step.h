@@ -56,7 +56,6 @@ enum class StepKind {
     self_contact,
     self_push,
     self_limit,
-    self_move,
     self_return,
 };
 inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;

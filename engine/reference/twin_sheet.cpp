@@ -59,6 +59,7 @@ void run_self_gather(const TwinPlace& where) {
 void run_self_return(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
+    cut_short(*meeting, step.cloth);
     const bool ends_frame = step.last && !state[Field::end_excess].empty();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const std::size_t place = place_on_sheet(push, i);

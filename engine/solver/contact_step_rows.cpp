@@ -113,7 +113,6 @@ std::vector<StepRow> contact_step_rows() {
         of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>,
                {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
-        of_all(self_move, "self move", "self_move.comp", over_sheet, {{"buffered", sheet_is_buffered}}),
         returned,
     };
 }

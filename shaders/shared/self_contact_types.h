@@ -125,10 +125,10 @@ struct SelfClothPush {
     ivec2 grid;        // the cloth's
     ivec2 first;       // where it lies on the sheet
     ivec2 sheet;       // columns, rows of the sheet
-    int cloth_count;   // gather: cloths on the sheet where this is the last to be laid there, else 0
+    int cloth_count;   // cloths on the sheet where this is the last to be laid there and taken back, else 0
     int held;          // gather: 1: some particles are always held, so that nothing is carried along with all
     int begins_frame;  // gather: 1: the frame's first substep
-    int unused;
+    float thickness;   // m kept between the cloth's own layers
 };
 
 /// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room.
