@@ -109,7 +109,7 @@ float least_part_of(vec3 mean, int count) {
 }
 
 void reset_sizes() {
-    for (int k = self_size_of_substep; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
+    for (int k = 0; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
     if (push.begins_frame != 0) sizes[self_size_search].x = 1u;
 }
 

@@ -17,7 +17,6 @@ uint groups_for(int count) { return uint((count + workgroup_width - 1) / workgro
 
 void main() {
     if (gl_GlobalInvocationID.x > 0u) return;
-    sizes[self_size_near] = uvec4(0u, 1u, 1u, 0u);  // it lasts until the next search
     sizes[self_size_kept].x = groups_of(uint(push.grid.x * push.grid.y));
     for (int level = 1; level <= push.top; ++level) {
         int count = self_tree_count(push.grid, level);

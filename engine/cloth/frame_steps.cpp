@@ -95,9 +95,7 @@ class ContactSteps {
             push.last = last_level(push, push.level);
             add_one(StepKind::self_levels);
         }
-        for (const StepKind kind :
-             {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_bent})
-            add_one(kind);
+        for (const StepKind kind : {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near}) add_one(kind);
         if (!contact_.to_part.empty())
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})

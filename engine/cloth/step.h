@@ -47,7 +47,6 @@ enum class StepKind {
     self_blocks,
     self_cells,
     self_near,
-    self_bent,
     self_crossings,
     self_apart,
     self_primitives,

@@ -36,13 +36,11 @@ const int self_most_levels = 16;
 /// Index into the sizes of indirect dispatches that a pass takes; a pass of several rounds or levels has one for each.
 /// A pass is dispatched only for entries that exist: an invocation without work costs the default device as much as one
 /// with.
-const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_size_levels = 3,
+const int self_size_search = 0, self_size_kept = 1, self_size_levels = 2,
           self_size_blocks = self_size_levels + self_most_levels, self_size_cells = self_size_blocks + 1,
           self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
-/// The first of the sizes that begin anew with every substep, not with a search.
-const int self_size_of_substep = self_size_search;
 
 /// A pair that touches in this substep, or would.
 struct SelfTouch {
