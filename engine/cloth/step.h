@@ -51,7 +51,6 @@ enum class StepKind {
     self_apart,
     self_primitives,
     self_pairs,
-    self_begin,
     self_contact,
     self_push,
     self_limit,
