@@ -169,11 +169,6 @@ std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {
     return nodes(grid.x) * nodes(grid.y);
 }
 
-int last_level(const glsl::SelfContactPush& push, int level) {
-    const bool tail = level > 0 && self_tree_boxes_of(push.grid, level) <= glsl::self_tree_tail;
-    return tail ? push.top : level;
-}
-
 std::uint64_t self_tree_boxes(glsl::ivec2 grid) {
     std::uint64_t count = 0;
     for (int level = 0; level <= top_level(grid); ++level) count += self_tree_boxes_of(grid, level);

@@ -34,7 +34,7 @@ struct SelfContact {
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};         ///< level, last, round and the capacity of the lists are set per step
+    glsl::SelfContactPush push{};         ///< round and the capacity of the lists are set per step
     ContactCapacity capacity;             ///< capacity of the lists in the beginning
     std::vector<glsl::SelfCloth> cloths;  ///< constants of each cloth and its place on the sheet
     glsl::ivec2 largest{};                ///< most columns and most rows of any cloth
@@ -57,8 +57,5 @@ ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::Self
 /// Returns the number of boxes of one level of the tree over a sheet, and of all its levels.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);
 std::uint64_t self_tree_boxes(glsl::ivec2 grid);
-
-/// Returns the last of the levels that one pass makes, from `level` on: it makes one, or all that are left.
-int last_level(const glsl::SelfContactPush& push, int level);
 
 }  // namespace drape
