@@ -1,11 +1,12 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
 // the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
 // has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what box_edges.comp left. SUPPORTING
-// keeps the surfaces that particles lie on, for contact between cloths.
+// keeps the surfaces that particles lie on, for contact between cloths. AFTER_IMPULSES does that too, and goes on from
+// what contact between cloths has made of the displacements on their sheet; it leaves them there as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants HISTORY LED SUPPORTING BUFFERED
+#pragma variants HISTORY LED SUPPORTING|AFTER_IMPULSES BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/contacts.h"
@@ -29,10 +30,33 @@ layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
 #endif
 
+#ifdef AFTER_IMPULSES
+#define SUPPORTING
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacements_in;  // w: bits (self_sheet.h)
+VECTOR_OUT(12, DisplacementsOut, displacements_out);
+#endif
+
 #ifdef SUPPORTING
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D support;
 layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D support_grip;
 #endif
+
+vec4 moved_at(ivec2 texel) {
+#ifdef AFTER_IMPULSES
+    return imageLoad(displacements_in, push.laid + texel);
+#else
+    return LOAD(displacement_in, texel);
+#endif
+}
+
+/// Stores a displacement where `moved_at` found `moved`.
+void leave(ivec2 texel, vec3 displacement, vec4 moved) {
+#ifdef AFTER_IMPULSES
+    STORE_IN_COLUMNS(displacements_out, push.laid + texel, push.sheet_columns, vec4(displacement, moved.w));
+    moved = LOAD(displacement_in, texel);
+#endif
+    STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+}
 
 /// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a box led it:
 /// above 0 if one did.
@@ -57,7 +81,7 @@ Strip strip_at(int column, int first, int count) {
     int k = 0;
     do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
-        vec4 start = LOAD(position_in, texel), led = led_displacement(texel, LOAD(displacement_in, texel));
+        vec4 start = LOAD(position_in, texel), led = led_displacement(texel, moved_at(texel));
         vec3 now = moved_position(start.xyz, led.xyz);
         float way = length_of(led.xyz);
         bool near = !leaves_out || led.w > 0.0f || near_early(now, way, push.contact.x);
@@ -88,7 +112,7 @@ uint late_rows(Strip strip) {
             vec4 ball = collider_ball(push.first, begin + findLSB(near), strip.way, push.contact.x);
             for (int k = 0; k < strip.count; ++k) {
                 ivec2 texel = ivec2(strip.column, strip.first + k);
-                vec4 start = LOAD(position_in, texel), moved = LOAD(displacement_in, texel);
+                vec4 start = LOAD(position_in, texel), moved = moved_at(texel);
                 vec3 now = moved_position(start.xyz, led_displacement(texel, moved).xyz);
                 bool meets = near_ball(ball, now, now, push.contact.x) && start.w != 0.0f;
                 rows |= meets ? 1u << k : 0u;
@@ -100,7 +124,7 @@ uint late_rows(Strip strip) {
 /// Returns whether that is done. It is not where a particle goes so far that its way has to be followed, unless this
 /// `follows` it, which takes several times as long.
 bool meet_all(ivec2 texel, bool follows) {
-    vec4 start = LOAD(position_in, texel), moved = LOAD(displacement_in, texel), led = led_displacement(texel, moved);
+    vec4 start = LOAD(position_in, texel), moved = moved_at(texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
     bool touched = led.w > 0.0f, went_far = false;
     // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
@@ -126,10 +150,12 @@ bool meet_all(ivec2 texel, bool follows) {
         STORE_TRIPLE(position_out, texel, led_sum(start.xyz, way_out), start.w);
         displacement = displacement_of_own(displacement, way_out);
     }
-    STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+    leave(texel, displacement, moved);
 #ifdef SUPPORTING
-    // The next substep starts where a collision after impulses leaves the particle.
-    vec3 touches = push.after_impulses == 0 ? displacement : grip.xyz;
+    vec3 touches = displacement;
+#ifdef AFTER_IMPULSES
+    touches = grip.xyz;  // the next substep starts where this one leaves the particle
+#endif
     if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a box led it
         imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
         imageStore(support_grip, placed(texel), grip);

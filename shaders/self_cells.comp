@@ -14,8 +14,6 @@ layout(set = 0, binding = 1, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Candidates { ivec2 candidates[]; };
 layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
-#include "include/self_lists.h"
 
 /// Returns cell k (0..3) of a block.
 ivec2 cell_of(int block, int k) {
@@ -39,7 +37,7 @@ Block block_of(int block) {
 }
 
 /// Returns whether cell k of one block may come near cell l of another. Cells past the sheet's edge do not count, nor
-/// do cells close in their cloth, which self_bent.comp judges by how the cloth lies between them.
+/// do cells close in their cloth, which self_near.comp judges by how the cloth lies between them.
 bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
     ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
     bool may = inside(a) && inside(b) && !(one.cloth == other.cloth && self_close(a, b));
@@ -60,7 +58,7 @@ void judge(ivec2 pair) {
     uint found = near(one, one.box0, 0, other, thickness) | (near(one, one.box1, 1, other, thickness) << 4) |
                  (near(one, one.box2, 2, other, thickness) << 8) | (near(one, one.box3, 3, other, thickness) << 12);
     uint count = uint(bitCount(found)), place = 0u;
-    if (count > 0u) place = place_after(atomicAdd(record[0].candidate_count, count), count);
+    if (count > 0u) place = atomicAdd(record[0].candidate_count, count);
     for (;;) {
         int k = max(findLSB(found), 0);
         int a = index_of(one.at + ivec2((k >> 2) & 1, k >> 3)), b = index_of(other.at + ivec2(k & 1, (k >> 1) & 1));
@@ -74,5 +72,4 @@ void judge(ivec2 pair) {
 void main() {
     int count = self_listed(record[0].block_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(blocks[i]))
-    dispatch(self_size_near, reached);
 }

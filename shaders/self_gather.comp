@@ -1,5 +1,8 @@
 // This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
-// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on.
+// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on. The pass of the last
+// cloth begins the substep's contact too: its first workgroup finds the motion that all particles are measured against,
+// which a few samples have in common, or none where some particles are always held, and resets the records of the
+// passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SUPPORTED BUFFERED
@@ -9,7 +12,7 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfClothPush)
-#define STATE_COLUMNS push.columns
+#define STATE_COLUMNS push.sheet.x
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -26,6 +29,12 @@ layout(set = 0, binding = 5, rgba32f) uniform image2D support;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D support_grip;
 layout(set = 0, binding = 7, std430) writeonly buffer Supports { vec4 supports[]; };
 #endif
+layout(set = 0, binding = 8, std430) readonly buffer Cloths { SelfCloth cloths[]; };
+layout(set = 0, binding = 9, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer Sizes { uvec4 sizes[]; };
+
+shared vec3 sampled[workgroup_width];
+shared float parts[workgroup_width];
 
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
@@ -55,11 +64,86 @@ void lay(ivec2 texel) {
 #ifdef SUPPORTED
     // It is taken back, as this substep's last collision says where a particle lies then.
     vec4 plane = imageLoad(support, texel);
-    int at = 2 * (laid.y * push.columns + laid.x);
+    int at = 2 * (laid.y * push.sheet.x + laid.x);
     supports[at] = plane;
     supports[at + 1] = imageLoad(support_grip, texel);
     if (plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f) imageStore(support, texel, vec4(0.0f));
 #endif
 }
 
-void main() { FOR_STRIP(texel, push.grid, lay(texel)) }
+void lay_all() { FOR_STRIP(texel, push.grid, lay(texel)) }
+
+/// Returns the motion of a sample, k-th of all cloths'.
+vec3 sample_of(int k) {
+    SelfCloth cloth = cloths[k / self_cloth_samples];
+    ivec2 own = self_sample(cloth.grid, k % self_cloth_samples);
+    // This pass may not have laid its own cloth yet.
+    if (cloth.first == push.first) return imageLoad(displacement, own).xyz;
+    return LOAD_KEPT(displacements, cloth.first + own).xyz;
+}
+
+/// Returns the mean motion of all samples, which a workgroup loads at once and every invocation adds up in their order.
+vec3 mean_of_samples(int count) {
+    int lane = int(gl_LocalInvocationIndex);
+    precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    for (int first = 0; first < count; first += workgroup_width) {
+        if (first + lane < count) sampled[lane] = sample_of(first + lane);
+        barrier();
+        for (int k = 0; k < min(workgroup_width, count - first); ++k) sum = sum + sampled[k];
+        barrier();
+    }
+    return self_mean(sum, push.cloth_count);
+}
+
+/// Returns how much of the mean motion the sample makes that makes least of it, at most all.
+float least_part_of(vec3 mean, int count) {
+    int lane = int(gl_LocalInvocationIndex);
+    float least = 1.0f;
+    for (int first = 0; first < count; first += workgroup_width) {
+        if (first + lane < count) parts[lane] = self_part_made(sample_of(first + lane), mean);
+        barrier();
+        for (int k = 0; k < min(workgroup_width, count - first); ++k) least = self_least(least, parts[k]);
+        barrier();
+    }
+    return least;
+}
+
+void reset_sizes() {
+    for (int k = 0; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
+    if (push.begins_frame != 0) sizes[self_size_search].x = 1u;
+}
+
+void reset_record() {
+    record[0].point_count = 0u;
+    record[0].edge_count = 0u;
+    record[0].near_point_count = 0u;
+    record[0].near_edge_count = 0u;
+    record[0].cell_count = 0u;
+    record[0].touching_point_count = 0u;
+    record[0].touching_edge_count = 0u;
+    if (push.begins_frame == 0) return;
+    record[0].most_pairs = 0u;
+    record[0].most_near = 0u;
+    record[0].most_cells = 0u;
+    record[0].most_touching = 0u;
+    record[0].most_lag = 0u;
+    record[0].unproved = 0u;
+    record[0].truncated = 0u;
+}
+
+void begin_contact() {
+    int count = self_cloth_samples * push.cloth_count;
+    vec3 mean = mean_of_samples(count);
+    vec3 made = self_common_motion(mean, least_part_of(mean, count));
+    if (gl_LocalInvocationIndex > 0u) return;
+    record[0].carried = vec4(push.held != 0 ? vec3(0.0f, 0.0f, 0.0f) : made, 0.0f);
+    record[0].travel = vec4(self_travelled(record[0].travel.xyz, record[0].mean.xyz), 0.0f);
+    record[0].mean = vec4(mean, 0.0f);
+    reset_record();
+    reset_sizes();
+}
+
+void main() {
+    lay_all();
+    if (push.cloth_count > 0 && gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u) begin_contact();
+}

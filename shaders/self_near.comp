@@ -1,23 +1,33 @@
-// This pass lists the pairs of cells, none close in their cloth, whose triangles and edges this substep may bring
-// together: the candidates whose boxes are near enough.
+// This pass lists the pairs of cells whose triangles and edges this substep may bring together. Of the candidates, none
+// close in their cloth, it takes those whose boxes are near enough; of a cloth's neighbours and those two columns or
+// rows apart, those about which the cloth is not flat and does not keep them apart. For these an invocation goes down a
+// part of a column or two, so that from one cell to the next it loads one row of the 4 x 4 particles about it. A
+// workgroup's z is its cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/push.h"
-#include "include/self_contact.h"
+#include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
+layout(constant_id = 17) const int strip_rows = 1;     // most cells of a column that an invocation takes in turn
+layout(constant_id = 19) const int strip_columns = 1;  // columns that an invocation takes
 PUSH_CONSTANTS(SelfContactPush)
-#include "include/self_tree.h"
-layout(set = 0, binding = 1, std430) readonly buffer Candidates { ivec2 candidates[]; };
-#include "include/self_cloths.h"
-layout(set = 0, binding = 4, std430) buffer Cells { ivec2 cells[]; };
-layout(set = 0, binding = 5, std430) buffer Record { SelfRecord record[]; };
-layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
+#include "include/self_sheet.h"
+layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
+layout(set = 0, binding = 5, std430) buffer Cells { ivec2 cells[]; };
+layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
+layout(set = 0, binding = 8, rgba32f) uniform readonly imageBuffer boxes;
+layout(set = 0, binding = 9, std430) readonly buffer Candidates { ivec2 candidates[]; };
 #include "include/self_lists.h"
 
-void judge(ivec2 pair) {
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+
+SelfBox box_at(int place) { return SelfBox(imageLoad(boxes, 2 * place), imageLoad(boxes, 2 * place + 1)); }
+
+void judge_far(ivec2 pair) {
     float thickness = self_mean_thickness(cloth_at(texel_of(pair.x)), cloth_at(texel_of(pair.y)));
     if (self_boxes_meet(box_at(pair.x), box_at(pair.y), push, thickness)) {
         uint place = place_after(atomicAdd(record[0].cell_count, 1u), 1u);
@@ -25,8 +35,113 @@ void judge(ivec2 pair) {
     }
 }
 
-void main() {
+void judge_candidates() {
+    ivec3 groups = ivec3(gl_NumWorkGroups), group = ivec3(gl_WorkGroupID);
+    int own = (group.z * groups.y + group.y) * groups.x + group.x;
+    int first = own * workgroup_width + int(gl_LocalInvocationIndex), all = groups.x * groups.y * groups.z;
     int count = self_listed(record[0].candidate_count, push.cell_capacity);
-    FOR_EVERY(i, count, judge(candidates[i]))
+    FOR_EVERY_FROM(i, first, all * workgroup_width, count, judge_far(candidates[i]))
+}
+
+SelfCloth cloth;  // whose close cells this workgroup looks at
+
+/// Returns where a particle of the cloth's grid lies on the sheet. Beyond the grid its last column or row stands in.
+ivec2 texel_at(ivec2 own) { return cloth.first + min(own, cloth.grid - 1); }
+vec3 at(ivec2 own) { return imageLoad(positions, texel_at(own)).xyz; }
+vec3 moved(ivec2 own) { return self_relative_motion(imageLoad(displacements, texel_at(own)).xyz, carried); }
+
+SelfColumn column_at(ivec2 first) {
+    return SelfColumn(at(first), at(first + ivec2(0, 1)), at(first + ivec2(0, 2)), at(first + ivec2(0, 3)));
+}
+SelfColumn column_moved(ivec2 first) {
+    return SelfColumn(moved(first), moved(first + ivec2(0, 1)), moved(first + ivec2(0, 2)), moved(first + ivec2(0, 3)));
+}
+
+/// Returns a column moved on by one row.
+SelfColumn further(SelfColumn x, vec3 last) { return SelfColumn(x.b, x.c, x.d, last); }
+
+/// Returns the first 3 x 3 of the 4 x 4 particles.
+SelfPatch patch_of(SelfColumns x) {
+    return SelfPatch(x.b.b, x.a.b, x.c.b, x.b.a, x.b.c, x.a.a, x.c.a, x.a.c, x.c.c);
+}
+
+/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that the cloth keeps apart.
+uint kept_apart(SelfColumns x, SelfColumns motions, bool inside) {
+    bool flat_there = inside && self_patch_lies_flat(push, cloth, patch_of(x), patch_of(motions));
+    return self_close_apart(push, cloth, x, motions) | (flat_there ? (1u << self_neighbour_pairs) - 1u : 0u);
+}
+
+/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that exist.
+uint close_pairs_of(ivec2 own) {
+    uint bits = 0u;
+    for (int k = 0; k < self_close_pairs; ++k) {
+        ivec4 pair = self_close_pair(k);
+        bool exists = own.x + max(pair.x, pair.z) < cloth.grid.x && own.y + max(pair.y, pair.w) < cloth.grid.y;
+        bits |= exists ? 1u << k : 0u;
+    }
+    return bits;
+}
+
+/// Returns bits of the pairs of cells that a cell stands for and that the way the cloth lies there does not rule out.
+uint near_pairs(ivec2 own, SelfColumns x, SelfColumns motions) {
+    bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
+    return close_pairs_of(own) & ~kept_apart(x, motions, inside);
+}
+
+/// Lists the pairs of `near`, which has self_close_pairs bits for each of some cells beside each other.
+void list(ivec2 first, uint near) {
+    uint count = uint(bitCount(near)), place = 0u;
+    if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
+    for (;;) {
+        int bit = max(findLSB(near), 0), column = bit / self_close_pairs;
+        ivec4 pair = self_close_pair(bit - column * self_close_pairs);
+        ivec2 texel = cloth.first + first + ivec2(column, 0);
+        ivec2 a = texel + ivec2(pair.x, pair.y), b = texel + ivec2(pair.z, pair.w);
+        if (near != 0u && place < uint(push.cell_capacity)) cells[place] = ivec2(place_of(a), place_of(b));
+        ++place;
+        near &= max(near, 1u) - 1u;
+        if (near == 0u) break;
+    }
+}
+
+void judge_close() {
+    int which = int(gl_WorkGroupID.z);
+    cloth = push.cloth;
+    if (cloth_count > 1) cloth = cloths[which];
+    bool meets = meetings[which * (push.cloth_count + 1)] != self_meets_not;
+    // The parts have equal length and are counted row by row, so that few lanes of a subgroup have nothing to do.
+    int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
+    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x),
+        across = (cloth.grid.x - 1) / strip_columns + 1;
+    ivec2 part = texel_of(group * workgroup_width + int(gl_LocalInvocationIndex), across);
+    int first = part.x * strip_columns, y = part.y * rows, end = min(y + rows, cloth.grid.y);
+    if (!meets || y >= end) return;
+    SelfColumn x[5], motions[5];
+    for (int c = 0; c < strip_columns + 3; ++c) {
+        x[c] = column_at(ivec2(first + c, y));
+        motions[c] = column_moved(ivec2(first + c, y));
+    }
+    for (;;) {
+        // This is written out, as the driver does not unroll so long a loop.
+        uint near = near_pairs(ivec2(first, y), SelfColumns(x[0], x[1], x[2], x[3]),
+                               SelfColumns(motions[0], motions[1], motions[2], motions[3]));
+        if (strip_columns > 1)
+            near |= near_pairs(ivec2(first + 1, y), SelfColumns(x[1], x[2], x[3], x[4]),
+                               SelfColumns(motions[1], motions[2], motions[3], motions[4]))
+                    << self_close_pairs;
+        list(ivec2(first, y), near);
+        ++y;
+        if (y >= end) break;
+        for (int c = 0; c < strip_columns + 3; ++c) {
+            x[c] = further(x[c], at(ivec2(first + c, y + 3)));
+            motions[c] = further(motions[c], moved(ivec2(first + c, y + 3)));
+        }
+    }
+}
+
+void main() {
+    carried = record[0].carried.xyz;
+    judge_candidates();
+    judge_close();
     dispatch(self_size_primitives, reached);
 }

@@ -1,8 +1,9 @@
-// This pass ends a substep for those of a cloth's particles that contact has moved. It leaves them their velocity as the
-// substep's displacement and shifts them, so that they end where contact let them: what it held back, or led apart, is
-// no velocity. HISTORY has the cloth go on in backward Euler substeps (include/bdf2.h). HISTORY and, in a frame's last
-// substep of other methods, BEFORE change the displacement of the substep before as contact has changed this one's, so
-// that the two tell the same acceleration by springs as without contact.
+// This pass ends a substep's contact for a cloth. It cuts short every motion that would go farther than was proved to
+// cross nothing. The velocity that a particle came with stays its displacement, and the particle is shifted so that it
+// ends where contact let it: what held it back, or led it apart, is no velocity. HISTORY has the cloth go on in backward
+// Euler substeps (include/bdf2.h). HISTORY and, in a frame's last substep of other methods, BEFORE change the
+// displacement of the substep before as contact has changed this one's, so that the two tell the same acceleration by
+// springs as without contact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants HISTORY|BEFORE BUFFERED
@@ -30,20 +31,70 @@ TRIPLE_OUT(9, DisplacementBeforeOut, displacement_before_out);
 #ifdef HISTORY
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
 #endif
+layout(set = 0, binding = 10, std430) readonly buffer Shares { uint shares[]; };
+layout(set = 0, binding = 11, std430) buffer Record { SelfRecord record[]; };
+layout(set = 0, binding = 12, rgba32f) uniform readonly imageBuffer made_good;
+layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]; };
+layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 
-int place_of(ivec2 laid) { return laid.y * push.columns + laid.x; }
+vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
-bool was_moved(ivec2 texel) { return imageLoad(before, place_of(push.first + texel)).w != 0.0f; }
+struct Motion {
+    bool held, cut, pushed;
+    vec3 wanted, moved, bounded;  // displacement before contact, after it, and what contact allows of that, m
+    float share;                  // share of the motion that crosses nothing
+};
 
-void take(ivec2 texel) {
-    ivec2 laid = push.first + texel;
-    vec3 made = imageLoad(displacements, laid).xyz, velocity = imageLoad(velocities, place_of(laid)).xyz;
+int place_of(ivec2 texel) { return (push.first.y + texel.y) * push.sheet.x + push.first.x + texel.x; }
+
+Motion motion_of(ivec2 texel) {
+    int place = place_of(texel);
+    float share = uintBitsToFloat(shares[(self_rounds - 1) * push.sheet.x * push.sheet.y + place]);
+    bool held = !(imageLoad(position_in, texel).w > 0.0f);
+    vec3 moved = imageLoad(displacements, push.first + texel).xyz;
+    vec4 was = imageLoad(before, place);
+    vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
+    vec3 bounded = held ? moved : allowed;
+    bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
+    return Motion(held, share < 1.0f || changed, was.w != 0.0f, was.xyz, moved, bounded, share);
+}
+
+bool is_changed(ivec2 texel) {
+    Motion motion = motion_of(texel);
+    return motion.cut || motion.pushed;
+}
+
+uint unproved = 0u, truncated = 0u;
+float lag = 0.0f;
+
+vec3 velocity_of(int place, Motion motion) {
+    vec3 pushed = self_velocity(motion.moved, imageLoad(velocities, place).xyz, imageLoad(made_good, place).xyz,
+                                imageLoad(supports, 2 * place).xyz);
+    return motion.pushed ? pushed : motion.moved;
+}
+
+/// Returns how far a particle moves, and counts whether that is less than it would.
+vec3 made_of(Motion motion) {
+    if (!motion.cut) return motion.moved;
+    ++truncated;
+    vec3 made = self_truncated(carried, self_relative_motion(motion.bounded, carried), motion.share);
+    lag = self_largest(lag, self_lag(made, motion.moved));
+    return made;
+}
+
+void end_motion(ivec2 texel) {
+    Motion motion = motion_of(texel);
+    if (motion.held) {
+        unproved += motion.cut ? 1u : 0u;
+        return;
+    }
+    vec3 made = made_of(motion), velocity = velocity_of(place_of(texel), motion);
     vec4 start = imageLoad(position_in, texel);
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
     STORE_TRIPLE(displacement_out, texel, velocity, imageLoad(displacement_in, texel).w);
 #if defined(HISTORY) || defined(BEFORE)
-    vec3 last = imageLoad(displacement_before_in, texel).xyz, wanted = imageLoad(before, place_of(laid)).xyz;
-    STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, wanted, velocity), 0.0f);
+    vec3 last = imageLoad(displacement_before_in, texel).xyz;
+    STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.
@@ -52,4 +103,24 @@ void take(ivec2 texel) {
 #endif
 }
 
-void main() { FOR_STRIP_FOUND(texel, push.grid, was_moved(texel), take(texel)) }
+void end_all() { FOR_STRIP_FOUND(texel, push.grid, is_changed(texel), end_motion(texel)) }
+
+/// Counts for the frame what the substep's lists held.
+void count_lists() {
+    record[0].most_pairs = max(record[0].most_pairs, record[0].point_count + record[0].edge_count);
+    record[0].most_near = max(record[0].most_near, record[0].near_point_count + record[0].near_edge_count);
+    uint touching = record[0].touching_point_count + record[0].touching_edge_count;
+    record[0].most_touching = max(record[0].most_touching, touching);
+    if (touching == 0u) borne[0].corners.x = 0u;
+    record[0].most_cells = max(max(record[0].most_cells, record[0].cell_count),
+                               max(record[0].candidate_count, record[0].block_count));
+}
+
+void main() {
+    carried = record[0].carried.xyz;
+    end_all();
+    if (unproved > 0u) atomicAdd(record[0].unproved, unproved);
+    if (truncated > 0u) atomicAdd(record[0].truncated, truncated);
+    if (lag > 0.0f) atomicMax(record[0].most_lag, floatBitsToUint(lag));
+    if (push.cloth_count > 0 && gl_GlobalInvocationID.xy == uvec2(0u)) count_lists();
+}

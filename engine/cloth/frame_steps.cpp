@@ -88,46 +88,36 @@ class ContactSteps {
 
     void add() {
         glsl::SelfContactPush push = contact_.push;
-        push.first = substep_ == 0 ? 1 : 0;
         const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
         add_for_cloths(StepKind::self_gather);
-        add_one(StepKind::self_common);
-        for (const StepKind kind : {StepKind::self_boxes, StepKind::self_search, StepKind::self_kept}) add_one(kind);
-        for (push.level = 1; push.level <= push.top; push.level = push.last + 1) {
-            push.last = last_level(push, push.level);
-            add_one(StepKind::self_levels);
-        }
         for (const StepKind kind :
-             {StepKind::self_blocks, StepKind::self_cells, StepKind::self_near, StepKind::self_bent})
+             {StepKind::self_boxes, StepKind::self_blocks, StepKind::self_cells, StepKind::self_near})
             add_one(kind);
         if (!contact_.to_part.empty())
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
-        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})
-            add_one(kind);
+        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);
         for (push.round = 0; push.round < glsl::self_iterations; ++push.round) add_one(StepKind::self_contact);
         add_one(StepKind::self_push);
         if (!model_.scene.colliders.empty()) collide();
         for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_limit);
-        add_one(StepKind::self_move);
         add_for_cloths(StepKind::self_return);
     }
 
   private:
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back(
-                {kind, cloth, substep_, 0, contact_.cloth_push(cloth), substep_ + 1 == model_.scene.solver.substeps});
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0),
+                              substep_ + 1 == model_.scene.solver.substeps});
     }
     void collide() {
-        add_for_cloths(StepKind::self_hand);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             steps_.push_back({.kind = StepKind::collide,
                               .cloth = cloth,
                               .substep = substep_,
                               .iteration = model_.scene.solver.iterations + 1,
+                              .constants = contact_.cloth_push(cloth, false),
                               .supporting = true,
                               .after_impulses = true});
-        add_for_cloths(StepKind::self_gather_again);
     }
 
     const SimulationModel& model_;

@@ -105,7 +105,7 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         largest = {std::max(largest.x, constants.grid.x), std::max(largest.y, constants.grid.y)};
         particles += models[k].grid.particle_count();
         // There is no common motion then: held particles that others are pressed against must not seem to move.
-        if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) push.held = 1;
+        if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) held = true;
         for (std::size_t other = 0; other < count; ++other)
             meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);
     }
@@ -142,8 +142,10 @@ std::vector<int> SelfContact::owners() const {
     return all;
 }
 
-glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth) const {
-    return {cloths[cloth].grid, cloths[cloth].first, push.grid.x};
+glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, bool begins_frame) const {
+    const glsl::SelfCloth& laid = cloths[cloth];
+    const int count = cloth + 1 == cloths.size() ? push.cloth_count : 0;
+    return {laid.grid, laid.first, push.grid, count, held ? 1 : 0, begins_frame ? 1 : 0, laid.thickness};
 }
 
 double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {
@@ -165,11 +167,6 @@ ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::Self
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level) {
     const auto nodes = [level](int particles) { return static_cast<std::uint32_t>(((particles - 1) >> level) + 1); };
     return nodes(grid.x) * nodes(grid.y);
-}
-
-int last_level(const glsl::SelfContactPush& push, int level) {
-    const bool tail = level > 0 && self_tree_boxes_of(push.grid, level) <= glsl::self_tree_tail;
-    return tail ? push.top : level;
 }
 
 std::uint64_t self_tree_boxes(glsl::ivec2 grid) {

@@ -34,15 +34,17 @@ struct SelfContact {
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
 
-    glsl::SelfContactPush push{};         ///< level, last, first, round and the capacity of the lists are set per step
+    glsl::SelfContactPush push{};         ///< round and the capacity of the lists are set per step
     ContactCapacity capacity;             ///< capacity of the lists in the beginning
     std::vector<glsl::SelfCloth> cloths;  ///< constants of each cloth and its place on the sheet
     glsl::ivec2 largest{};                ///< most columns and most rows of any cloth
+    bool held = false;                    ///< whether some particles are always held
     std::vector<glsl::uint> meetings;  ///< by cloth and cloth: self_meets_not, self_meets or self_meets_apart + index
     std::vector<glsl::SelfCrossed> to_part;  ///< pairs of cloths that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< cloths that start through each other, or through themselves
     std::vector<int> owners() const;         ///< by place on the sheet: its cloth, or -1
-    glsl::SelfClothPush cloth_push(std::size_t cloth) const;
+    /// `begins_frame`: in the frame's first substep.
+    glsl::SelfClothPush cloth_push(std::size_t cloth, bool begins_frame) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
 };
 
@@ -55,8 +57,5 @@ ContactCapacity grown_capacity(const ContactCapacity& capacity, const glsl::Self
 /// Returns the number of boxes of one level of the tree over a sheet, and of all its levels.
 std::uint32_t self_tree_boxes_of(glsl::ivec2 grid, int level);
 std::uint64_t self_tree_boxes(glsl::ivec2 grid);
-
-/// Returns the last of the levels that one pass makes, from `level` on: it makes one, or all that are left.
-int last_level(const glsl::SelfContactPush& push, int level);
 
 }  // namespace drape

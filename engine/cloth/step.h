@@ -39,26 +39,17 @@ enum class StepKind {
     decide,
     advance,
     self_gather,
-    self_gather_again,
-    self_common,
     self_boxes,
-    self_search,
-    self_kept,
-    self_levels,
     self_blocks,
     self_cells,
     self_near,
-    self_bent,
     self_crossings,
     self_apart,
     self_primitives,
     self_pairs,
-    self_begin,
     self_contact,
     self_push,
     self_limit,
-    self_move,
-    self_hand,
     self_return,
 };
 inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
@@ -99,7 +90,7 @@ struct Step {
     bool supporting = false;
     /// A collision is the first of its substep, which leads particles out of overlaps.
     bool leading = false;
-    /// A collision ends a substep after contact between cloths.
+    /// A collision ends a substep after contact between cloths, on whose sheet it finds and leaves displacements too.
     bool after_impulses = false;
     /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
     /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it

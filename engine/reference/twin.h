@@ -105,6 +105,13 @@ struct TwinPlace {
     TwinContact* contact;  ///< null where no cloths meet
 };
 
+/// Returns where a cloth's particle lies on the sheet.
+std::size_t place_on_sheet(const glsl::SelfClothPush& push, std::size_t particle);
+
+/// Cuts short the motions of a cloth's particles that would go farther than was proved to cross nothing. With the last
+/// cloth it also counts what the substep's lists held.
+void cut_short(TwinContact& contact, std::size_t cloth);
+
 /// A kind of step and its function. Every file of such functions gives their rows.
 struct TwinRow {
     StepKind kind;

@@ -67,9 +67,25 @@ void run_box_edges(const TwinPlace& where) {
         }
 }
 
+/// Colliders meet a cloth with the displacements that contact between cloths has left on the sheet.
+void take_from_sheet(const TwinPlace& where) {
+    const auto& push = where.step.push<SelfClothPush>();
+    for (std::size_t i = 0; i < where.state[Field::position].size(); ++i)
+        where.state.move_to(i, xyz(where.contact->displacements[place_on_sheet(push, i)]));
+}
+
+void leave_on_sheet(const TwinPlace& where) {
+    const auto& push = where.step.push<SelfClothPush>();
+    for (std::size_t i = 0; i < where.state[Field::position].size(); ++i) {
+        vec4& laid = where.contact->displacements[place_on_sheet(push, i)];
+        laid = texel(xyz(where.state[Field::displacement][i]), laid.w);
+    }
+}
+
 void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
+    if (step.after_impulses) take_from_sheet(where);
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     const float recovery = step.leading ? push.contact.w : 0.0f;
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
@@ -118,6 +134,7 @@ void run_collide(const TwinPlace& where) {
         }
         state.move_to(i, displacement);
     }
+    if (step.after_impulses) leave_on_sheet(where);
 }
 
 }  // namespace

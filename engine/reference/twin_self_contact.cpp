@@ -22,7 +22,6 @@ class ContactStep {
     ContactStep(TwinContact& contact, const SelfContactPush& push)
         : contact_(contact), model_(*contact.model), push_(push) {}
 
-    void common();
     void boxes();
     void crossings();
     void apart();
@@ -30,7 +29,8 @@ class ContactStep {
     void contact();
     void push();
     void limit();
-    void move();
+    void count_lists();
+    void cut_short(std::size_t cloth);
 
   private:
     uint place(ivec2 texel) const { return static_cast<uint>(texel.y * push_.grid.x + texel.x); }
@@ -123,27 +123,6 @@ class ContactStep {
     const SelfContact& model_;
     const SelfContactPush& push_;
 };
-
-void ContactStep::common() {
-    SelfRecord& record = contact_.record;
-    if (push_.first != 0) record = {};
-    std::vector<vec3> samples;
-    for (const SelfCloth& cloth : model_.cloths)
-        for (int k = 0; push_.held == 0 && k < self_samples * self_samples; ++k) {
-            const ivec2 sample = self_sample(cloth.grid, k);
-            samples.push_back(displacement(place(ivec2{cloth.first.x + sample.x, cloth.first.y + sample.y})));
-        }
-    vec3 sum{};
-    for (const vec3& sample : samples) sum = sum + sample;
-    const vec3 mean = self_mean(sum, push_.cloth_count);
-    float least = 1;
-    for (const vec3& sample : samples) least = self_least(least, self_part_made(sample, mean));
-    const vec3 common = self_common_motion(mean, least);
-    record.carried = {common.x, common.y, common.z, 0};
-    record.point_count = record.edge_count = 0;
-    record.touching_point_count = record.touching_edge_count = 0;
-    record.cell_count = 0;
-}
 
 SelfBox ContactStep::cell_box(ivec2 own) const {
     const auto box_of = [&](int columns, int rows) { return point_box(place(ivec2{own.x + columns, own.y + rows})); };
@@ -415,7 +394,7 @@ void ContactStep::limit() {
     shares = next;
 }
 
-void ContactStep::move() {
+void ContactStep::count_lists() {
     SelfRecord& record = contact_.record;
     record.most_pairs = std::max(record.most_pairs, record.point_count + record.edge_count);
     // The device also counts the entries that a search and boxes found, in the same maxima.
@@ -423,8 +402,12 @@ void ContactStep::move() {
     const uint touching = record.touching_point_count + record.touching_edge_count;
     record.most_touching = std::max(record.most_touching, touching);
     if (touching == 0) contact_.borne.clear();
+}
+
+void ContactStep::cut_short(std::size_t cloth) {
+    SelfRecord& record = contact_.record;
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
-        if (!owned(i)) continue;
+        if (contact_.owners[i] != static_cast<int>(cloth)) continue;
         const auto at = static_cast<uint>(i);
         const float share = contact_.shares[i];
         if (held(at)) {
@@ -460,15 +443,20 @@ TwinContact::TwinContact(const SelfContact& contact)
       supports(owners.size()),
       before(owners.size()) {}
 
+void cut_short(TwinContact& contact, std::size_t cloth) {
+    ContactStep step(contact, contact.model->push);
+    if (cloth + 1 == contact.model->cloths.size()) step.count_lists();
+    step.cut_short(cloth);
+}
+
 void Twin::run_contact(const Step& step) {
-    // The twin tries all pairs of cells, so it has no search: none of self_search to self_near, self_bent,
-    // self_primitives. What `self_begin` does belongs to its `self_pairs`.
+    // The twin tries all pairs of cells, so it has no search: none of self_blocks to self_near,
+    // and no self_primitives.
     static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
-        {StepKind::self_common, &ContactStep::common},       {StepKind::self_boxes, &ContactStep::boxes},
-        {StepKind::self_crossings, &ContactStep::crossings}, {StepKind::self_apart, &ContactStep::apart},
-        {StepKind::self_pairs, &ContactStep::pairs},         {StepKind::self_contact, &ContactStep::contact},
-        {StepKind::self_push, &ContactStep::push},           {StepKind::self_limit, &ContactStep::limit},
-        {StepKind::self_move, &ContactStep::move},
+        {StepKind::self_boxes, &ContactStep::boxes},     {StepKind::self_crossings, &ContactStep::crossings},
+        {StepKind::self_apart, &ContactStep::apart},     {StepKind::self_pairs, &ContactStep::pairs},
+        {StepKind::self_contact, &ContactStep::contact}, {StepKind::self_push, &ContactStep::push},
+        {StepKind::self_limit, &ContactStep::limit},
     };
     ContactStep contact(*contact_, step.push<SelfContactPush>());
     for (const auto& [kind, function] : rows)

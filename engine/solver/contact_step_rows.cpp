@@ -33,11 +33,13 @@ graph::PushConstants contact_push(Place p) {
 }
 
 using vulkan::ComputePipeline;
-DispatchSize over_sheet(Place p, const ComputePipeline&) {
-    constexpr std::size_t most = std::size_t{1} << 21;  // beyond it invocations take several places each
+/// A workgroup for each tile of the tree's lower levels.
+DispatchSize over_tree(Place p, const ComputePipeline& pipeline) {
     const glsl::ivec2 grid = p.step.push<SelfContactPush>().grid;
-    const std::size_t each = p.device.entries_each();
-    return {static_cast<std::uint32_t>(std::min((std::size_t(grid.x) * std::size_t(grid.y) + each - 1) / each, most))};
+    const auto tiles = [](int cells) {
+        return static_cast<std::uint32_t>((cells - 1) / (2 * glsl::self_tile_side) + 1);
+    };
+    return {tiles(grid.x) * pipeline.local_size()[0], tiles(grid.y)};
 }
 DispatchSize over_cloths(Place p, const ComputePipeline&) {
     return {static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
@@ -58,15 +60,8 @@ template <int first_slot>
 DispatchSize found_in_round(Place p, const ComputePipeline&) {
     return of_slot(p, first_slot + p.step.push<SelfContactPush>().round);
 }
-DispatchSize found_at_level(Place p, const ComputePipeline&) {
-    return of_slot(p, glsl::self_size_levels + p.step.push<SelfContactPush>().level - 1);
-}
-
-/// Shaders that search in the tree call the boxes of the last search boxes; they put blocks into the list that will
-/// hold cells.
-std::string tree_alias(Place, std::string_view name, bool) {
-    return name == "boxes" ? "kept" : name == "blocks" ? "cells" : "";
-}
+/// Shaders that search in the tree put blocks into the list that will hold cells.
+std::string tree_alias(Place, std::string_view name, bool) { return name == "blocks" ? "cells" : ""; }
 
 }  // namespace
 }  // namespace contact_rows
@@ -95,28 +90,19 @@ std::vector<StepRow> contact_step_rows() {
     returned.alias = before_alias;
     return {
         of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
-        of_cloth(self_gather_again, "self gather again", "self_gather_again.comp", {}),
-        of_all(self_common, "self common", "self_common.comp", one_invocation, if_crossed),
-        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
-        of_all(self_search, "self search", "self_search.comp", found<glsl::self_size_search>),
-        of_all(self_kept, "self kept", "self_kept.comp", found<glsl::self_size_kept>),
-        in_tree(self_levels, "self levels", "self_levels.comp", found_at_level),
+        of_all(self_boxes, "self boxes", "self_boxes.comp", over_tree, if_crossed),
         in_tree(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
         in_tree(self_cells, "self cells", "self_cells.comp", found<glsl::self_size_cells>),
-        of_all(self_near, "self near", "self_near.comp", found<glsl::self_size_near>),
-        of_all(self_bent, "self bent", "self_bent.comp", over_parts),
+        of_all(self_near, "self near", "self_near.comp", over_parts),
         of_all(self_crossings, "self crossings", "self_crossings.comp", found<glsl::self_size_primitives>),
         of_all(self_apart, "self apart", "self_apart.comp", over_cloths),
         of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>,
                if_crossed),
-        of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>),
-        of_all(self_begin, "self begin", "self_begin.comp", found<glsl::self_size_contact>, if_wide),
+        of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>, if_wide),
         of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>, if_wide),
         of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>,
                {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
-        of_all(self_move, "self move", "self_move.comp", over_sheet, {{"buffered", sheet_is_buffered}}),
-        of_cloth(self_hand, "self hand", "self_hand.comp", {}),
         returned,
     };
 }

@@ -43,7 +43,7 @@ class Pipelines {
     /// Invocations across and down that take all particles of a grid, strip_length() each.
     std::array<std::uint32_t, 2> over_strips(glsl::ivec2 grid) const;
     /// Invocations across and down that take all particles of a grid, strip_rows() x strip_columns() each
-    /// (shaders/self_bent.comp).
+    /// (shaders/self_near.comp).
     std::array<std::uint32_t, 2> over_parts(glsl::ivec2 grid) const;
     bool wide_atomics() const { return device_.wide_atomics(); }
 

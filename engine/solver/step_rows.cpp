@@ -25,7 +25,8 @@ bool buffered(Place p) { return p.cloth->buffered; }
 bool windy(Place p) { return has(p, Field::wind_force); }
 bool second_order(Place p) { return scheme_of(p).second_order; }
 bool after_edges(Place p) { return p.step.after_edges; }
-bool supporting(Place p) { return p.step.supporting; }
+bool after_impulses(Place p) { return p.step.after_impulses; }
+bool supporting(Place p) { return p.step.supporting && !p.step.after_impulses; }
 bool keeps_excess(Place p) { return has(p, Field::end_excess); }
 bool comes_home(Place p) { return p.cloth->away; }
 bool control_comes_home(Place p) { return second_order(p) && p.step.substep % 2 == 1; }
@@ -93,7 +94,11 @@ graph::PushConstants contact_push(Place p, glsl::CollisionPush push) {
 }
 graph::PushConstants collision_push(Place p) {
     glsl::CollisionPush push = p.cloth->model->collision;
-    push.after_impulses = p.step.after_impulses ? 1 : 0;
+    if (p.step.after_impulses) {
+        const auto& laid = p.step.push<glsl::SelfClothPush>();
+        push.laid = laid.first;
+        push.sheet_columns = laid.sheet.x;
+    }
     if (!p.step.leading) push.contact.w = 0;
     return contact_push(p, push);
 }
@@ -174,7 +179,11 @@ std::vector<StepRow> other_rows() {
         springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, reduced{{"masked", masked}, {"bent", bends}},
         nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-        collide{{"history", second_order}, {"led", after_edges}, {"supporting", supporting}, {"buffered", buffered}},
+        collide{{"history", second_order},
+                {"led", after_edges},
+                {"supporting", supporting},
+                {"after_impulses", after_impulses},
+                {"buffered", buffered}},
         advance{{"home", comes_home},
                 {"control_home", control_comes_home},
                 {"excess", keeps_excess},

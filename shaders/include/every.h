@@ -1,11 +1,14 @@
 // Loops over `count` entries, of which an invocation takes every gl_NumWorkGroups.x * workgroup_width-th. `statement`
 // is a call for entry `entry`. On the default device a loop that ends at its top runs its body once more with no
 // invocation in it, which costs as much as a round; so this one ends at its bottom.
-#define FOR_EVERY(entry, count, statement)                  \
-    for (int entry = int(gl_GlobalInvocationID.x);;) {      \
-        if (entry < (count)) statement;                     \
-        entry += int(gl_NumWorkGroups.x) * workgroup_width; \
-        if (entry >= (count)) break;                        \
+#define FOR_EVERY(entry, count, statement) \
+    FOR_EVERY_FROM(entry, int(gl_GlobalInvocationID.x), int(gl_NumWorkGroups.x) * workgroup_width, count, statement)
+// Does so for an invocation that takes the `first` of the entries, and then every `stride`-th.
+#define FOR_EVERY_FROM(entry, first, stride, count, statement) \
+    for (int entry = (first);;) {                              \
+        if (entry < (count)) statement;                        \
+        entry += (stride);                                     \
+        if (entry >= (count)) break;                           \
     }
 // Loops over those of the entries for which the call `test` says that there is something to do. All tests of a word of
 // bits come first, then `statement` as often as the invocation with the most to do has found something: on the default

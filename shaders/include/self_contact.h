@@ -19,7 +19,7 @@ const float self_correction_share = 0.24f, self_listed_share = 0.5f;
 /// A search of more nodes is given up: the default device would break off a loop of about so many rounds unseen.
 const int self_visit_limit = 60000;
 /// The common motion is the mean over a lattice of particles with this many along a side.
-const int self_samples = 6;
+const int self_samples = 6, self_cloth_samples = self_samples * self_samples;
 
 /// The mean of a cloth's thickness with itself is exact.
 SHARED float self_mean_thickness(SelfCloth one, SelfCloth other) {
@@ -137,7 +137,7 @@ SHARED ivec2 self_sample(ivec2 grid, int k) {
 }
 
 SHARED vec3 self_mean(vec3 sum, int cloth_count) {
-    precise vec3 mean = sum / float(self_samples * self_samples * cloth_count);
+    precise vec3 mean = sum / float(self_cloth_samples * cloth_count);
     return mean;
 }
 

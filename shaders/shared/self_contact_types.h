@@ -9,8 +9,9 @@
 namespace drape::glsl {
 #endif
 
-/// One workgroup makes a level of the tree of at most so many boxes together with all levels above.
-const int self_tree_tail = 1024;
+/// A workgroup makes the levels of the tree over so many by so many blocks of 2 x 2 cells, one for each invocation: up to
+/// the level at which that is one box, and so many boxes in all.
+const int self_tile_side = 8, self_tile_top = 4, self_tile_nodes = 64 + 16 + 4 + 1;
 /// Units of a weight in 1: integers, so that atomic sums are exact in any order.
 const float self_weight_units = 65536.0f;
 
@@ -31,18 +32,14 @@ const int self_sum_count = self_iterations + 2, self_sum_of_thickness = self_ite
 /// In so many rounds motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 
-/// Most levels of a tree above its lowest: those of a sheet of 2^16 x 2^16 places.
-const int self_most_levels = 16;
 /// Index into the sizes of indirect dispatches that a pass takes; a pass of several rounds or levels has one for each.
-/// A pass is dispatched only for entries that exist: an invocation without work costs the default device as much as one
+/// The one for a search is no size: x says whether there is one in this substep, w how many workgroups have come to the
+/// end of the pass that asks for it. A pass is dispatched only for entries that exist: an invocation without work costs the default device as much as one
 /// with.
-const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_size_levels = 3,
-          self_size_blocks = self_size_levels + self_most_levels, self_size_cells = self_size_blocks + 1,
+const int self_size_search = 0, self_size_blocks = 1, self_size_cells = self_size_blocks + 1,
           self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
-/// The first of the sizes that begin anew with every substep, not with a search.
-const int self_size_of_substep = self_size_search;
 
 /// A pair that touches in this substep, or would.
 struct SelfTouch {
@@ -110,12 +107,8 @@ struct SelfContactPush {
     int pair_capacity;  // capacity of the list of pairs
     int near_capacity;  // capacity of the list of pairs of primitives whose boxes are near each other
     int cell_capacity;  // capacity of the list of pairs of cells, and of candidates
-    int level;          // boxes: the first level that this pass makes
-    int last;           // boxes: the last level
     int top;            // level of the root
-    int first;          // 1: the frame's first substep
     int round;          // contact, push, room: which round
-    int held;           // 1: some particles are always held, so that nothing is carried along with all
     int cloth_count;
     int crossed_count;      // pairs of cloths that started through each other
     int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
@@ -124,9 +117,13 @@ struct SelfContactPush {
 
 /// Push constants of the passes between a cloth's own fields and the sheet.
 struct SelfClothPush {
-    ivec2 grid;   // the cloth's
-    ivec2 first;  // where it lies on the sheet
-    int columns;  // the sheet's
+    ivec2 grid;        // the cloth's
+    ivec2 first;       // where it lies on the sheet
+    ivec2 sheet;       // columns, rows of the sheet
+    int cloth_count;   // cloths on the sheet where this is the last to be laid there and taken back, else 0
+    int held;          // gather: 1: some particles are always held, so that nothing is carried along with all
+    int begins_frame;  // gather: 1: the frame's first substep
+    float thickness;   // m kept between the cloth's own layers
 };
 
 /// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room.
