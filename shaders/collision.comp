@@ -121,12 +121,16 @@ bool meet_all(ivec2 texel, bool follows) {
     } while (round < round_count);
     if (went_far && !follows) return false;
     if (!touched) return true;
-    // The way out of an overlap is no velocity, so it moves where the particle starts.
+    // The way out of an overlap is no velocity, so it moves where the particle starts. Contact between cloths takes it
+    // as a motion, of which it lets the particle make what crosses nothing (self_gather_again.comp).
+    vec3 made = displacement;
     if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
-        STORE_TRIPLE(position_out, texel, led_sum(start.xyz, way_out), start.w);
+        vec3 led = led_sum(start.xyz, way_out);
+        STORE_TRIPLE(position_out, texel, led, start.w);
         displacement = displacement_of_own(displacement, way_out);
+        made = push.after_impulses == 0 || is_rounding(start.xyz, way_between(start.xyz, led)) ? displacement : made;
     }
-    STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+    STORE_VECTOR(displacement_out, texel, vec4(made, moved.w));
 #ifdef SUPPORTING
     // The next substep starts where a collision after impulses leaves the particle.
     vec3 touches = push.after_impulses == 0 ? displacement : grip.xyz;

@@ -25,11 +25,12 @@ layout(set = 0, binding = 10, std430) writeonly buffer VelocitiesOut { vec4 velo
 layout(set = 0, binding = 11, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
 layout(set = 0, binding = 13, rgba32f) uniform readonly imageBuffer supports;
+layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer led_ways;
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
 struct Motion {
-    bool held, cut, pushed;
+    bool held, cut, pushed, led;
     vec4 displacement;  // w: bits (self_sheet.h)
     vec3 bounded;       // displacement that contact allows, m
     float share;        // share of the motion that crosses nothing
@@ -45,13 +46,13 @@ Motion motion_of(int place) {
     vec3 allowed = self_bounded(moved, before.xyz, carried, cloth_at(texel).thickness);
     vec3 bounded = held ? moved : allowed;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
-    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), before.w != 0.0f, displacement, bounded,
-                  share);
+    bool pushed = before.w == self_pushed || before.w == self_pushed_and_led, led = before.w >= self_led_out;
+    return Motion(held, owner_of(place) >= 0 && (share < 1.0f || changed), pushed, led, displacement, bounded, share);
 }
 
 bool is_changed(int place) {
     Motion motion = motion_of(place);
-    return motion.cut || motion.pushed;
+    return motion.cut || motion.pushed || motion.led;
 }
 
 uint unproved = 0u, truncated = 0u;
@@ -59,6 +60,7 @@ float lag = 0.0f;
 
 vec3 velocity_of(int place, Motion motion) {
     vec3 moved = motion.displacement.xyz;
+    if (motion.led) moved = self_own_motion(moved, imageLoad(led_ways, place).xyz);
     vec3 pushed = self_velocity(moved, imageLoad(velocities_in, place).xyz, imageLoad(made_good, place).xyz,
                                 imageLoad(supports, 2 * place).xyz);
     return motion.pushed ? pushed : moved;
@@ -80,7 +82,7 @@ void end(int place) {
     } else {
         velocities_out[place] = vec4(velocity_of(place, motion), 0.0f);
         STORE_VECTOR(displacements_out, texel_of(place), vec4(made_of(motion), motion.displacement.w));
-        before_out[place].w = 1.0f;
+        before_out[place].w = motion.cut || motion.pushed ? self_pushed : self_led_out;
     }
 }
 

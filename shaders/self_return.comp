@@ -19,9 +19,9 @@ PUSH_CONSTANTS(SelfClothPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(1, DisplacementOut, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;   // on the sheet
-layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: 1 where contact moved a particle
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: what moved a particle
 layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  // of those
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D positions;       // on the sheet
 TRIPLE_OUT(6, PositionOut, position_out);
 #if defined(HISTORY) || defined(BEFORE)
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D displacement_before_in;
@@ -38,12 +38,14 @@ bool was_moved(ivec2 texel) { return imageLoad(before, place_of(push.first + tex
 void take(ivec2 texel) {
     ivec2 laid = push.first + texel;
     vec3 made = imageLoad(displacements, laid).xyz, velocity = imageLoad(velocities, place_of(laid)).xyz;
-    vec4 start = imageLoad(position_in, texel);
+    vec4 start = imageLoad(positions, laid);
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
     STORE_TRIPLE(displacement_out, texel, velocity, imageLoad(displacement_in, texel).w);
 #if defined(HISTORY) || defined(BEFORE)
-    vec3 last = imageLoad(displacement_before_in, texel).xyz, wanted = imageLoad(before, place_of(laid)).xyz;
-    STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, wanted, velocity), 0.0f);
+    vec3 last = imageLoad(displacement_before_in, texel).xyz;
+    vec4 wanted = imageLoad(before, place_of(laid));
+    if (wanted.w == self_pushed)
+        STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, wanted.xyz, velocity), 0.0f);
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.

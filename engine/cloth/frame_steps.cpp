@@ -67,7 +67,8 @@ class Substep {
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         step.supporting = model_.self_contact.has_value();
-        step.leading = !std::exchange(collided_, true);
+        // Where cloths meet, only ways that contact looks at may lead a particle (ContactSteps::collide).
+        step.leading = !std::exchange(collided_, true) && !model_.self_contact;
         return step;
     }
 
@@ -126,6 +127,7 @@ class ContactSteps {
                               .substep = substep_,
                               .iteration = model_.scene.solver.iterations + 1,
                               .supporting = true,
+                              .leading = true,
                               .after_impulses = true});
         add_for_cloths(StepKind::self_gather_again);
     }

@@ -102,9 +102,12 @@ void run_collide(const TwinPlace& where) {
             if (deepest > 0.0f) lies_on = normal, on_grip = grip;
             if (!(deepest > push.contact.z)) break;
         }
+        vec3 made = displacement;
         if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
-            state[Field::position][i] = texel(led_sum(start, way_out), state[Field::position][i].w);
+            const vec3 led = led_sum(start, way_out);
+            state[Field::position][i] = texel(led, state[Field::position][i].w);
             displacement = displacement_of_own(displacement, way_out);
+            if (!step.after_impulses || is_rounding(start, way_between(start, led))) made = displacement;
         }
         if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
             const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;
@@ -116,7 +119,7 @@ void run_collide(const TwinPlace& where) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);
         }
-        state.move_to(i, displacement);
+        state.move_to(i, made);
     }
 }
 

@@ -44,6 +44,10 @@ const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_siz
 /// The first of the sizes that begin anew with every substep, not with a search.
 const int self_size_of_substep = self_size_search;
 
+/// What moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
+/// overlap, or both.
+const float self_pushed = 1.0f, self_led_out = 2.0f, self_pushed_and_led = 3.0f;
+
 /// A pair that touches in this substep, or would.
 struct SelfTouch {
     uvec4 corners;
