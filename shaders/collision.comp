@@ -8,6 +8,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #pragma variants HISTORY LED SUPPORTING|AFTER_IMPULSES BUFFERED
 #include "shared/line_types.h"
+#include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
 #include "include/contacts.h"
 #include "include/push.h"
@@ -21,7 +22,6 @@ PUSH_CONSTANTS(CollisionPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
-TRIPLE_OUT(10, PositionOut, position_out);
 #ifdef HISTORY
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
@@ -30,10 +30,14 @@ layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
 #endif
 
-#ifdef AFTER_IMPULSES
+#ifndef AFTER_IMPULSES
+TRIPLE_OUT(10, PositionOut, position_out);
+#else
 #define SUPPORTING
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacements_in;  // w: bits (self_sheet.h)
 VECTOR_OUT(12, DisplacementsOut, displacements_out);
+layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
+layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
 #endif
 
 #ifdef SUPPORTING
@@ -56,6 +60,26 @@ void leave(ivec2 texel, vec3 displacement, vec4 moved) {
     moved = LOAD(displacement_in, texel);
 #endif
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
+}
+
+/// Leads a particle out of an overlap and returns the displacement to leave. The way out is no velocity, so it is taken
+/// out of `displacement`, and moves where the particle starts; or, after impulses, contact between cloths takes it as a
+/// motion, of which it lets the particle make what crosses nothing (self_return.comp).
+vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
+    vec3 whole = displacement, led = led_sum(start.xyz, way_out);
+    displacement = displacement_of_own(displacement, way_out);
+#ifdef AFTER_IMPULSES
+    vec3 way = way_between(start.xyz, led);
+    if (is_rounding(start.xyz, way)) return displacement;
+    ivec2 laid = push.laid + texel;
+    int place = laid.y * push.sheet_columns + laid.x;
+    led_ways[place] = vec4(way, 0.0f);
+    before[place].w = before[place].w != 0.0f ? self_pushed_and_led : self_led_out;
+    return whole;
+#else
+    STORE_TRIPLE(position_out, texel, led, start.w);
+    return displacement;
+#endif
 }
 
 /// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a box led it:
@@ -145,12 +169,10 @@ bool meet_all(ivec2 texel, bool follows) {
     } while (round < round_count);
     if (went_far && !follows) return false;
     if (!touched) return true;
-    // The way out of an overlap is no velocity, so it moves where the particle starts.
-    if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
-        STORE_TRIPLE(position_out, texel, led_sum(start.xyz, way_out), start.w);
-        displacement = displacement_of_own(displacement, way_out);
-    }
-    leave(texel, displacement, moved);
+    vec3 made = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f
+                    ? led_out(texel, start, displacement, way_out)
+                    : displacement;
+    leave(texel, made, moved);
 #ifdef SUPPORTING
     vec3 touches = displacement;
 #ifdef AFTER_IMPULSES

@@ -60,7 +60,7 @@ void move(int place) {
     velocities[place] = vec4(velocity, 0.0f);
     made_good[place] = vec4(good, 0.0f);
     STORE_VECTOR(displacements_out, texel, vec4(self_added(velocity, good), moved.w));
-    before[place].w = 1.0f;
+    before[place].w = self_pushed;
 }
 
 void main() {

@@ -20,7 +20,7 @@ PUSH_CONSTANTS(SelfClothPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(1, DisplacementOut, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;   // on the sheet
-layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: 1 where contact moved a particle
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: what moved a particle
 layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  // of those
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
 TRIPLE_OUT(6, PositionOut, position_out);
@@ -36,11 +36,12 @@ layout(set = 0, binding = 11, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 12, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]; };
 layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
+layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
 struct Motion {
-    bool held, cut, pushed;
+    bool held, cut, pushed, led;
     vec3 wanted, moved, bounded;  // displacement before contact, after it, and what contact allows of that, m
     float share;                  // share of the motion that crosses nothing
 };
@@ -56,21 +57,23 @@ Motion motion_of(ivec2 texel) {
     vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
     vec3 bounded = held ? moved : allowed;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
-    return Motion(held, share < 1.0f || changed, was.w != 0.0f, was.xyz, moved, bounded, share);
+    bool pushed = was.w == self_pushed || was.w == self_pushed_and_led, led = was.w >= self_led_out;
+    return Motion(held, share < 1.0f || changed, pushed, led, was.xyz, moved, bounded, share);
 }
 
 bool is_changed(ivec2 texel) {
     Motion motion = motion_of(texel);
-    return motion.cut || motion.pushed;
+    return motion.cut || motion.pushed || motion.led;
 }
 
 uint unproved = 0u, truncated = 0u;
 float lag = 0.0f;
 
 vec3 velocity_of(int place, Motion motion) {
-    vec3 pushed = self_velocity(motion.moved, imageLoad(velocities, place).xyz, imageLoad(made_good, place).xyz,
+    vec3 own = motion.led ? self_own_motion(motion.moved, imageLoad(led_ways, place).xyz) : motion.moved;
+    vec3 pushed = self_velocity(own, imageLoad(velocities, place).xyz, imageLoad(made_good, place).xyz,
                                 imageLoad(supports, 2 * place).xyz);
-    return motion.pushed ? pushed : motion.moved;
+    return motion.pushed ? pushed : own;
 }
 
 /// Returns how far a particle moves, and counts whether that is less than it would.
@@ -94,7 +97,8 @@ void end_motion(ivec2 texel) {
     STORE_TRIPLE(displacement_out, texel, velocity, imageLoad(displacement_in, texel).w);
 #if defined(HISTORY) || defined(BEFORE)
     vec3 last = imageLoad(displacement_before_in, texel).xyz;
-    STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
+    if (motion.cut || motion.pushed)
+        STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.

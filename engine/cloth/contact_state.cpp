@@ -65,6 +65,7 @@ std::vector<ContactRow> rows() {
         {before, "before", texel_buffer, vector, device, always, places},
         {velocities, "velocities", texel_buffer, vector, device, always, places},
         {made_good, "made good", texel_buffer, vector, device, always, places},
+        {led_ways, "led ways", texel_buffer, vector, device, always, places},
         {shares, "shares", buffer, integer, device, always,
          [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_rounds}; }},
         {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always, one},

@@ -27,9 +27,10 @@ enum class ContactField : std::uint8_t {
     first_borne,    ///< by place and chain: the first entry of a pair whose first corner it is
     sums,           ///< of impulses, by round and place
     supports,       ///< by place: plane and grip of the surface that the particle lies on (Support), two texels
-    before,         ///< displacement before contact, m; w: 1 where contact moved the particle since it was gathered
+    before,         ///< displacement before contact, m; w: what moved the particle since (self_pushed)
     velocities,     ///< of those, m a substep
     made_good,      ///< their motion that makes a missing thickness good, m
+    led_ways,       ///< ways by which colliders lead particles out of overlaps, m; `before` says whose
     shares,         ///< bits of the share of its motion that a particle may make, by round
     record,         ///< what contact was in the frame
     sizes,          ///< of the dispatches that go through lists

@@ -67,7 +67,8 @@ class Substep {
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         step.supporting = model_.self_contact.has_value();
-        step.leading = !std::exchange(collided_, true);
+        // Where cloths meet, only ways that contact looks at may lead a particle (ContactSteps::collide).
+        step.leading = !std::exchange(collided_, true) && !model_.self_contact;
         return step;
     }
 
@@ -117,6 +118,7 @@ class ContactSteps {
                               .iteration = model_.scene.solver.iterations + 1,
                               .constants = contact_.cloth_push(cloth, false),
                               .supporting = true,
+                              .leading = true,
                               .after_impulses = true});
     }
 

@@ -88,7 +88,7 @@ struct Step {
     bool after_edges = false;
     /// A collision keeps the surfaces that particles lie on.
     bool supporting = false;
-    /// A collision is the first of its substep, which leads particles out of overlaps.
+    /// A collision leads particles out of overlaps: one of each substep does.
     bool leading = false;
     /// A collision ends a substep after contact between cloths, on whose sheet it finds and leaves displacements too.
     bool after_impulses = false;

@@ -85,7 +85,7 @@ struct TwinContact {
     std::vector<TwinTouch> touching;
     std::map<std::array<glsl::uint, 5>, glsl::vec3> borne;  ///< force of pairs that pressed, by corners and kind
     std::vector<TwinSums> sums;                             ///< by place
-    std::vector<glsl::vec4> velocities, made_good;
+    std::vector<glsl::vec4> velocities, made_good, led_ways;
     std::vector<glsl::Support> supports;
     std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
     std::vector<glsl::vec3> led;                 ///< displacement that leads each cloth apart from others, m

@@ -82,6 +82,24 @@ void leave_on_sheet(const TwinPlace& where) {
     }
 }
 
+/// Takes a way out of an overlap out of `displacement`, and returns the displacement to leave.
+vec3 led_out(const TwinPlace& where, std::size_t particle, vec3& displacement, vec3 way_out) {
+    vec4& position = where.state[Field::position][particle];
+    const vec3 whole = displacement, start = xyz(position), led = led_sum(start, way_out);
+    displacement = displacement_of_own(displacement, way_out);
+    if (!where.step.after_impulses) {
+        position = texel(led, position.w);
+        return displacement;
+    }
+    const vec3 way = way_between(start, led);
+    if (is_rounding(start, way)) return displacement;
+    const std::size_t place = place_on_sheet(where.step.push<SelfClothPush>(), particle);
+    where.contact->led_ways[place] = texel(way);
+    float& by = where.contact->before[place].w;
+    by = by != 0.0f ? self_pushed_and_led : self_led_out;
+    return whole;
+}
+
 void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
@@ -118,10 +136,8 @@ void run_collide(const TwinPlace& where) {
             if (deepest > 0.0f) lies_on = normal, on_grip = grip;
             if (!(deepest > push.contact.z)) break;
         }
-        if (way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f) {
-            state[Field::position][i] = texel(led_sum(start, way_out), state[Field::position][i].w);
-            displacement = displacement_of_own(displacement, way_out);
-        }
+        const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
+        const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
         if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
             const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;
             state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
@@ -132,7 +148,7 @@ void run_collide(const TwinPlace& where) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);
         }
-        state.move_to(i, displacement);
+        state.move_to(i, made);
     }
     if (step.after_impulses) leave_on_sheet(where);
 }

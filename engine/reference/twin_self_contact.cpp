@@ -116,7 +116,7 @@ class ContactStep {
     float mass_of(uint corner, const SelfCloth& cloth) const { return inverse_mass(place(corner)) * cloth.lightness; }
     void move_to(std::size_t place, vec3 displacement) {
         contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
-        contact_.before[place].w = 1;
+        contact_.before[place].w = self_pushed;
     }
 
     TwinContact& contact_;
@@ -140,6 +140,7 @@ void ContactStep::boxes() {
     contact_.sums.assign(count, {});
     contact_.velocities.assign(count, {});
     contact_.made_good.assign(count, {});
+    contact_.led_ways.assign(count, {});
     contact_.pairs.clear();
     contact_.touching.clear();
     contact_.boxes.assign(count, {});
@@ -417,12 +418,14 @@ void ContactStep::cut_short(std::size_t cloth) {
         const vec3 moved = displacement(at);
         const vec3 bound = self_bounded(moved, xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
         const bool is_cut = share < 1.0f || bound.x != moved.x || bound.y != moved.y || bound.z != moved.z;
-        const bool pushed = contact_.before[i].w != 0.0f;
-        if (!is_cut && !pushed) continue;
+        const float by = contact_.before[i].w;
+        const bool pushed = by == self_pushed || by == self_pushed_and_led;
+        if (!is_cut && by == 0.0f) continue;
+        const vec3 own = by >= self_led_out ? self_own_motion(moved, xyz(contact_.led_ways[i])) : moved;
         contact_.velocities[i] =
-            texel(pushed ? self_velocity(moved, xyz(contact_.velocities[i]), xyz(contact_.made_good[i]),
+            texel(pushed ? self_velocity(own, xyz(contact_.velocities[i]), xyz(contact_.made_good[i]),
                                          support_normal(contact_.supports[i]))
-                         : moved);
+                         : own);
         vec3 made = moved;
         if (is_cut) {
             ++record.truncated;
@@ -430,6 +433,7 @@ void ContactStep::cut_short(std::size_t cloth) {
             record.most_lag = std::max(record.most_lag, floatBitsToUint(self_lag(made, moved)));
         }
         move_to(i, made);
+        if (!is_cut && !pushed) contact_.before[i].w = self_led_out;
     }
 }
 

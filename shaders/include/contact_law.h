@@ -32,4 +32,18 @@ SHARED vec3 supported(vec3 displacement, Support support) {
     return depth > 0.0f ? held : displacement;
 }
 
+/// Returns the way from where a particle started to where it is led.
+SHARED vec3 way_between(vec3 start, vec3 led) {
+    precise vec3 way = led - start;
+    return way;
+}
+
+/// Returns whether a way is no longer than coordinates this large are rounded by.
+SHARED bool is_rounding(vec3 start, vec3 way) {
+    vec3 from = vec3(abs(start.x), abs(start.y), abs(start.z)), by = vec3(abs(way.x), abs(way.y), abs(way.z));
+    float farther = from.x > from.y ? from.x : from.y, longer = by.x > by.y ? by.x : by.y;
+    precise float rounded = (farther > from.z ? farther : from.z) * 1.2e-7f;
+    return !((longer > by.z ? longer : by.z) > rounded);
+}
+
 #endif

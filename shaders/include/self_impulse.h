@@ -113,6 +113,12 @@ SHARED vec3 self_led_by(vec3 by, vec3 normal) {
     return ordered_dot(normal, normal) > 0.0f ? away : by;
 }
 
+/// Returns a motion without the way by which a collider led the particle out of an overlap, which is no velocity.
+SHARED vec3 self_own_motion(vec3 moved, vec3 way_out) {
+    precise vec3 own = moved - way_out;
+    return own;
+}
+
 SHARED vec3 self_added(vec3 displacement, vec3 by) {
     precise vec3 sum = displacement + by;
     return sum;

@@ -41,6 +41,10 @@ const int self_size_search = 0, self_size_blocks = 1, self_size_cells = self_siz
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
 
+/// What moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
+/// overlap, or both.
+const float self_pushed = 1.0f, self_led_out = 2.0f, self_pushed_and_led = 3.0f;
+
 /// A pair that touches in this substep, or would.
 struct SelfTouch {
     uvec4 corners;

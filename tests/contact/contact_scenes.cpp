@@ -109,6 +109,19 @@ std::string crumpled_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t 
                     n, limp, 0.4 / (n - 1)));
 }
 
+std::string led_sheet() {
+    const auto sheet = [](std::string_view name, double x, double y, double slope, std::string_view pins) {
+        return fmt::format(R"({{"name": "{}", "grid": [9, 9], "size": [0.4, 0.4], "placement":
+   {{"origin": [{}, {}, {}], "u": [1, 0, 0], "v": [0, {}, 1]}}, "self_collision": {{"thickness": 0.008}}{}}})",
+                           name, x, y, x, slope, pins);
+    };
+    return scene("led", 40, 8,
+                 fmt::format(R"("gravity": [0, 0, 0], "cloths": [{},
+  {}], "colliders": {{"planes": [{{}}]}})",
+                             sheet("low", -0.2, -0.03, 0, ""),
+                             sheet("held", -0.19, -0.022, 0.03, R"(, "pins": [{"box": [[0, 0], [8, 8]]}])")));
+}
+
 std::string collapsing_strip(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps) {
     return scene("heap", frames, substeps,
                  fmt::format(R"("cloths": [{{"name": "strip", "grid": [{}, {}], "size": [0.09, 0.72],

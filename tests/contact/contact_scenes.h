@@ -29,6 +29,9 @@ std::string crumpled_sheet(std::uint32_t n, std::uint32_t frames, std::uint32_t 
 /// A strip 0.72 m long, of n links, falls on its lower edge; how high it lies in the end does not depend on n.
 std::string collapsing_strip(std::uint32_t n, std::uint32_t frames, std::uint32_t substeps);
 
+/// A sheet starts 30 mm deep in the ground, which leads it out at 0.1 m/s. 8 mm above it another one, aslant, is held.
+std::string led_sheet();
+
 /// Scene number `index` of a seed is the same on every machine: one to three cloths of 5 x 5 to 15 x 15 particles and
 /// all that a scene may hold, mostly thrown at each other, some so wildly that the proof is lost.
 std::string random_contact_scene(std::uint64_t seed, std::uint32_t index);

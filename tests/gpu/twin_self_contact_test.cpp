@@ -60,6 +60,16 @@ SceneDescription two_layers(SolverMethod method, std::uint32_t substeps) {
 
 TEST(TwinSelfContactTest, TwoClothsExplicit) { expect_contact(two_layers(SolverMethod::explicit_steps, 30)); }
 TEST(TwinSelfContactTest, TwoClothsLine) { expect_contact(two_layers(SolverMethod::line, 12)); }
+
+/// The lower one starts in the ground, which leads it out at 0.1 m/s, against the upper one.
+TEST(TwinSelfContactTest, AClothThatAColliderLeadsOut) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps}) {
+        SceneDescription scene = two_layers(method, 12);
+        const double lowest = std::min(scene.cloths[0].placement.origin[1], scene.cloths[1].placement.origin[1]);
+        scene.colliders = {{Plane{{0, 1, 0}, lowest + 0.02}}};
+        expect_contact(scene);
+    }
+}
 /// Simulated together but for contact.
 TEST(TwinSelfContactTest, ClothsOfAKind) {
     SceneDescription scene = test::layers(SolverMethod::line, 10);
