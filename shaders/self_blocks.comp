@@ -11,15 +11,13 @@
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_tree.h"
-layout(set = 0, binding = 1, std430) buffer Blocks { ivec2 blocks[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Meetings { uint meetings[]; };
-layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer KeptOut { SelfBox kept_out[]; };  // level 0, others are read
-layout(set = 0, binding = 8, rgba32f) uniform readonly imageBuffer boxes;
-layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacements;
-#include "include/self_lists.h"
+layout(set = 0, binding = 6, std430) writeonly buffer KeptOut { SelfBox kept_out[]; };  // level 0, others are read
+layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer boxes;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D displacements;
 
 vec3 mean;  // record[0].mean, read where nothing has branched yet (docs/devices.md)
 
@@ -78,7 +76,7 @@ void main() {
         // A scene's only cloth needs no further test: it meets itself, and `open` judged it by its own thickness.
         if (cloth_count > 1) found = found && meets(owner, box, node, box_at(place));
         if (found) {
-            uint at = place_after(atomicAdd(record[0].block_count, 1u), 1u);
+            uint at = atomicAdd(record[0].block_count, 1u);
             if (at < uint(push.cell_capacity)) blocks[at] = ivec2(index, place - begin);
         }
         if (open && level > 1) {
@@ -98,5 +96,4 @@ void main() {
             node = ivec2(node.x >> 1, node.y >> 1);
         }
     }
-    dispatch(self_size_cells, reached);
 }

@@ -1,6 +1,7 @@
 // This pass lists the pairs of cells whose triangles and edges this substep may bring together. Of the candidates, none
-// close in their cloth, it takes those whose boxes are near enough; of a cloth's neighbours and those two columns or
-// rows apart, those about which the cloth is not flat and does not keep them apart. For these an invocation goes down a
+// close in their cloth, it takes those whose boxes are near enough. After a search it first lists the candidates, until
+// the next one: cells of the blocks that were found. Of a cloth's neighbours and those two columns or rows apart, it
+// takes those about which the cloth is not flat and does not keep them apart. For these an invocation goes down a
 // part of a column or two, so that from one cell to the next it loads one row of the 4 x 4 particles about it. A
 // workgroup's z is its cloth.
 #version 460
@@ -20,12 +21,15 @@ layout(set = 0, binding = 5, std430) buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
 layout(set = 0, binding = 8, rgba32f) uniform readonly imageBuffer boxes;
-layout(set = 0, binding = 9, std430) readonly buffer Candidates { ivec2 candidates[]; };
+layout(set = 0, binding = 9, std430) buffer Candidates { ivec2 candidates[]; };
+layout(set = 0, binding = 10, rgba32f) uniform readonly imageBuffer kept;
+layout(set = 0, binding = 11, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_lists.h"
 
 vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
 
 SelfBox box_at(int place) { return SelfBox(imageLoad(boxes, 2 * place), imageLoad(boxes, 2 * place + 1)); }
+SelfBox kept_at(int place) { return SelfBox(imageLoad(kept, 2 * place), imageLoad(kept, 2 * place + 1)); }
 
 void judge_far(ivec2 pair) {
     float thickness = self_mean_thickness(cloth_at(texel_of(pair.x)), cloth_at(texel_of(pair.y)));
@@ -35,12 +39,74 @@ void judge_far(ivec2 pair) {
     }
 }
 
-void judge_candidates() {
+/// Returns cell k (0..3) of a block.
+ivec2 cell_of(int block, int k) {
+    return 2 * texel_of(block, self_tree_size(push.grid, 1).x) + ivec2(k & 1, k >> 1);
+}
+
+bool inside(ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; }
+int index_of(ivec2 cell) { return min(cell.y, push.grid.y - 1) * push.grid.x + min(cell.x, push.grid.x - 1); }
+
+/// The cells of a block lie in these boxes.
+struct Block {
+    ivec2 at;
+    int cloth;
+    SelfBox box0, box1, box2, box3;
+};
+
+Block block_of(int block) {
+    ivec2 first = cell_of(block, 0);
+    return Block(first, owner_of(place_of(first)), kept_at(index_of(first)), kept_at(index_of(cell_of(block, 1))),
+                 kept_at(index_of(cell_of(block, 2))), kept_at(index_of(cell_of(block, 3))));
+}
+
+/// Returns whether cell k of one block may come near cell l of another. Cells past the sheet's edge do not count, nor
+/// do cells close in their cloth, which are judged by how the cloth lies between them.
+bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
+    ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
+    bool may = inside(a) && inside(b) && !(one.cloth == other.cloth && self_close(a, b));
+    return may && self_boxes_meet(box, other_box, push, thickness);
+}
+
+/// Returns bits of the cells of another block that cell k of one meets.
+uint cells_met(Block one, SelfBox box, int k, Block other, float thickness) {
+    return (meet(one, box, k, other, other.box0, 0, thickness) ? 1u : 0u) |
+           (meet(one, box, k, other, other.box1, 1, thickness) ? 2u : 0u) |
+           (meet(one, box, k, other, other.box2, 2, thickness) ? 4u : 0u) |
+           (meet(one, box, k, other, other.box3, 3, thickness) ? 8u : 0u);
+}
+
+void judge_blocks(ivec2 pair) {
+    Block one = block_of(pair.x), other = block_of(pair.y);
+    float thickness = self_mean_thickness(cloth_at(one.at), cloth_at(other.at));
+    uint found = cells_met(one, one.box0, 0, other, thickness) | (cells_met(one, one.box1, 1, other, thickness) << 4) |
+                 (cells_met(one, one.box2, 2, other, thickness) << 8) |
+                 (cells_met(one, one.box3, 3, other, thickness) << 12);
+    uint count = uint(bitCount(found)), place = 0u;
+    if (count > 0u) place = atomicAdd(record[0].candidate_count, count);
+    for (;;) {
+        int k = max(findLSB(found), 0);
+        int a = index_of(one.at + ivec2((k >> 2) & 1, k >> 3)), b = index_of(other.at + ivec2(k & 1, (k >> 1) & 1));
+        ivec2 cells = ivec2(min(a, b), max(a, b));
+        if (found != 0u && place < uint(push.cell_capacity)) candidates[place] = cells;
+        if (found != 0u) judge_far(cells);
+        ++place;
+        found &= max(found, 1u) - 1u;
+        if (found == 0u) break;
+    }
+}
+
+/// After a search the candidates are the cells of the blocks that it found.
+void judge_all_far() {
     ivec3 groups = ivec3(gl_NumWorkGroups), group = ivec3(gl_WorkGroupID);
     int own = (group.z * groups.y + group.y) * groups.x + group.x;
-    int first = own * workgroup_width + int(gl_LocalInvocationIndex), all = groups.x * groups.y * groups.z;
-    int count = self_listed(record[0].candidate_count, push.cell_capacity);
-    FOR_EVERY_FROM(i, first, all * workgroup_width, count, judge_far(candidates[i]))
+    int first = own * workgroup_width + int(gl_LocalInvocationIndex);
+    int stride = groups.x * groups.y * groups.z * workgroup_width;
+    bool searched = sizes[self_size_search].x != 0u;
+    int block_count = searched ? self_listed(record[0].block_count, push.cell_capacity) : 0;
+    int count = searched ? 0 : self_listed(record[0].candidate_count, push.cell_capacity);
+    FOR_EVERY_FROM(i, first, stride, block_count, judge_blocks(blocks[i]))
+    FOR_EVERY_FROM(i, first, stride, count, judge_far(candidates[i]))
 }
 
 SelfCloth cloth;  // whose close cells this workgroup looks at
@@ -141,7 +207,7 @@ void judge_close() {
 
 void main() {
     carried = record[0].carried.xyz;
-    judge_candidates();
+    judge_all_far();
     judge_close();
     dispatch(self_size_primitives, reached);
 }

@@ -47,6 +47,7 @@ std::vector<ContactRow> rows() {
         {boxes, "boxes", texel_buffer, box, device, always, places},
         {kept, "kept", texel_buffer, box, device, always,
          [](Context c) { return FieldExtent{self_tree_boxes(c.contact.push.grid)}; }},
+        {blocks, "blocks", buffer, pair, device, always, cell_list},
         {candidates, "candidates", buffer, pair, device, always, cell_list},
         {cells, "cells", buffer, pair, device, always, cell_list},
         {near, "near", buffer, integer, device, always, [](Context c) { return FieldExtent{c.capacity.near}; }},

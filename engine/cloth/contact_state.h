@@ -18,6 +18,7 @@ enum class ContactField : std::uint8_t {
     displacements,  ///< by place: motion within the substep, m; w: bits of the triangles and edges that it owns
     boxes,          ///< by place: what its cell is in in this substep (shaders/include/self_contact.h)
     kept,           ///< tree of boxes in which cells were looked for, the lowest level first
+    blocks,         ///< pairs of blocks of 2 x 2 cells that the search found
     candidates,     ///< pairs of cells that may come near each other until the next search
     cells,          ///< those that are near in this substep
     near,           ///< pairs of primitives whose boxes are near each other

@@ -41,7 +41,6 @@ enum class StepKind {
     self_gather,
     self_boxes,
     self_blocks,
-    self_cells,
     self_near,
     self_crossings,
     self_apart,

@@ -60,9 +60,6 @@ template <int first_slot>
 DispatchSize found_in_round(Place p, const ComputePipeline&) {
     return of_slot(p, first_slot + p.step.push<SelfContactPush>().round);
 }
-/// Shaders that search in the tree put blocks into the list that will hold cells.
-std::string tree_alias(Place, std::string_view name, bool) { return name == "blocks" ? "cells" : ""; }
-
 }  // namespace
 }  // namespace contact_rows
 
@@ -79,11 +76,6 @@ std::vector<StepRow> contact_step_rows() {
                            std::vector<VariantRow> variants = {}) {
         return StepRow{kind, label, {{plain, shader, std::move(variants), size}}, contact_push};
     };
-    const auto in_tree = [&](StepKind kind, const char* label, const char* shader, auto size) {
-        StepRow row = of_all(kind, label, shader, size);
-        row.alias = tree_alias;
-        return row;
-    };
     using enum StepKind;
     StepRow returned =
         of_cloth(self_return, "self return", "self_return.comp", {{"history", second_order}, {"before", ends_frame}});
@@ -91,8 +83,7 @@ std::vector<StepRow> contact_step_rows() {
     return {
         of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
         of_all(self_boxes, "self boxes", "self_boxes.comp", over_tree, if_crossed),
-        in_tree(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
-        in_tree(self_cells, "self cells", "self_cells.comp", found<glsl::self_size_cells>),
+        of_all(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
         of_all(self_near, "self near", "self_near.comp", over_parts),
         of_all(self_crossings, "self crossings", "self_crossings.comp", found<glsl::self_size_primitives>),
         of_all(self_apart, "self apart", "self_apart.comp", over_cloths),

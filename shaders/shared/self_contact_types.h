@@ -36,8 +36,8 @@ const int self_rounds = 3;
 /// The one for a search is no size: x says whether there is one in this substep, w how many workgroups have come to the
 /// end of the pass that asks for it. A pass is dispatched only for entries that exist: an invocation without work costs the default device as much as one
 /// with.
-const int self_size_search = 0, self_size_blocks = 1, self_size_cells = self_size_blocks + 1,
-          self_size_primitives = self_size_cells + 1, self_size_pairs = self_size_primitives + 1,
+const int self_size_search = 0, self_size_blocks = 1, self_size_primitives = self_size_blocks + 1,
+          self_size_pairs = self_size_primitives + 1,
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
 
