@@ -41,7 +41,7 @@ const int self_size_search = 0, self_size_blocks = 1, self_size_primitives = sel
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
 
-/// What moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
+/// This moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
 /// overlap, or both.
 const float self_pushed = 1.0f, self_led_out = 2.0f, self_pushed_and_led = 3.0f;
 
