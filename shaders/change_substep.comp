@@ -10,6 +10,8 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(ChangeSubstepPush)
+#define TOGETHER
+#include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_remainder;
@@ -24,13 +26,12 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    ChangedSubstep changed = changed_substep(imageLoad(displacement_in, texel).xyz, imageLoad(end_excess_in, texel).xyz,
-                                       attempt[push.cloth]);
-    imageStore(displacement_out, texel, vec4(changed.displacement, 0.0f));
-    imageStore(displacement_remainder, texel, vec4(0.0f, 0.0f, 0.0f, 0.0f));
-    imageStore(end_excess_out, texel, vec4(changed.excess, 0.0f));
+    ChangedSubstep changed = changed_substep(LOAD(displacement_in, texel).xyz, LOAD(end_excess_in, texel).xyz, attempt[push.cloth]);
+    imageStore(displacement_out, placed(texel), vec4(changed.displacement, 0.0f));
+    imageStore(displacement_remainder, placed(texel), vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    imageStore(end_excess_out, placed(texel), vec4(changed.excess, 0.0f));
 #ifdef SECOND_ORDER
-    imageStore(displacement_before, texel, vec4(changed.before, 0.0f));
-    imageStore(velocity_excess, texel, vec4(changed.excess_before, 0.0f));
+    imageStore(displacement_before, placed(texel), vec4(changed.before, 0.0f));
+    imageStore(velocity_excess, placed(texel), vec4(changed.excess_before, 0.0f));
 #endif
 }

@@ -14,6 +14,7 @@
 #include "include/verlet.h"
 #include "include/wind.h"
 PUSH_CONSTANTS(ExplicitPush)
+#define TOGETHER
 #include "include/state_store.h"
 
 layout(local_size_x = tile_width, local_size_y = tile_width) in;

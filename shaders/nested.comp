@@ -72,7 +72,7 @@ void move(MoveWalk walk, vec3 normal, float change) {
 void move_next(NestedLine line, inout MoveWalk walk) {
     NestedParticle second = next_particle(line, walk.first, line.step);
     LineSpring spring = spring_between(line, walk.first, second);
-    vec4 row = imageLoad(nested_rows_in, walk.first.at);
+    vec4 row = LOAD(nested_rows_in, walk.first.at);
     float change = substitute_spring(row.xy, walk.change_before);
     move(walk, spring.normal, change);
     float share = share_of(line, walk.first);

@@ -44,28 +44,29 @@ float tension_at(ivec2 owner, int direction) {
     return imageLoad(tension_shear_down_left, owner).x;
 }
 
-float share_of(ivec2 owner, ivec2 offset, int direction) {
+/// `cloth`: texel of the cloth's first particle.
+float share_of(ivec2 cloth, ivec2 owner, ivec2 offset, int direction) {
 #ifdef MASKED
     return imageLoad(spring_shares, owner)[direction];
 #else
-    return border_share(owner, offset, push.grid);
+    return border_share(owner - cloth, offset, push.grid);
 #endif
 }
 
 /// Returns the displacement by which the springs' tension would move an inner particle at `texel` in a substep, m.
-vec3 pull_of_springs(ivec2 texel) {
+vec3 pull_of_springs(ivec2 cloth, ivec2 texel) {
     vec3 start = imageLoad(position_in, texel).xyz, moved = imageLoad(displacement_in, texel).xyz;
     vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < neighbour_count; ++k) {
         ivec4 around = neighbour(k);
-        ivec2 there = texel + around.xy;
-        if (there.x < 0 || there.y < 0 || there.x >= push.grid.x || there.y >= push.grid.y) continue;
+        ivec2 there = texel + around.xy, place = there - cloth;
+        if (place.x < 0 || place.y < 0 || place.x >= push.grid.x || place.y >= push.grid.y) continue;
         vec3 start_there = imageLoad(position_in, there).xyz, moved_there = imageLoad(displacement_in, there).xyz;
         precise vec3 edge = start_there - start;
         if (advance) edge = spring_edge(start, start_there, moved, moved_there);
         ivec2 owner = around.w == 1 ? texel : there;
         precise float stiffness =
-            push.relative_stiffness[around.z] * share_of(owner, around.xy, around.z);
+            push.relative_stiffness[around.z] * share_of(cloth, owner, around.xy, around.z);
         sum = add_tension_pull(sum, edge, tension_at(owner, around.z), stiffness);
     }
     return sum;
@@ -85,10 +86,10 @@ void main() {
     vec3 displacement = imageLoad(displacement_in, index.xy).xyz;
     vec3 pull = vec3(0.0f, 0.0f, 0.0f);
 #ifdef TENSION
-    pull = pull_of_springs(index.xy);
+    pull = pull_of_springs(ivec2(0, index.w), index.xy);
 #endif
 #ifdef SECOND_ORDER
-    imageAtomicMax(line_control, ivec2(control_hold, 0), line_hold_release);
+    imageAtomicMax(line_control, ivec2(control_hold, index.w / push.grid.y), line_hold_release);
 #endif
     float surplus = release_surplus(motion);
     precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;

@@ -11,6 +11,7 @@
 #include "include/spring.h"
 #include "include/verlet.h"
 PUSH_CONSTANTS(AllSpringsPush)
+#define TOGETHER
 #include "include/state_store.h"
 
 layout(local_size_x = tile_width, local_size_y = tile_width) in;

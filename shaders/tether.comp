@@ -12,6 +12,7 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(GridPush)
+#define TOGETHER
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -23,17 +24,17 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer tethers;  // 
 /// anchor was released.
 vec3 tether_edge(vec3 start, vec3 displacement, int anchor) {
     ivec2 at = texel_of(max(anchor, 0), push.grid.x);
-    vec4 held = imageLoad(position, at);
-    vec3 edge = spring_edge(held.xyz, start, imageLoad(displacement_in, at).xyz, displacement);
+    vec4 held = LOAD(position, at);
+    vec3 edge = spring_edge(held.xyz, start, LOAD(displacement_in, at).xyz, displacement);
     return anchor >= 0 && held.w == 0.0f ? edge : vec3(0.0f, 0.0f, 0.0f);
 }
 
 /// Returns whether a tether pulls at a particle. The second tether pulls after the first, so where neither does now,
 /// neither will.
 bool is_pulled(ivec2 texel) {
-    vec4 start = imageLoad(position, texel);
-    vec3 displacement = imageLoad(displacement_in, texel).xyz;
-    vec4 mine = imageLoad(tethers, texel.y * push.grid.x + texel.x);
+    vec4 start = LOAD(position, texel);
+    vec3 displacement = LOAD(displacement_in, texel).xyz;
+    vec4 mine = imageLoad(tethers, placed(texel).y * push.grid.x + texel.x);
     bool by_first = is_beyond(tether_edge(start.xyz, displacement, floatBitsToInt(mine.x)), mine.z);
     bool by_second = is_beyond(tether_edge(start.xyz, displacement, floatBitsToInt(mine.y)), mine.w);
     return start.w != 0.0f && (by_first || by_second);
@@ -44,9 +45,9 @@ vec3 tethered(vec3 start, vec3 displacement, int anchor, float length) {
 }
 
 void pull(ivec2 texel) {
-    vec3 start = imageLoad(position, texel).xyz;
-    vec4 before = imageLoad(displacement_in, texel);
-    vec4 mine = imageLoad(tethers, texel.y * push.grid.x + texel.x);
+    vec3 start = LOAD(position, texel).xyz;
+    vec4 before = LOAD(displacement_in, texel);
+    vec4 mine = imageLoad(tethers, placed(texel).y * push.grid.x + texel.x);
     vec3 moved = tethered(start, before.xyz, floatBitsToInt(mine.x), mine.z);
     moved = tethered(start, moved, floatBitsToInt(mine.y), mine.w);
     STORE_VECTOR(displacement_out, texel, vec4(moved, before.w));

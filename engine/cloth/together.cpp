@@ -22,17 +22,10 @@ bool alike(const Cloth& one, const Cloth& other) {
     return same == one;
 }
 
-/// Returns whether a kernel's shader finds a cloth's place by the workgroup's z (shaders/include/together.h).
-bool knows_places(Kernel kernel) {
-    return kernel == Kernel::plain || kernel == Kernel::explicit_stream || kernel == Kernel::spring_stream ||
-           kernel == Kernel::twist_stream;
-}
-
-/// Returns whether a step uses no other data than its constants, the images of the state and, for pins, lists that can
-/// be joined.
+/// Returns whether a step uses no other data than its constants, the images of the state and lists that can be joined.
 bool in_images(const Step& step) {
-    if (!knows_places(step.kernel)) return false;
     switch (step.kind) {
+        case StepKind::release:
         case StepKind::wind:
         case StepKind::pin:
         case StepKind::predict:
@@ -44,6 +37,8 @@ bool in_images(const Step& step) {
         case StepKind::spring:
         case StepKind::all_springs:
         case StepKind::line:
+        case StepKind::nested:
+        case StepKind::tether:
         case StepKind::box_edges:
         case StepKind::collide:
             return true;

@@ -17,7 +17,7 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
 
 /// Returns the steps of a frame in which a step that all cloths of a list take with the same constants is one step of
 /// the list's first cloth (Step::together). A step that only some of them take, or take with other constants, stays as
-/// it is: nested boxes around their pins, pins that let go. Every cloth keeps the order of its steps.
+/// it is. Every cloth keeps the order of its steps.
 std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vector<std::vector<std::size_t>>& lists);
 
 }  // namespace drape

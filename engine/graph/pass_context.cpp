@@ -40,7 +40,8 @@ const Use& PassContext::use_of(Handle handle) const {
 }
 
 const vulkan::Image& PassContext::image(Handle handle) const {
-    return pool_.image(graph_.resources()[use_of(handle).handle.resource].seen(handle).name);
+    const Resource& resource = graph_.resources()[use_of(handle).handle.resource];
+    return pool_.image(handle.slice == UINT32_MAX ? resource.name : resource.image.slices[handle.slice]);
 }
 
 const vulkan::Buffer& PassContext::buffer(Handle handle) const {

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "solver/cut_pass.h"
-#include "solver/readback_pass.h"
 
 namespace drape {
 
@@ -162,18 +161,16 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     else if (!options_.draw && !options_.draws_beside)
         frame.graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
                          "no picture is wanted");
-    if (has.hands_out && options_.normals)
-        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::normal], "normal");
+    if (has.hands_out && options_.normals) solver_.add_readback(frame.graph, Field::normal, "normal");
     if (has.hands_out && options_.positions) {
-        for (ClothState state : solver_.cloths()) add_readback(frame.graph, state, state[Field::position], "position");
+        solver_.add_readback(frame.graph, Field::position, "position");
     } else if (!options_.positions) {
         frame.graph.skip("position readback", "no position export is wanted");
     }
-    if (has.hands_out && options_.velocities)
-        for (ClothState state : solver_.cloths()) {
-            add_readback(frame.graph, state, state[Field::displacement], "displacement");
-            add_readback(frame.graph, state, state[Field::end_excess], "excess displacement");
-        }
+    if (has.hands_out && options_.velocities) {
+        solver_.add_readback(frame.graph, Field::displacement, "displacement");
+        solver_.add_readback(frame.graph, Field::end_excess, "excess displacement");
+    }
     if (wanted.statistics)
         solver_.add_statistics(frame.graph);
     else if (!options_.statistics)
@@ -258,28 +255,20 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         raster_->finish(bytes.first(raster_->readback_byte_count()));
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
-    if (done.output && options_.positions) result.positions = arrays(slot, "position");
+    if (done.output && options_.positions) result.positions = solver_.readback(*pool_, slot, "position");
     if (done.output && options_.velocities)
         result.velocities = velocities(slot, result.effort.asleep ? 0 : done.substeps);
-    if (done.output && options_.normals) result.normals = arrays(slot, "normal");
+    if (done.output && options_.normals) result.normals = solver_.readback(*pool_, slot, "normal");
     if (!done.judged && needs(done.kind).statistics) result.statistics = solver_.statistics(*pool_, slot);
     if (done.output) return finished(result);
     // A closed loop's frame may still be done again.
     if (options_.on_passed_over && (!control_ || done.frame == 0)) options_.on_passed_over(result);
 }
 
-std::vector<std::span<const float>> FrameLoop::arrays(std::uint32_t slot, std::string_view what) const {
-    std::vector<std::span<const float>> views;
-    for (const ClothModel& cloth : model_.cloths) {
-        const std::span<std::byte> bytes = pool_->buffer(readback_name(cloth, what), slot).mapped();
-        views.push_back({reinterpret_cast<const float*>(bytes.data()), cloth.grid.particle_count() * 4});
-    }
-    return views;
-}
-
 /// Returns what the statistics take for the velocity (end_velocity.h), over the substep; 0 where there was none.
 std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
-    const auto moved = arrays(slot, "displacement"), excess = arrays(slot, "excess displacement");
+    const auto moved = solver_.readback(*pool_, slot, "displacement"),
+               excess = solver_.readback(*pool_, slot, "excess displacement");
     const double substeps_per_second = model_.scene.time.fps * substeps;
     velocities_.resize(moved.size());
     for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {

@@ -170,7 +170,6 @@ class FrameLoop {
     /// Does the same with new resources.
     void begin_anew();
     void deliver(std::uint32_t slot, const Finished& finished);
-    std::vector<std::span<const float>> arrays(std::uint32_t slot, std::string_view what) const;
     std::vector<std::span<const float>> velocities(std::uint32_t slot, std::uint32_t substeps);
     void deliver_all(const Finished& finished);
     /// Tells of the frames before `end` that were simulated and not wanted.

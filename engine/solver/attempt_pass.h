@@ -16,11 +16,12 @@ enum class AttemptStep : std::uint8_t {
 inline constexpr std::size_t attempt_step_count = 5;
 
 inline constexpr const char* attempt_name = "attempt";
-std::string difference_readback_name(const ClothModel& cloth);
+/// Host output buffer with the differences of a state's cloths (ClothState::name, count), difference_count each.
+std::string difference_readback_name(const std::string& state);
 
 /// Keeps, or takes back, what contact between the cloths hands from frame to frame.
 void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back);
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 std::size_t cloth, AttemptStep step);
+                 AttemptStep step);
 
 }  // namespace drape

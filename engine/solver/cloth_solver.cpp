@@ -106,10 +106,7 @@ ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& mo
         topologies_.emplace_back(cloth);
         iteration_sizes_.push_back(std::make_shared<std::vector<glsl::uvec4>>());
     }
-    if (kernels_.has(Kernel::buffer_store)) find_together(device);
-    together_of_.assign(model.cloths.size(), together_.size());
-    for (std::size_t k = 0; k < together_.size(); ++k)
-        for (const std::size_t cloth : together_[k].cloths) together_of_[cloth] = k;
+    find_together(device);
 }
 
 void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run) {
@@ -157,9 +154,8 @@ ClothState ClothSolver::state_of(std::size_t index) const {
 void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs) {
     const FieldContext about = context(index, needs, *run_);
     ClothState state = state_of(index);
-    const bool alone = together_of_[index] == together_.size();
     for (const FieldRow& row : cloth_fields())
-        if (row.needed(about) && (alone || !lies_together(row)))
+        if (row.needed(about) && (is_alone(index) || !lies_together(row)))
             state[row.field] = declare_row(graph, resource_name(about.cloth, row), row, about, state.buffered);
     cloths_.push_back(state);
 }
@@ -178,20 +174,19 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
             const FieldContext about = context(together.cloths[k], needs, *run_);
             if (!row.needed(about)) continue;
             if (!whole.valid())
-                whole =
-                    declare_row(graph, fmt::format("{}/{}", together.state.name, row.name), row, about, true, slices);
+                whole = declare_row(graph, resource_name(together.state, row), row, about, true, slices);
             cloths_[together.cloths[k]][row.field] = {whole.resource, whole.version, k};
         }
         together.state[row.field] = whole;
     }
-    declare_pins(graph, together, needs);
+    declare_lists(graph, together, needs);
 }
 
 template <class Add>
 void ClothSolver::for_each_dispatch(const Add& add) {
     for (Together& together : together_) add(together.state);
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
-        if (together_of_[cloth] == together_.size()) add(cloths_[cloth]);
+        if (is_alone(cloth)) add(cloths_[cloth]);
         take(cloth);
     }
 }
@@ -262,19 +257,32 @@ void ClothSolver::add_normals(graph::Graph& graph) {
     });
 }
 
+void ClothSolver::add_readback(graph::Graph& graph, Field image, std::string_view what) {
+    for_each_dispatch([&](ClothState& state) { drape::add_readback(graph, state, state[image], what); });
+}
+
+std::vector<std::span<const float>> ClothSolver::readback(const graph::ResourcePool& pool, std::uint32_t slot,
+                                                          std::string_view what) const {
+    std::vector<std::span<const float>> views;
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const auto bytes = part_of(cloth, pool.buffer(readback_name(state_name(cloth), what), slot));
+        views.push_back({reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)});
+    }
+    return views;
+}
+
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
-    for_each_cloth(
-        [&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, state.index, step); });
+    for_each_dispatch([&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, step); });
     if (run_->self_contact && (step == AttemptStep::keep || step == AttemptStep::restore))
         add_contact_copies(graph, contact_, step == AttemptStep::restore);
 }
 
 std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {
     std::vector<double> all;
-    for (const ClothModel& cloth : model_.cloths) {
-        std::vector<glsl::DifferenceRecord> partials(difference_count(cloth.grid));
-        const std::span<const std::byte> bytes = pool.buffer(difference_readback_name(cloth), slot).mapped();
-        std::memcpy(partials.data(), bytes.data(), partials.size() * sizeof(glsl::DifferenceRecord));
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        const auto bytes = part_of(cloth, pool.buffer(difference_readback_name(state_name(cloth)), slot));
+        std::vector<glsl::DifferenceRecord> partials(bytes.size() / sizeof(glsl::DifferenceRecord));
+        std::memcpy(partials.data(), bytes.data(), bytes.size());
         all.push_back(difference_of(partials));
     }
     return all;
@@ -297,11 +305,9 @@ void ClothSolver::add_statistics(graph::Graph& graph) {
 
 glsl::StatisticsRecord ClothSolver::statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
                                                       std::size_t cloth) const {
-    const bool alone = together_of_[cloth] == together_.size();
-    const std::string& name = alone ? model_.cloths[cloth].name : together_[together_of_[cloth]].state.name;
     glsl::StatisticsRecord record;
-    const std::span<const std::byte> bytes = pool.buffer(statistics_readback_name(name), slot).mapped();
-    std::memcpy(&record, bytes.data() + place_of(cloth) * sizeof record, sizeof record);
+    const auto bytes = part_of(cloth, pool.buffer(statistics_readback_name(state_name(cloth)), slot));
+    std::memcpy(&record, bytes.data(), sizeof record);
     return record;
 }
 
@@ -339,7 +345,8 @@ bool ClothSolver::grow_lists(const glsl::SelfRecord& record) {
 void ClothSolver::upload(const graph::ResourcePool& pool) const {
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) {
         const FieldContext about = context(index);
-        for (const FieldRow& row : cloth_fields()) upload_row(pool, resource_name(about.cloth, row), row, about);
+        for (const FieldRow& row : cloth_fields())
+            if (is_alone(index) || !lies_together(row)) upload_row(pool, resource_name(about.cloth, row), row, about);
         const std::string name = resource_name(about.cloth, row_of(Field::iteration_sizes));
         if (!pool.has(name)) continue;
         std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
@@ -349,7 +356,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
     if (model_.self_contact)
         for (const ContactRow& row : contact_fields())
             upload_row(pool, resource_name(row), row, ContactContext{*model_.self_contact, contact_.capacity});
-    upload_pins(pool);
+    upload_together(pool);
 }
 
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,

@@ -47,10 +47,15 @@ class ClothSolver {
     void add_positions(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
     void add_normals(graph::Graph& graph);
+    /// Adds copies to the host of an image of four floats per particle, every cloth's `what`, to be read by `readback`.
+    void add_readback(graph::Graph& graph, Field image, std::string_view what);
     /// Adds the statistics of every cloth (solver/statistics_pass.h), to be read by `statistics`.
     void add_statistics(graph::Graph& graph);
     /// Adds a pass that a closed loop needs around the attempts at a frame (solver/attempt_pass.h).
     void add_attempt(graph::Graph& graph, AttemptStep step);
+    /// Returns what the slot's last frame read back of each cloth, particle by particle.
+    std::vector<std::span<const float>> readback(const graph::ResourcePool& pool, std::uint32_t slot,
+                                                 std::string_view what) const;
     /// Returns how far the slot's last comparison found each cloth from the coarse run, m.
     std::vector<double> differences(const graph::ResourcePool& pool, std::uint32_t slot) const;
     /// Adds the search for springs and triangles that the cutters cross.
@@ -112,8 +117,11 @@ class ClothSolver {
     };
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs);
-    void declare_pins(graph::Graph& graph, Together& together, const FrameNeeds& needs);
-    void upload_pins(const graph::ResourcePool& pool) const;
+    /// Declares the lists of cloths together, joined (cloths_together.cpp).
+    void declare_lists(graph::Graph& graph, Together& together, const FrameNeeds& needs);
+    void upload_together(const graph::ResourcePool& pool) const;
+    /// Returns what a field of cloths together starts with, cloth by cloth.
+    std::vector<std::byte> start_of(const Together& together, const FieldRow& row) const;
     void write_pins(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
                     std::uint32_t substeps) const;
     ClothState state_of(std::size_t index) const;
@@ -122,8 +130,11 @@ class ClothSolver {
     void take(std::size_t cloth);
     /// Makes the handles that a cloth made those of the images that it shares.
     void give(std::size_t cloth);
-    /// Returns a cloth's place among those that it is together with; 0 when it is alone.
-    std::uint32_t place_of(std::size_t cloth) const;
+    bool is_alone(std::size_t cloth) const { return together_of_[cloth] == together_.size(); }
+    /// Returns the name of the state that a cloth's is a part of.
+    const std::string& state_name(std::size_t cloth) const;
+    /// Returns a cloth's part of what a pass over its state left on the host.
+    std::span<const std::byte> part_of(std::size_t cloth, const vulkan::Buffer& of_state) const;
     /// Calls `add` once for cloths together, and for each of the others.
     template <class Add>
     void for_each_dispatch(const Add& add);
@@ -148,6 +159,7 @@ class ClothSolver {
     std::vector<ClothState> cloths_;
     std::vector<Together> together_;
     std::vector<std::size_t> together_of_;  ///< index into `together_` by cloth; the size of that: alone
+    std::vector<std::uint32_t> place_of_;   ///< a cloth's place among those that it is together with
     SceneInputs inputs_;
     std::uint64_t most_list_bytes_;
     ContactHandles contact_;

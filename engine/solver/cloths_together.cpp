@@ -1,7 +1,5 @@
 // The part of the solver that is about cloths simulated together: which they are, the handles that a cloth and its
-// image share, and the lists of all their pins as one.
-#include <fmt/format.h>
-
+// image share, and the lists of all of them as one.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -18,21 +16,30 @@ using graph::Lifetime;
 
 namespace {
 
-/// Returns the name of the buffer with all pins of cloths together.
-std::string pins_name(const ClothState& whole, Field field) {
-    return fmt::format("{}/{}", whole.name, row_of(field).name);
+/// Lists that cloths together have one after the other in one buffer.
+constexpr Field joined_lists[] = {Field::nested_boxes, Field::tethers, Field::pinned_particles, Field::pin_motions};
+
+/// Returns a cloth's pinned particles with texel and motion counted over all cloths.
+std::vector<glsl::PinnedParticle> placed_pins(const ClothModel& cloth, int first_row, int first_pin) {
+    std::vector<glsl::PinnedParticle> pins = cloth.pinned;
+    for (glsl::PinnedParticle& pin : pins) {
+        pin.index.y += first_row;
+        pin.index.z += first_pin;
+        pin.index.w = first_row;
+    }
+    return pins;
 }
 
 /// Returns lists of cloths that are alike, have the same contact with colliders, which depends on where they are
-/// placed, and turn at the same steps where steps go to and fro between two sets of images.
+/// placed, and take the same steps: all of them move pins or none does, and so on.
 std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
-        std::map<std::tuple<std::size_t, float, bool, bool>, std::vector<std::size_t>> parts;
+        std::map<std::tuple<std::size_t, float, bool, bool, bool, std::size_t>, std::vector<std::size_t>> parts;
         for (const std::size_t index : alike) {
             const ClothModel& cloth = model.cloths[index];
-            const bool turns = cloth.scheme.spare_state || cloth.scheme.spare_displacement;
-            parts[{cloth.collider_list, cloth.edge_reach, turns && cloth.has_motion, turns && cloth.has_release}]
+            parts[{cloth.collider_list, cloth.edge_reach, cloth.has_motion, cloth.has_release, !cloth.tethers.empty(),
+                   cloth.scheme.nested_table.size()}]
                 .push_back(index);
         }
         for (auto& [key, part] : parts) lists.push_back(std::move(part));
@@ -43,30 +50,44 @@ std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
 }  // namespace
 
 void ClothSolver::find_together(const vulkan::Device& device) {
+    const bool buffered = kernels_.has(Kernel::buffer_store);
+    const auto fit = [&](const ClothModel& cloth, std::size_t count) {
+        return cloth.tethers.size() * count <= device.limits().maxTexelBufferElements &&
+               state_obstacle(device, cloth.grid, static_cast<std::uint32_t>(count), buffered).empty();
+    };
     for (const std::vector<std::size_t>& alike : lists_of(model_)) {
-        const Grid& grid = model_.cloths[alike.front()].grid;
         // Halves, until they fit.
         std::size_t count = alike.size();
-        while (count > 1 && !buffer_store_obstacle(device, grid, static_cast<std::uint32_t>(count)).empty())
-            count = (count + 1) / 2;
+        while (count > 1 && !fit(model_.cloths[alike.front()], count)) count = (count + 1) / 2;
         for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
             const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
             const std::size_t some = std::min(count, alike.size() - first);
             if (some > 1) together_.push_back({{begin, begin + static_cast<std::ptrdiff_t>(some)}, {}});
         }
     }
+    together_of_.assign(model_.cloths.size(), together_.size());
+    place_of_.assign(model_.cloths.size(), 0);
+    for (std::size_t k = 0; k < together_.size(); ++k)
+        for (std::uint32_t place = 0; place < together_[k].cloths.size(); ++place) {
+            together_of_[together_[k].cloths[place]] = k;
+            place_of_[together_[k].cloths[place]] = place;
+        }
 }
 
-std::uint32_t ClothSolver::place_of(std::size_t cloth) const {
-    if (together_of_[cloth] == together_.size()) return 0;
-    const std::vector<std::size_t>& cloths = together_[together_of_[cloth]].cloths;
-    return static_cast<std::uint32_t>(std::ranges::find(cloths, cloth) - cloths.begin());
+const std::string& ClothSolver::state_name(std::size_t cloth) const {
+    return is_alone(cloth) ? model_.cloths[cloth].name : together_[together_of_[cloth]].state.name;
+}
+
+std::span<const std::byte> ClothSolver::part_of(std::size_t cloth, const vulkan::Buffer& of_state) const {
+    const std::span<const std::byte> all = of_state.mapped();
+    const std::size_t size = all.size() / (is_alone(cloth) ? 1 : together_[together_of_[cloth]].cloths.size());
+    return all.subspan(place_of_[cloth] * size, size);
 }
 
 void ClothSolver::take(std::size_t cloth) {
-    if (together_of_[cloth] == together_.size()) return;
+    if (is_alone(cloth)) return;
     const Together& together = together_[together_of_[cloth]];
-    const std::uint32_t place = place_of(cloth);
+    const std::uint32_t place = place_of_[cloth];
     ClothState& state = cloths_[cloth];
     state.away = together.state.away;
     for (const FieldRow& row : cloth_fields()) {
@@ -76,7 +97,7 @@ void ClothSolver::take(std::size_t cloth) {
 }
 
 void ClothSolver::give(std::size_t cloth) {
-    if (together_of_[cloth] == together_.size()) return;
+    if (is_alone(cloth)) return;
     ClothState& whole = together_[together_of_[cloth]].state;
     const ClothState& state = cloths_[cloth];
     if (state.away != whole.away) throw std::logic_error("a cloth left those that it is together with");
@@ -85,44 +106,52 @@ void ClothSolver::give(std::size_t cloth) {
             whole[row.field] = {state[row.field].resource, state[row.field].version};
 }
 
-void ClothSolver::declare_pins(graph::Graph& graph, Together& together, const FrameNeeds& needs) {
+void ClothSolver::declare_lists(graph::Graph& graph, Together& together, const FrameNeeds& needs) {
     ClothState& whole = together.state;
     whole.pinned_count = whole.pin_count = 0;
     for (const std::size_t cloth : together.cloths) {
         whole.pinned_count += cloths_[cloth].pinned_count;
         whole.pin_count += cloths_[cloth].pin_count;
     }
-    if (whole.pinned_count == 0) return;
-    for (const Field field : {Field::pinned_particles, Field::pin_motions}) {
+    for (const Field field : joined_lists) {
         const FieldRow& row = row_of(field);
         std::uint64_t count = 0;
         for (const std::size_t cloth : together.cloths)
             if (const FieldContext about = context(cloth, needs, *run_); row.needed(about))
                 count += row.extent(about).count();
-        whole[field] =
-            graph.buffer({pins_name(whole, field), count * row.element.size,
-                          row.life == FieldLife::constant ? Lifetime::constant : Lifetime::host_input, &row.element});
+        if (count == 0) continue;
+        whole[field] = graph.buffer({resource_name(whole, row), count * row.element.size,
+                                     row.life == FieldLife::constant ? Lifetime::constant : Lifetime::host_input,
+                                     &row.element, row.view == FieldView::texel_buffer});
     }
 }
 
-void ClothSolver::upload_pins(const graph::ResourcePool& pool) const {
-    for (const Together& together : together_) {
-        const std::string name = pins_name(together.state, Field::pinned_particles);
-        if (!pool.has(name)) continue;
-        std::vector<glsl::PinnedParticle> all;
-        int first_row = 0, first_pin = 0;
-        for (const std::size_t cloth : together.cloths) {
-            const ClothModel& model = model_.cloths[cloth];
-            for (glsl::PinnedParticle particle : model.pinned) {
-                particle.index.y += first_row;
-                particle.index.z += first_pin;
-                all.push_back(particle);
-            }
-            first_row += static_cast<int>(model.grid.rows());
-            first_pin += static_cast<int>(model.dynamic_pins.size());
-        }
-        vulkan::upload(pool.device(), pool.buffer(name), std::as_bytes(std::span(all)));
+std::vector<std::byte> ClothSolver::start_of(const Together& together, const FieldRow& row) const {
+    std::vector<std::byte> all;
+    int first_row = 0, first_pin = 0;
+    for (const std::size_t cloth : together.cloths) {
+        const ClothModel& model = model_.cloths[cloth];
+        const std::vector<std::byte> own = row.field == Field::pinned_particles
+                                               ? bytes_of_list(placed_pins(model, first_row, first_pin))
+                                               : row.start(context(cloth));
+        all.insert(all.end(), own.begin(), own.end());
+        first_row += static_cast<int>(model.grid.rows());
+        first_pin += static_cast<int>(model.dynamic_pins.size());
     }
+    return all;
+}
+
+void ClothSolver::upload_together(const graph::ResourcePool& pool) const {
+    for (const Together& together : together_)
+        for (const FieldRow& row : cloth_fields()) {
+            const std::string name = resource_name(together.state, row);
+            if (!row.start || !pool.has(name)) continue;
+            const std::vector<std::byte> bytes = start_of(together, row);
+            if (row.is_image())
+                vulkan::upload(pool.device(), pool.image(name), bytes);
+            else
+                vulkan::upload(pool.device(), pool.buffer(name), bytes);
+        }
 }
 
 void ClothSolver::write_pins(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
@@ -136,7 +165,7 @@ void ClothSolver::write_pins(const graph::ResourcePool& pool, std::uint32_t slot
                 const auto first = own.begin() + static_cast<std::ptrdiff_t>(substep) * count;
                 all.insert(all.end(), first, first + count);
             }
-        const std::string name = pins_name(together.state, Field::pin_motions);
+        const std::string name = resource_name(together.state, row_of(Field::pin_motions));
         if (pool.has(name))
             std::memcpy(pool.buffer(name, slot).mapped().data(), all.data(), all.size() * sizeof(glsl::PinMotion));
     }

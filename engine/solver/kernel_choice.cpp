@@ -9,7 +9,9 @@
 #include "cloth/kernel_steps.h"
 #include "graph/executor.h"
 #include "shared/cyclic_types.h"
+#include "shared/line_types.h"
 #include "shared/stream_types.h"
+#include "vulkan/api.h"
 #include "vulkan/error.h"
 
 namespace drape {
@@ -29,10 +31,35 @@ std::string sheet_obstacle(const vulkan::Device& device, glsl::ivec2 size) {
                                        (columns + step - 1) / step * step);
 }
 
+/// An image of a cloth's state; passes store to some through a buffer view (FieldView).
+struct StateImage {
+    VkFormat format;
+    FieldExtent extent;
+    bool is_stored;
+};
+
+/// Those that differ in what the device must be asked.
+std::vector<StateImage> state_images(const Grid& grid) {
+    const std::uint64_t width = grid.columns(), height = grid.rows();
+    return {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}, true},
+            {VK_FORMAT_R32_SFLOAT, {width, height}, true},
+            {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid), true},
+            {VK_FORMAT_R32G32B32A32_SFLOAT, {1, 1}, false},
+            {VK_FORMAT_R32_UINT, {width - 1, height - 1}, false},
+            {VK_FORMAT_R32_UINT, {glsl::control_texel_count, 1}, false}};
+}
+
+/// The line control is counted up in an image.
+bool has_linear_atomics(const vulkan::Device& device) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_R32_UINT, &properties);
+    return properties.linearTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_ATOMIC_BIT;
+}
+
 /// Why the state cannot be stored through buffer views.
 std::string store_obstacle(const vulkan::Device& device, const SimulationModel& model) {
     for (const ClothModel& cloth : model.cloths)
-        if (const std::string obstacle = buffer_store_obstacle(device, cloth.grid); !obstacle.empty())
+        if (const std::string obstacle = state_obstacle(device, cloth.grid, 1, true); !obstacle.empty())
             return fmt::format("cloth '{}': {}", cloth.name, obstacle);
     return model.self_contact ? sheet_obstacle(device, model.self_contact->push.grid) : std::string();
 }
@@ -109,25 +136,22 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
     return device.type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
 }
 
-std::string buffer_store_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count) {
-    if (!device.wide_integers()) return "the device's shaders have no integers of 64 bits";
-    const auto width = static_cast<std::uint64_t>(grid.columns()), height = static_cast<std::uint64_t>(grid.rows());
-    std::vector<std::pair<VkFormat, FieldExtent>> images = {{VK_FORMAT_R32G32B32A32_SFLOAT, {width, height}},
-                                                            {VK_FORMAT_R32_SFLOAT, {width, height}},
-                                                            {VK_FORMAT_R32G32B32A32_SFLOAT, line_scratch_extent(grid)}};
-    // Cells, line controls: integers, which no pass writes through a buffer view of a single cloth's.
-    if (count > 1) images.push_back({VK_FORMAT_R32_UINT, {width, height}});
+std::string state_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count, bool buffered) {
+    if (buffered && !device.wide_integers()) return "the device's shaders have no integers of 64 bits";
     std::vector<std::string> slices;
     for (std::uint32_t k = 0; k < count && count > 1; ++k) slices.push_back(fmt::format("state {}", k));
-    for (const auto& [format, extent] : images) {
-        const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(format);
-        const auto columns = static_cast<std::uint32_t>(extent.width), rows = static_cast<std::uint32_t>(extent.height);
+    for (const StateImage& image : state_images(grid)) {
+        if (count == 1 && !image.is_stored) continue;
+        const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(image.format);
+        const auto columns = static_cast<std::uint32_t>(image.extent.width),
+                   rows = static_cast<std::uint32_t>(image.extent.height);
         std::string why = graph::buffer_view_obstacle(
-            device, {.name = "state", .format = format, .width = columns, .height = rows * count, .slices = slices},
-            (columns + step - 1) / step * step);
+            device,
+            {.name = "state", .format = image.format, .width = columns, .height = rows * count, .slices = slices},
+            buffered && image.is_stored ? (columns + step - 1) / step * step : 0);
         if (!why.empty()) return why;
     }
-    return {};
+    return count > 1 && !has_linear_atomics(device) ? "the device has no atomics on LINEAR images" : std::string();
 }
 
 Kernels possible_kernels(const vulkan::Device& device, const SimulationModel& model, const Kernels& asked) {

@@ -44,8 +44,8 @@ struct KernelVerdict {
 std::vector<KernelVerdict> kernel_verdicts(const vulkan::Device& device, const SimulationModel& model,
                                            const Kernels& asked);
 
-/// Returns why cloths of this size, `count` of them below each other, cannot store to the state through buffer views
-/// (shaders/include/state_store.h); empty when they can.
-std::string buffer_store_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count = 1);
+/// Returns why the state of `count` cloths of this size cannot lie below each other in images (cloth/together.h),
+/// stored through buffer views (shaders/include/state_store.h) where `buffered`; empty when it can.
+std::string state_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count, bool buffered);
 
 }  // namespace drape

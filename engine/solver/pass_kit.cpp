@@ -10,6 +10,10 @@ std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
     return cloth.name + "/" + std::string(row.name);
 }
 
+std::string resource_name(const ClothState& whole, const FieldRow& row) {
+    return whole.name + "/" + std::string(row.name);
+}
+
 void ClothState::turn() {
     for (const auto& [field, spare] : spare_fields) std::swap((*this)[field], (*this)[spare]);
     away = !away;

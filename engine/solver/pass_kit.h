@@ -72,5 +72,7 @@ struct SceneInputs {
 
 /// "<cloth>/<name>": the resource of a field.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row);
+/// The one of cloths that are simulated together.
+std::string resource_name(const ClothState& whole, const FieldRow& row);
 
 }  // namespace drape

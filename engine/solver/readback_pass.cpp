@@ -4,14 +4,15 @@
 
 namespace drape {
 
-std::string readback_name(const ClothModel& cloth, std::string_view what) {
-    return cloth.name + "/" + std::string(what) + "s on the host";
+std::string readback_name(const std::string& state, std::string_view what) {
+    return state + "/" + std::string(what) + "s on the host";
 }
 
-void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, std::string_view what) {
+void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what) {
     const Grid& grid = state.model->grid;
-    const graph::Handle empty = graph.buffer(
-        {readback_name(*state.model, what), grid.particle_count() * sizeof(glsl::vec4), graph::Lifetime::host_output});
+    const graph::Handle empty =
+        graph.buffer({readback_name(state.name, what), grid.particle_count() * state.count * sizeof(glsl::vec4),
+                      graph::Lifetime::host_output});
     // The execute function is made before set-up runs, so it holds the place where the handle will be.
     const auto target = std::make_shared<graph::Handle>();
     graph.add_pass(
@@ -20,7 +21,7 @@ void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, s
             setup.read(image, graph::Access::transfer_read);
             *target = setup.write(empty, graph::Access::transfer_write);
         },
-        [image, target, width = grid.columns(), height = grid.rows()](graph::PassContext& context) {
+        [image, target, width = grid.columns(), height = grid.rows() * state.count](graph::PassContext& context) {
             const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
             vkCmdCopyImageToBuffer(context.commands(), context.image(image).handle(), VK_IMAGE_LAYOUT_GENERAL,
                                    context.buffer(*target).handle(), 1, &region);

@@ -5,11 +5,12 @@
 
 namespace drape {
 
-/// Name of the host_output buffer that `add_readback` fills: particles x 16 bytes.
-std::string readback_name(const ClothModel& cloth, std::string_view what);
+/// Name of the host_output buffer that `add_readback` fills for a state (ClothState::name, count): particles x 16
+/// bytes, cloth by cloth.
+std::string readback_name(const std::string& state, std::string_view what);
 
-/// Copies an image of four floats per particle, the cloth's `what`, into a host_output buffer.
-void add_readback(graph::Graph& graph, ClothState& state, graph::Handle image, std::string_view what);
+/// Copies an image of four floats per particle, the cloths' `what`, into a host_output buffer.
+void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what);
 
 /// Copies `byte_count` bytes of a buffer from `offset` on into a host_output buffer called `host_name`.
 void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle buffer, std::uint64_t offset,

@@ -120,7 +120,7 @@ DispatchSize over_line_particles(const StepPlace& place, const ComputePipeline&)
 }
 
 DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pipeline) {
-    return {static_cast<std::uint32_t>(nested_pins(place).size()) * pipeline.local_size()[0]};
+    return of_cloths(place, static_cast<std::uint32_t>(nested_pins(place).size()) * pipeline.local_size()[0], 1);
 }
 
 DispatchSize over_explicit_stream(const StepPlace& place, const ComputePipeline&) {

@@ -3,6 +3,7 @@
 // defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
 PUSH_CONSTANTS(NestedPush)
+#define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform coherent readonly image2D displacement_in;
@@ -41,11 +42,11 @@ struct NestedParticle {
 
 float load_tension(int direction, ivec2 at) {
     float tension = 0.0f;
-    if (direction == 0) tension = imageLoad(tension_row_in, at).x;
-    if (direction == 1) tension = imageLoad(tension_column_in, at).x;
+    if (direction == 0) tension = LOAD(tension_row_in, at).x;
+    if (direction == 1) tension = LOAD(tension_column_in, at).x;
 #ifdef SHEARED
-    if (direction == 2) tension = imageLoad(tension_shear_down_right_in, at).x;
-    if (direction == 3) tension = imageLoad(tension_shear_down_left_in, at).x;
+    if (direction == 2) tension = LOAD(tension_shear_down_right_in, at).x;
+    if (direction == 3) tension = LOAD(tension_shear_down_left_in, at).x;
 #endif
     return tension;
 }
@@ -61,7 +62,7 @@ void store_tension(int direction, ivec2 at, float tension) {
 
 float share_of(NestedLine line, NestedParticle first) {
 #ifdef MASKED
-    float share = imageLoad(spring_shares, first.at)[line.direction];
+    float share = LOAD(spring_shares, first.at)[line.direction];
 #else
     float share = line.share;
 #endif
@@ -70,7 +71,7 @@ float share_of(NestedLine line, NestedParticle first) {
 
 NestedParticle load_particle(NestedLine line, ivec2 in_box) {
     ivec2 at = line.box_first + in_box;
-    vec4 start = imageLoad(position, at), moved = imageLoad(displacement_in, at);
+    vec4 start = LOAD(position, at), moved = LOAD(displacement_in, at);
     return NestedParticle(in_box, at, vec4(start.xyz, dragged_weight(start.w, moved.w)), moved);
 }
 
@@ -113,9 +114,11 @@ void sweep_order(NestedBox box, int order, bool second_order) {
 }
 
 void main() {
-    ivec2 pin = nested_boxes[push.first_pin + int(gl_WorkGroupID.x)].xy;
-    if (imageLoad(position, pin).w != 0.0f) return;
-    bool second_order = imageLoad(line_control, ivec2(control_order, 0)).x == 2u;
+    // Each cloth of the dispatch has a table of its own, of the same length.
+    int first = nested_boxes.length() / int(gl_NumWorkGroups.z) * int(gl_WorkGroupID.z);
+    ivec2 pin = nested_boxes[first + push.first_pin + int(gl_WorkGroupID.x)].xy;
+    if (LOAD(position, pin).w != 0.0f) return;
+    bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     int block = 0;
     do {
         NestedBox box = nested_box(pin, nested_boxes[block].xy, push.grid);

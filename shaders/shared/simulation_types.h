@@ -135,7 +135,7 @@ struct GridPush {
 /// A particle that the scene pins with a motion or a release.
 struct PinnedParticle {
     vec4 rest;    // xyz: position at rest, metres; w: its inverse mass once released
-    ivec4 index;  // column, row, motion, 0
+    ivec4 index;  // column, row, motion, first row of its cloth (include/together.h)
 };
 
 /// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). From the pin's release on x is h times the

@@ -1,4 +1,5 @@
 // Cloths that one dispatch simulates together equal their twins bit for bit (lavapipe), and so their being alone.
+#include "solver/kernel_choice.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -29,6 +30,12 @@ SceneDescription several(SolverMethod method) {
     return scene;
 }
 
+/// By kernels for GPUs; software takes long for those of lines, so there are a few substeps.
+void compare_by(const Kernels& kernels, SceneDescription scene) {
+    if (scene.solver.method != SolverMethod::explicit_steps) scene.solver.substeps = 2;
+    compare(scene, {}, test::gpu().device, {.drawing = true}, kernels);
+}
+
 /// Whether the device has them in one image.
 bool are_together(const SceneDescription& scene, const Kernels& kernels) {
     const SimulationModel model(scene);
@@ -38,10 +45,9 @@ bool are_together(const SceneDescription& scene, const Kernels& kernels) {
 
 TEST(TwinTogetherTest, Lines) {
     const SceneDescription scene = several(SolverMethod::line);
-    EXPECT_FALSE(are_together(scene, Kernels()));
-    for (const Kernels& kernels : test::kernel_sets(test::gpu().device, SimulationModel(scene)))
-        EXPECT_EQ(are_together(scene, kernels), kernels.has(Kernel::buffer_store));
+    for (const KernelSet& set : all_kernel_sets) EXPECT_TRUE(are_together(scene, set.kernels)) << set.name;
     compare(scene);
+    compare_by(cyclic_kernels, scene);
 }
 
 TEST(TwinTogetherTest, LinesOfSecondOrderThatBendAndHaveHoles) {
@@ -53,9 +59,34 @@ TEST(TwinTogetherTest, LinesOfSecondOrderThatBendAndHaveHoles) {
         cloth.pins.resize(1);
     }
     compare(scene);
+    compare_by(cyclic_kernels, scene);
 }
 
-TEST(TwinTogetherTest, Explicit) { compare(several(SolverMethod::explicit_steps)); }
+TEST(TwinTogetherTest, LonePinsInSeveralPlacesAndTethers) {
+    SceneDescription scene = test::lone_pins();
+    scene.solver.substeps = 1;
+    scene.solver.tethers = true;
+    scene.cloths[0].grid = {50, 52};
+    scene.cloths[0].pins.clear();
+    Pin released = test::pin_box(49, 0, 49, 0);
+    released.release = 0.11;
+    for (const std::uint32_t row : {0u, 30u, 51u}) {
+        Cloth cloth = scene.cloths[0];
+        cloth.name = "sheet " + std::to_string(row);
+        cloth.placement.origin[1] += row;
+        cloth.pins = {test::pin_box(row / 2, row, row / 2, row), released};
+        scene.cloths.push_back(cloth);
+    }
+    scene.cloths.erase(scene.cloths.begin());
+    compare(scene);
+    compare_by(cyclic_kernels, scene);
+}
+
+TEST(TwinTogetherTest, Explicit) {
+    const SceneDescription scene = several(SolverMethod::explicit_steps);
+    compare(scene);
+    compare_by(tile_kernels, scene);
+}
 
 TEST(TwinTogetherTest, ExplicitStreams) {
     SceneDescription scene = several(SolverMethod::explicit_steps);
@@ -63,6 +94,9 @@ TEST(TwinTogetherTest, ExplicitStreams) {
     scene.wind = {};
     for (Cloth& cloth : scene.cloths) cloth.pins = {test::pin_top(cloth)};
     compare(scene);
+    compare_by(tile_kernels, scene);
+    for (Cloth& cloth : scene.cloths) cloth.grid = {21, 30};
+    compare_by(tile_kernels, scene);
 }
 
 TEST(TwinTogetherTest, OneMovesItsPins) {
@@ -80,6 +114,78 @@ TEST(TwinTogetherTest, Relaxed) {
     for (Cloth& cloth : scene.cloths) cloth.stiffness.bend = 1e-4;
     scene.solver.iterations = 2;
     compare(scene);
+    compare_by(tile_kernels, scene);
+}
+
+/// Cloths that bend, blown on, holed and tethered, whose pins stay, move or let go, above a ball.
+SceneDescription alike(SolverMethod method, std::size_t count) {
+    SceneDescription scene = test::thrown_sheet({50, 49}, 3);
+    scene.solver.method = method;
+    scene.solver.tethers = true;
+    scene.wind.velocity = {2, 0.5, -1};
+    scene.colliders = {{Sphere{{0, -3, 0}, 0.5}}};
+    Cloth& cloth = scene.cloths[0];
+    cloth.stiffness.bend = 1e-4;
+    cloth.holes = {{{10, 5}, {17, 10}}};
+    Pin moving = test::pin_box(49, 0, 49, 0), released = test::pin_box(0, 48, 0, 48);
+    moving.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {0.1, 0.05, 0}, {}}};
+    released.release = 0.11;
+    cloth.pins = {test::pin_box(0, 0, 0, 0), moving, released};
+    for (std::size_t k = 1; k < count; ++k) {
+        scene.cloths.push_back(scene.cloths[0]);
+        scene.cloths[k].name = "sheet " + std::to_string(k);
+        scene.cloths[k].placement.origin[1] += static_cast<double>(k);
+    }
+    return scene;
+}
+
+/// Passes of a frame that does everything.
+std::size_t passes_of_frame(const SceneDescription& scene, const Kernels& kernels) {
+    const SimulationModel model(scene);
+    ClothSolver solver(test::gpu().device, model, kernels);
+    graph::Graph graph;
+    solver.declare(graph, {.drawing = true, .statistics = true});
+    solver.add_simulation(graph);
+    solver.add_normals(graph);
+    solver.add_readback(graph, Field::position, "position");
+    solver.add_readback(graph, Field::normal, "normal");
+    solver.add_statistics(graph);
+    return graph::make_plan(graph).passes.size();
+}
+
+TEST(TwinTogetherTest, TheirNumberChangesNoNumberOfPasses) {
+    using enum StepKind;
+    const std::vector<Step> steps = frame_steps(SimulationModel(alike(SolverMethod::line, 2)));
+    for (const StepKind kind : {release, wind, pin, twist, nested, tether, collide})
+        EXPECT_GT(std::ranges::count(steps, kind, &Step::kind), 0) << static_cast<int>(kind);
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps, SolverMethod::relax})
+        for (const KernelSet& set : all_kernel_sets)
+            EXPECT_EQ(passes_of_frame(alike(method, 5), set.kernels), passes_of_frame(alike(method, 2), set.kernels))
+                << set.name << " " << named(method).name;
+}
+
+TEST(TwinTogetherTest, TheirNumberChangesNoNumberOfPassesAroundAttempts) {
+    using enum AttemptStep;
+    const SimulationModel two(alike(SolverMethod::automatic, 2)), five(alike(SolverMethod::automatic, 5));
+    for (const AttemptStep step : {keep, restore, change_substep, remember, compare}) {
+        std::vector<std::size_t> counts;
+        for (const SimulationModel* model : {&two, &five}) {
+            ClothSolver solver(test::gpu().device, *model);
+            graph::Graph graph;
+            solver.declare(graph, {});
+            solver.add_attempt(graph, step);
+            counts.push_back(graph::make_plan(graph).passes.size());
+        }
+        EXPECT_EQ(counts[0], counts[1]);
+    }
+}
+
+TEST(TwinTogetherTest, EverythingThatTheirNumberMustNotChange) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps, SolverMethod::relax})
+        compare(alike(method, 3));
+    compare_by(cyclic_kernels, alike(SolverMethod::line, 3));
+    for (const SolverMethod method : {SolverMethod::explicit_steps, SolverMethod::relax})
+        compare_by(tile_kernels, alike(method, 3));
 }
 
 }  // namespace
