@@ -1,7 +1,6 @@
 // This pass runs where the margin of the last search is used up. It lists the pairs of blocks of 2 x 2 cells that this
 // substep or one to come may bring together. Every block goes through the tree of boxes for others near its own, from
-// its own on, so that no two meet twice. The list has no order, so later passes must not depend on any. It also keeps
-// the boxes with which cells are looked for until the next search.
+// its own on, so that no two meet twice. The list has no order, so later passes must not depend on any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -15,26 +14,6 @@ layout(set = 0, binding = 1, std430) writeonly buffer Blocks { ivec2 blocks[]; }
 #include "include/self_cloths.h"
 layout(set = 0, binding = 4, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Meetings { uint meetings[]; };
-layout(set = 0, binding = 6, std430) writeonly buffer KeptOut { SelfBox kept_out[]; };  // level 0, others are read
-layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer boxes;
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D displacements;
-
-vec3 mean;  // record[0].mean, read where nothing has branched yet (docs/devices.md)
-
-void keep(ivec2 texel) {
-    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    int place = place_of(texel);
-    SelfBox box = SelfBox(imageLoad(boxes, 2 * place), imageLoad(boxes, 2 * place + 1));
-    if (owner_of(place) >= 0) box = self_kept_box(box, imageLoad(displacements, texel).xyz, mean, push.margin);
-    kept_out[place] = box;
-}
-
-void keep_block(ivec2 first) {
-    keep(first);
-    keep(first + ivec2(1, 0));
-    keep(first + ivec2(0, 1));
-    keep(first + ivec2(1, 1));
-}
 
 /// Returns the cloth of a block. A block belongs to one cloth, since cloths begin at even columns and rows.
 int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
@@ -46,13 +25,11 @@ bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
 }
 
 void main() {
-    mean = record[0].mean.xyz;
     ivec2 across = self_tree_size(push.grid, 1);
     int last = across.x * across.y - 1, begin = push.grid.x * push.grid.y;
     int index = min(int(gl_GlobalInvocationID.x), last);
     ivec2 own = ivec2(index % across.x, index / across.x), node = ivec2(0, 0);
     int owner = block_owner(own);
-    keep_block(2 * own);
     bool searches = gl_GlobalInvocationID.x <= uint(last) && owner >= 0;
     precise float most = (cloth_at(2 * own).thickness + push.thickness) * 0.5f;
     int level = searches ? push.top : push.top + 1;

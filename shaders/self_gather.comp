@@ -82,27 +82,32 @@ vec3 sample_of(int k) {
     return LOAD_KEPT(displacements, cloth.first + own).xyz;
 }
 
-/// Returns the mean motion of all samples, which a workgroup loads at once and every invocation adds up in their order.
+/// Returns the mean motion of all samples, which a workgroup loads at once and one invocation adds up in their order: on
+/// the default device each subgroup that does so takes as long again.
 vec3 mean_of_samples(int count) {
     int lane = int(gl_LocalInvocationIndex);
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     for (int first = 0; first < count; first += workgroup_width) {
         if (first + lane < count) sampled[lane] = sample_of(first + lane);
         barrier();
-        for (int k = 0; k < min(workgroup_width, count - first); ++k) sum = sum + sampled[k];
+        int adds = lane == 0 ? min(workgroup_width, count - first) : 0;
+        for (int k = 0; k < adds; ++k) sum = sum + sampled[k];
         barrier();
     }
-    return self_mean(sum, push.cloth_count);
+    if (lane == 0) sampled[0] = self_mean(sum, push.cloth_count);
+    barrier();
+    return sampled[0];
 }
 
-/// Returns how much of the mean motion the sample makes that makes least of it, at most all.
+/// Returns, in the first invocation, how much of the mean motion the sample makes that makes least of it, at most all.
 float least_part_of(vec3 mean, int count) {
     int lane = int(gl_LocalInvocationIndex);
     float least = 1.0f;
     for (int first = 0; first < count; first += workgroup_width) {
         if (first + lane < count) parts[lane] = self_part_made(sample_of(first + lane), mean);
         barrier();
-        for (int k = 0; k < min(workgroup_width, count - first); ++k) least = self_least(least, parts[k]);
+        int looks = lane == 0 ? min(workgroup_width, count - first) : 0;
+        for (int k = 0; k < looks; ++k) least = self_least(least, parts[k]);
         barrier();
     }
     return least;

@@ -91,7 +91,9 @@ class ContactSteps {
         glsl::SelfContactPush push = contact_.push;
         const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
         add_for_cloths(StepKind::self_gather);
-        for (const StepKind kind : {StepKind::self_boxes, StepKind::self_blocks, StepKind::self_near}) add_one(kind);
+        for (const StepKind kind :
+             {StepKind::self_boxes, StepKind::self_tree, StepKind::self_blocks, StepKind::self_near})
+            add_one(kind);
         if (!contact_.to_part.empty())
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);

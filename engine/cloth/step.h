@@ -40,6 +40,7 @@ enum class StepKind {
     advance,
     self_gather,
     self_boxes,
+    self_tree,
     self_blocks,
     self_near,
     self_crossings,

@@ -454,7 +454,7 @@ void cut_short(TwinContact& contact, std::size_t cloth) {
 }
 
 void Twin::run_contact(const Step& step) {
-    // The twin tries all pairs of cells, so it has no search: none of self_blocks to self_near,
+    // The twin tries all pairs of cells, so it has no search: none of self_tree to self_near,
     // and no self_primitives.
     static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
         {StepKind::self_boxes, &ContactStep::boxes},     {StepKind::self_crossings, &ContactStep::crossings},

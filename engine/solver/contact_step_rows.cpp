@@ -33,13 +33,11 @@ graph::PushConstants contact_push(Place p) {
 }
 
 using vulkan::ComputePipeline;
-/// A workgroup for each tile of the tree's lower levels.
-DispatchSize over_tree(Place p, const ComputePipeline& pipeline) {
+DispatchSize over_sheet(Place p, const ComputePipeline&) {
+    constexpr std::size_t most = std::size_t{1} << 21;  // beyond it invocations take several places each
     const glsl::ivec2 grid = p.step.push<SelfContactPush>().grid;
-    const auto tiles = [](int cells) {
-        return static_cast<std::uint32_t>((cells - 1) / (2 * glsl::self_tile_side) + 1);
-    };
-    return {tiles(grid.x) * pipeline.local_size()[0], tiles(grid.y)};
+    const std::size_t each = p.device.entries_each();
+    return {static_cast<std::uint32_t>(std::min((std::size_t(grid.x) * std::size_t(grid.y) + each - 1) / each, most))};
 }
 DispatchSize over_cloths(Place p, const ComputePipeline&) {
     return {static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
@@ -82,7 +80,8 @@ std::vector<StepRow> contact_step_rows() {
     returned.alias = before_alias;
     return {
         of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
-        of_all(self_boxes, "self boxes", "self_boxes.comp", over_tree, if_crossed),
+        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet, if_crossed),
+        of_all(self_tree, "self tree", "self_tree.comp", found<glsl::self_size_tree>),
         of_all(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
         of_all(self_near, "self near", "self_near.comp", over_parts),
         of_all(self_crossings, "self crossings", "self_crossings.comp", found<glsl::self_size_primitives>),
