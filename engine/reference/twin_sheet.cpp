@@ -66,7 +66,8 @@ void run_self_return(const TwinPlace& where) {
         if (meeting->before[place].w == 0.0f) continue;
         const vec3 velocity = xyz(meeting->velocities[place]);
         vec4& start = state[Field::position][i];
-        start = texel(self_start(xyz(meeting->positions[place]), xyz(meeting->displacements[place]), velocity), start.w);
+        start =
+            texel(self_start(xyz(meeting->positions[place]), xyz(meeting->displacements[place]), velocity), start.w);
         state.move_to(i, velocity);
         if (meeting->before[place].w == self_pushed && (model.scheme.second_order || ends_frame)) {
             vec4& last = state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before][i];
