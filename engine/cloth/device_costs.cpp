@@ -15,9 +15,9 @@ constexpr DeviceCosts cpu{.line = {0.7, 200},
                           .colliders = {0.07, 27},
                           .nested_boxes = true};
 /// An H200, driver 580.159, 27 November 2026.
-constexpr DeviceCosts gpu{.line = {0.026, 0.46},
-                          .explicit_steps = {0.001, 0.3},
-                          .relax = {0.005, 0.5},
+constexpr DeviceCosts gpu{.line = {0.022, 0.45},
+                          .explicit_steps = {0.003, 0.05},
+                          .relax = {0.0105, 0.17},
                           .wind = {0.003, 0.05},
                           .box_edges = {0.006, 0.1},
                           .colliders = {0.003, 0.02},

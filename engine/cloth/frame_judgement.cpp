@@ -1,6 +1,7 @@
 #include "cloth/frame_judgement.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -54,6 +55,16 @@ double stretch_judgement(const SimulationModel& model, const std::vector<ClothSt
         worst = std::max(worst, error);
     }
     return worst;
+}
+
+double lag_limit(const SimulationModel& model) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ClothModel& cloth : model.cloths) least = std::min({least, cloth.spacing[0], cloth.spacing[1]});
+    return 0.5 * least;
+}
+
+double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& record) {
+    return double{std::bit_cast<float>(record.most_lag)} / lag_limit(model);
 }
 
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {

@@ -29,6 +29,12 @@ double motion_limit(const SimulationModel& model, std::size_t cloth);
 /// Returns the worst cloth's stretch error over its limits; infinite where something is not finite.
 double stretch_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths);
 
+/// Returns how far (m) truncation may hold a particle back in a substep: half of the least distance of two particles.
+/// The springs about it are then stretched or pressed by half, of which no fabric knows (cloth/watch.h).
+double lag_limit(const SimulationModel& model);
+/// Returns how far it did in a frame over that. More substeps mostly lessen it, since motions become shorter.
+double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& record);
+
 /// Returns how many frames from `frame` on a probe may have, within its length and the scene: a frame whose cuts act on
 /// the next one, or in which something is let go of, begins another.
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame);

@@ -12,6 +12,10 @@ constexpr std::uint32_t rungs[] = {2,   4,   6,   8,   12,  16,  24,   32,   48,
 
 /// Probes are at most so many times their length apart. A probe costs half as much as its frames: 1 in 1 + 12 is 4 %.
 constexpr std::uint32_t longest_interval = 12;
+/// Where more substeps do not lessen a lag, lags are left alone for so many times a probe's frames.
+constexpr std::uint32_t lag_pause = 12;
+/// A lag that is longer takes the substeps of one that is so many times its limit first.
+constexpr double most_lag_followed = 3;
 /// Fewer substeps are tried where their errors are expected below this share of the limits.
 constexpr double comfort = 0.6;
 /// They are tried without waiting where the errors are below this share of that.
@@ -57,15 +61,22 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     hopeless_ = false;
     only_motion_failed_.reset();
     turned_back_ = false;
+    lagged_ = {};
     segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
-    passage_rung_ = rung_of(judgement.passage * segment_.substeps);
+    if (lags_alike(judgement)) until_lag_ = lag_pause * probe_length_;
+    const double lag = until_lag_ == 0 ? judgement.lag : 0;
+    passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
     if (turned_back_) return accept_unpredictable(judgement, tried_);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
-    if (worst <= 1 && passes(judgement)) return keep_out(judgement);
+    if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
+    if (worst <= 1 && lags(judgement)) {
+        if (lagged_.substeps == 0) lagged_ = {static_cast<double>(segment_.substeps), judgement.lag};
+        return follow(std::min(judgement.lag, most_lag_followed));
+    }
     if (segment_.probes) learn_order(judgement);
     if (worst <= 1) {
         succeed(judgement);
@@ -95,10 +106,23 @@ bool SubstepControl::passes(const Judgement& judgement) const {
     return judgement.passage > 1 && !at_top() && top_motion_ == 0;
 }
 
-/// Takes the substeps at which nothing passes. They are known at once, and say nothing of what other frames need.
-SubstepControl::Verdict SubstepControl::keep_out(const Judgement& judgement) {
+/// Returns whether truncation held something back that more substeps would let go on.
+bool SubstepControl::lags(const Judgement& judgement) const {
+    return judgement.lag > 1 && !at_top() && top_motion_ == 0 && until_lag_ == 0 && !lags_alike(judgement);
+}
+
+/// Returns whether more substeps have hardly lessened the segment's lag, by less than their square root: springs press
+/// cloth together, or pull it tight, as far as they would in any step.
+bool SubstepControl::lags_alike(const Judgement& judgement) const {
+    return judgement.lag > 1 && lagged_.substeps > 0 && segment_.substeps > lagged_.substeps &&
+           judgement.lag > lagged_.lag / std::sqrt(segment_.substeps / lagged_.substeps);
+}
+
+/// Takes the substeps at which ways that are `excess` times too long are short enough. They say nothing of what other
+/// frames need.
+SubstepControl::Verdict SubstepControl::follow(double excess) {
     constexpr double margin = 1.2;  // what is followed more finely may be faster
-    return try_again_with(std::max(tried_ + 1, rung_of(margin * judgement.passage * segment_.substeps)));
+    return try_again_with(std::max(tried_ + 1, rung_of(margin * excess * segment_.substeps)));
 }
 
 SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
@@ -189,6 +213,7 @@ void SubstepControl::keep_anyway() { succeed({.stretch = 1, .motion = 1}); }
 
 void SubstepControl::succeed(const Judgement& judgement) {
     since_fewer_ += segment_.frame_count;
+    until_lag_ -= std::min(until_lag_, segment_.frame_count);
     if (!segment_.probes) {
         if (until_probe_ > 0) --until_probe_;
         return;

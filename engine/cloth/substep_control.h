@@ -25,6 +25,7 @@ struct Judgement {
     double coarse_stretch = 0;  ///< that of its run with half the substeps
     bool plausible = true;      ///< the watch finds it plausible (cloth/watch.h)
     double passage = 0;         ///< ways by colliders (cloth/passage_watch.h), which are kept as far as substeps go
+    double lag = 0;             ///< how far truncation held a particle back, which is kept as far as substeps help
 };
 
 /// Frames of a segment are judged, kept or done again together: a single one, or the few of a probe, which are run with
@@ -50,7 +51,9 @@ class SubstepControl {
     /// Judges the attempt that `segment` says; `again` asks for what `segment` says now.
     Verdict judge(const Judgement& judgement);
     /// Returns whether what an attempt's frames so far show lets it fail, so that the others need not be run.
-    bool fails(const Judgement& judgement) const { return (judgement.stretch > 1 && !at_top()) || passes(judgement); }
+    bool fails(const Judgement& judgement) const {
+        return (judgement.stretch > 1 && !at_top()) || passes(judgement) || lags(judgement);
+    }
     const Segment& segment() const { return segment_; }
     bool at_top() const { return tried_ + 1 == rungs_.size(); }
     /// Keeps the frames although the last judgement says no.
@@ -63,7 +66,7 @@ class SubstepControl {
         archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
                 probed_.motion, top_motion_, hopeless_, only_motion_failed_, turned_back_, segment_.substeps,
                 segment_.frame_count, segment_.probes, interval_, until_probe_, since_fewer_, patience_, easy_,
-                passage_rung_);
+                passage_rung_, until_lag_);
         return std::max({rung_, began_, tried_, passage_rung_, only_motion_failed_.value_or(0)}) < rungs_.size() &&
                rung_ >= lowest_;
     }
@@ -72,13 +75,15 @@ class SubstepControl {
     std::size_t rung_of(double substeps) const;
     std::size_t below(std::size_t rung, std::size_t by) const { return rung > lowest_ + by ? rung - by : lowest_; }
     bool passes(const Judgement& judgement) const;
+    bool lags(const Judgement& judgement) const;
+    bool lags_alike(const Judgement& judgement) const;
     bool hardly_fell(const Judgement& judgement) const;
     bool futile(const Judgement& judgement) const;
     double wanted_factor(const Judgement& judgement) const;
     Verdict accept_unpredictable(const Judgement& judgement, std::size_t rung);
     bool worth_looking_back(const Judgement& judgement) const;
     Verdict try_again_with(std::size_t rung);
-    Verdict keep_out(const Judgement& judgement);
+    Verdict follow(double excess);
     Verdict look_back(const Judgement& judgement);
     bool turn_back(const Judgement& judgement);
     void succeed(const Judgement& judgement);
@@ -105,9 +110,13 @@ class SubstepControl {
     /// The finest attempt at the segment so far that only its motion let fail.
     std::optional<std::size_t> only_motion_failed_;
     bool turned_back_ = false;  ///< it went back to that one
-    /// The rung that the ways of the last attempt ask for. It holds for frames while something goes by a collider fast,
-    /// and those after have `rung_` again.
+    /// The rung that the ways and lags of the last attempt ask for. It holds for frames while something goes by a
+    /// collider fast, or meets fast, and those after have `rung_` again.
     std::size_t passage_rung_ = 0;
+    struct Lagged {
+        double substeps = 0, lag = 0;
+    } lagged_;                     ///< the segment's first attempt whose lag was above its limit
+    std::uint32_t until_lag_ = 0;  ///< frames before lags are looked at again, since more substeps did not lessen one
     Segment segment_{};
     std::uint32_t interval_ = 1, until_probe_ = 0;  ///< frames between probes, before the next
     std::uint32_t since_fewer_ = 1000000;           ///< frames since the substeps went down

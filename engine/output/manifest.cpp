@@ -148,6 +148,8 @@ Json::Value self_collision_json(const Manifest::SelfCollision& told) {
     json["most_pairs"] = told.most_pairs;
     json["motions_cut_short"] = Json::UInt64(told.truncated);
     json["longest_lag_m"] = told.longest_lag;
+    json["lag_limit_m"] = told.lag_limit;
+    json["lagging_frames"] = told.lagging_frames;
     return json;
 }
 

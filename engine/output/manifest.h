@@ -88,6 +88,8 @@ struct Manifest {
         std::uint32_t most_pairs = 0;                 // pairs that were near each other in a substep
         std::uint64_t truncated = 0;                  // motions cut short
         double longest_lag = 0;                       // m, the farthest that one was held back in a substep
+        double lag_limit = 0;                         // m, beyond which that is too far
+        std::uint32_t lagging_frames = 0;             // in which it was
         std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
         std::optional<std::uint32_t> apart_since;                  // frame from which on none of them crosses another
     };

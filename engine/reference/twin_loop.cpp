@@ -106,6 +106,7 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
         judgement.passage =
             std::max(judgement.passage, passage_judgement(model_, frame + k, segment.substeps,
                                                           k == 0 ? before_ : attempt_statistics_[k - 1], found));
+        if (model_.self_contact) judgement.lag = std::max(judgement.lag, lag_judgement(model_, fine.contact().record));
         judgement.plausible = judgement.plausible && implausible <= 1;
         judgement.stretch = std::max({judgement.stretch, stretch, implausible});
         if (control_.fails(judgement)) return judgement;

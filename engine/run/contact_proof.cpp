@@ -25,6 +25,8 @@ Manifest::SelfCollision self_collision_of(const Simulation& simulation, const Se
                                   .most_pairs = told.most_pairs,
                                   .truncated = told.truncated,
                                   .longest_lag = told.longest_lag,
+                                  .lag_limit = told.lag_limit,
+                                  .lagging_frames = told.lagging_frames,
                                   .crossed = {},
                                   .apart_since = apart_since(told, simulation)};
     for (const Cloth& cloth : cloths)
@@ -80,6 +82,18 @@ std::optional<std::string> lost_proof(const Simulation& simulation) {
         "from frame {} on it is not proved that no cloth passes through {}: a held particle moved farther than was "
         "shown to cross nothing, or cloth touched; slower pins or more substeps may help",
         *told->first_unproved, simulation.scene().cloths.size() > 1 ? "itself or another" : "itself");
+}
+
+std::optional<std::string> held_back(const Simulation& simulation) {
+    const std::optional<SelfContactReport> told = simulation.self_contact();
+    if (!told || !told->first_lagging) return std::nullopt;
+    return fmt::format(
+        "in {} frame{}, from frame {} on, cloth was held back from where it would have passed through other cloth by "
+        "more than {:.3g} m, half of the particle distance, in a substep ({:.3g} m at most): it lags behind its "
+        "motion; {}",
+        told->lagging_frames, told->lagging_frames == 1 ? "" : "s", *told->first_lagging, told->lag_limit,
+        told->longest_lag,
+        simulation.facts().limits_are_kept ? "substeps could not help" : "more substeps, or method auto, may help");
 }
 
 std::optional<std::string> still_crossed(const Simulation& simulation) {

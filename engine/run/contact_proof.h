@@ -26,6 +26,9 @@ std::optional<std::string> left_out_of_contact(const Manifest& manifest);
 /// Returns what to tell a run whose cloths met and may have crossed; those that started so were told of before.
 std::optional<std::string> lost_proof(const Simulation& simulation);
 
+/// Returns what to tell a run in which truncation held cloth back too far.
+std::optional<std::string> held_back(const Simulation& simulation);
+
 /// Returns what to tell a run whose cloths started through each other and did not come apart.
 std::optional<std::string> still_crossed(const Simulation& simulation);
 

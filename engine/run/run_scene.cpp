@@ -432,8 +432,9 @@ RunSummary run_scene(const RunRequest& request) {
         const RunParts run{request, missing, simulation,         sink,   checkpoints ? &*checkpoints : nullptr,
                            summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
-        for (const auto& warning : {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()),
-                                    lost_proof(simulation), still_crossed(simulation), simulation.possible_passage()})
+        for (const auto& warning :
+             {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()), lost_proof(simulation),
+              still_crossed(simulation), held_back(simulation), simulation.possible_passage()})
             if (warning) warn(*warning);
         for (const std::string& warning : simulation.verdict().warnings) warn(warning);
         manifest.warnings = summary.warnings;

@@ -121,6 +121,7 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
         judgement.passage = std::max(
             judgement.passage, passage_judgement(model_, frame, run.substeps,
                                                  k == 0 ? before_ : attempt_statistics_.back(), judged.statistics));
+        if (self_contact_) judgement.lag = std::max(judgement.lag, lag_judgement(model_, judged.self_record));
         attempt_statistics_.push_back(judged.statistics);
         attempt_self_records_.push_back(judged.self_record);
         const double implausible =

@@ -24,7 +24,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
                          probe_length(model_));
     if (model_.self_contact) {
-        self_contact_.emplace();
+        self_contact_.emplace().lag_limit = lag_limit(model_);
         for (const StartCrossing& each : model_.self_contact->crossed)
             if (each.first != each.second)
                 self_contact_->crossed.emplace_back(each.first, each.second);
@@ -206,6 +206,7 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
     self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
     self_contact_->truncated += record.truncated;
     self_contact_->longest_lag = std::max(self_contact_->longest_lag, double{std::bit_cast<float>(record.most_lag)});
+    if (lag_judgement(model_, record) > 1 && self_contact_->lagging_frames++ == 0) self_contact_->first_lagging = frame;
     if (record.crossing_count > 0 && self_contact_->last_crossed) self_contact_->last_crossed = frame;
     if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
 }

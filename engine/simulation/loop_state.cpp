@@ -41,7 +41,8 @@ void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_);
     if (self_contact_)
         archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
-                self_contact_->longest_lag, self_contact_->last_crossed);
+                self_contact_->longest_lag, self_contact_->first_lagging, self_contact_->lagging_frames,
+                self_contact_->last_crossed);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
     if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");

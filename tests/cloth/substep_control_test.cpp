@@ -217,6 +217,51 @@ TEST(SubstepControl, AProbeInWhichSomethingMayPassIsDoneAgain) {
     EXPECT_EQ(loop.judge({.stretch = 0.5, .motion = 0.9, .coarse_stretch = 0.9, .passage = 1}), Verdict::keep);
 }
 
+/// Judges a frame whose only trouble is a lag, by its substeps.
+template <class Lag>
+std::uint32_t substeps_lagging(SubstepControl& loop, const Lag& lag, std::uint32_t& attempts) {
+    loop.begin(1, false);
+    Verdict verdict = Verdict::again;
+    for (attempts = 0; verdict == Verdict::again; ++attempts)
+        verdict = loop.judge({.stretch = 0.5, .lag = lag(loop.segment().substeps)});
+    EXPECT_EQ(verdict, Verdict::keep);
+    return loop.segment().substeps;
+}
+
+TEST(SubstepControl, ALagThatMoreSubstepsLessenIsLessened) {
+    SubstepControl loop = control(8);
+    std::uint32_t attempts = 0;
+    const auto lag = [](double substeps) { return 30 / substeps; };
+    EXPECT_EQ(substeps_lagging(
+                  loop, [](double) { return 1.0; }, attempts),
+              8u);
+    EXPECT_EQ(substeps_lagging(loop, lag, attempts), 32u);
+    EXPECT_EQ(attempts, 2u);
+    EXPECT_EQ(substeps_lagging(loop, lag, attempts), 32u);
+    EXPECT_EQ(attempts, 1u) << "the next frame will take as many";
+    substeps_lagging(
+        loop, [](double) { return 0.0; }, attempts);
+    EXPECT_EQ(substeps_lagging(
+                  loop, [](double) { return 0.0; }, attempts),
+              8u);
+    loop.begin(6, false);
+    EXPECT_TRUE(loop.fails({.lag = 1.1}));
+}
+
+TEST(SubstepControl, ALagThatMoreSubstepsDoNotLessenIsKeptAndLeftAlone) {
+    SubstepControl loop = control(8);
+    std::uint32_t attempts = 0;
+    const auto lag = [](double) { return 2.0; };
+    EXPECT_EQ(substeps_lagging(loop, lag, attempts), 24u);
+    EXPECT_EQ(attempts, 2u);
+    for (int frame = 0; frame < 60; ++frame) {
+        EXPECT_EQ(substeps_lagging(loop, lag, attempts), 8u) << "they are left alone for a while";
+        EXPECT_EQ(attempts, 1u);
+    }
+    for (int frame = 0; frame < 12; ++frame) substeps_lagging(loop, lag, attempts);
+    EXPECT_EQ(attempts, 2u) << "and looked at again";
+}
+
 TEST(SubstepControl, BeginsWithTheSubstepsThatTheLawProposes) {
     for (const std::uint32_t proposed : {4u, 8u, 32u})
         EXPECT_EQ(control(proposed).begin(6, false).substeps, first_rung(row_of(SolverMethod::line), proposed));

@@ -76,6 +76,10 @@ struct SelfContactReport {
     std::uint32_t most_pairs = 0;  ///< most pairs of particle and triangle, or of edges, that were near each other
     std::uint64_t truncated = 0;   ///< motions that were cut short because they would have crossed
     double longest_lag = 0;        ///< m, the farthest that one was held back in a substep; its velocity stays
+    double lag_limit = 0;          ///< m; `auto` keeps it as far as more substeps help
+    /// The first frame in which one was held back farther than that, and how many there were.
+    std::optional<std::uint32_t> first_lagging = {};
+    std::uint32_t lagging_frames = 0;
     /// Cloths that started through each other. They do not meet before they have come apart, and until then nothing is
     /// proved of them.
     std::vector<std::pair<std::size_t, std::size_t>> crossed = {};
