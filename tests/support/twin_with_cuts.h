@@ -10,7 +10,8 @@ namespace drape::test {
 /// Runs the whole chain again on the CPU: simulate, search, cut.
 class TwinWithCuts {
   public:
-    explicit TwinWithCuts(const SceneDescription& scene) : model_(scene), twin_(model_) {}
+    explicit TwinWithCuts(const SceneDescription& scene, const Kernels& kernels = {})
+        : model_(scene), twin_(model_, kernels) {}
     /// Frame 0 simulates nothing, but cutters may be active in it.
     CutCounts run_frame(std::uint32_t frame) {
         if (frame > 0) twin_.run_frame(frame);
