@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 #include "reference/kernels.h"
 #include "twin_steps.h"
@@ -128,11 +127,16 @@ void SingleSteps::find_singles() {
     all_kernels_ = std::ranges::all_of(steps, [](const Step& step) { return step.kernel == Kernel::plain; });
     const bool away =
         std::ranges::any_of(model_.cloths, [](const ClothModel& cloth) { return cloth.scheme.spare_state; });
-    for (const Step& step : steps) {
+    std::vector<DeviceStep> device;
+    for (const Step& step : steps) device.push_back({step, solver_.cloths_of(step)});
+    const std::vector<std::vector<Step>> twin = twin_steps(twin_.steps(), device, model_.cloths.size());
+    for (std::size_t k = 0; k < device.size(); ++k) {
+        const auto& [step, cloths] = device[k];
         if (step.kind != StepKind::advance || !away || !all_kernels_) singles_.push_back(std::make_unique<Single>());
         Single& single = *singles_.back();
         single.steps.push_back(step);
-        single.cloths = solver_.cloths_of(step);
+        single.cloths = cloths;
+        single.twin.insert(single.twin.end(), twin[k].begin(), twin[k].end());
     }
     for (const auto& single : singles_)
         if (is_wanted(single->step())) build(*single);
@@ -226,13 +230,11 @@ void SingleSteps::add_decision(const Single& single, std::size_t cloth, std::vec
 void SingleSteps::run_frame(std::uint32_t frame, const Visit& visit) {
     solver_.write_inputs(*pool_, 0, frame);
     const FrameInputs inputs = frame_inputs(model_, frame);
-    TwinSteps steps(twin_.steps(), model_.cloths.size());
     for (const auto& single : singles_) {
         if (single->runs()) run(*single);
-        for (const Step& step : single->steps) steps.take(twin_, inputs, step, solver_.cloths_of(step));
+        for (const Step& step : single->twin) twin_.run_step(step, inputs);
         if (single->runs()) visit(single->step(), fields(*single));
     }
-    if (!steps.done()) throw std::logic_error("the device leaves out steps of the twin");
 }
 
 void SingleSteps::run(Single& single) {

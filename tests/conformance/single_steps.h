@@ -33,7 +33,7 @@ class SingleSteps {
     /// A step as a graph of its own, which is empty where the device leaves the step out. What a frame ends with is one
     /// with the step before it, where that may have left the state in the spare images.
     struct Single {
-        std::vector<Step> steps{};
+        std::vector<Step> steps{}, twin{};  ///< the device's, the twin's
         std::vector<std::size_t> cloths{};
         graph::Graph graph{};
         graph::Plan plan{};

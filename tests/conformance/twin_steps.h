@@ -1,33 +1,22 @@
-// The plain steps of a frame, which the twin takes, in the order of the device's, of which some do several at once.
+// The plain steps of a frame, which the twin takes, by the device's steps, of which some do several of them.
 #pragma once
 
 #include <vector>
 
 #include "cloth/step.h"
-#include "reference/twin.h"
 
 namespace drape::test {
 
-class TwinSteps {
-  public:
-    /// `steps` are the twin's (Twin::steps).
-    TwinSteps(std::vector<Step> steps, std::size_t cloth_count);
-
-    /// Takes what one of the device's steps, which is taken for these cloths, does: the plain steps of each cloth up to
-    /// its like, or, where it joins others and has none, up to the last of the same kind, substep and iteration. So a
-    /// step that a kernel does beside its own, before it, is taken too.
-    void take(Twin& twin, const FrameInputs& inputs, const Step& step, const std::vector<std::size_t>& cloths);
-    /// Returns whether all steps were taken.
-    bool done() const;
-
-  private:
-    /// The steps of a cloth; the last list has those of all of them.
-    struct Lane {
-        std::vector<Step> steps;
-        std::size_t next = 0;
-    };
-    static std::size_t end_of(const Lane& lane, const Step& step);
-    std::vector<Lane> lanes_;
+/// A step of the device and the cloths that it is taken for.
+struct DeviceStep {
+    Step step;
+    std::vector<std::size_t> cloths;
 };
+
+/// Returns for each of the device's steps the plain steps that it does: of each of its cloths those from where the
+/// step before it ended up to where the next one begins, which is its like, of the same kind, substep and iteration,
+/// or, where it joins others and has none, the first of its substep and iteration.
+std::vector<std::vector<Step>> twin_steps(const std::vector<Step>& plain, const std::vector<DeviceStep>& device,
+                                          std::size_t cloth_count);
 
 }  // namespace drape::test
