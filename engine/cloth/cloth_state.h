@@ -67,6 +67,7 @@ inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::pin_m
 struct FrameNeeds {
     bool drawing = false;     ///< needs triangles and normals
     bool statistics = false;  ///< needs the tension of the stretch springs
+    bool inspection = false;  ///< keeps what passes hand each other, so that each can run alone
 };
 
 /// The functions of a row get this.

@@ -71,9 +71,11 @@ Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
+std::vector<Step> Twin::steps() const { return kernel_steps(*model_, kernels_); }
+
 void Twin::run_frame(std::uint32_t frame) {
     const FrameInputs inputs = frame_inputs(*model_, frame);
-    for (const Step& step : kernel_steps(*model_, kernels_)) run_step(step, inputs);
+    for (const Step& step : steps()) run_step(step, inputs);
 }
 
 void Twin::change_substep(const SimulationModel& run) {

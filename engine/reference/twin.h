@@ -126,6 +126,8 @@ class Twin {
     /// all other kernels give the bits of the plain ones.
     explicit Twin(const SimulationModel& model, const Kernels& kernels = {});
 
+    /// Returns the steps of a frame.
+    std::vector<Step> steps() const;
     /// Simulates from frame - 1 to `frame`, step by step.
     void run_frame(std::uint32_t frame);
     /// Goes on with the substeps of `run`, a model of the same scene, which must outlive this.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
 
 #include "cloth/kernel_steps.h"
@@ -36,10 +37,10 @@ void write_buffer(const graph::ResourcePool& pool, std::uint32_t slot, const std
     std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
 }
 
-Lifetime lifetime_of(FieldLife life) {
+Lifetime lifetime_of(FieldLife life, bool inspection = false) {
     switch (life) {
         case FieldLife::frame:
-            return Lifetime::transient;
+            return inspection ? Lifetime::persistent : Lifetime::transient;
         case FieldLife::constant:
             return Lifetime::constant;
         case FieldLife::input:
@@ -50,6 +51,11 @@ Lifetime lifetime_of(FieldLife life) {
     }
     return Lifetime::persistent;
 }
+
+Lifetime lifetime_of(const FieldRow& row, const FieldContext& about) {
+    return lifetime_of(row.life, about.needs.inspection);
+}
+Lifetime lifetime_of(const ContactRow& row, const ContactContext&) { return lifetime_of(row.life); }
 
 template <class Row>
 VkFormat format_of(const Row& row) {
@@ -63,11 +69,11 @@ graph::Handle declare_row(graph::Graph& graph, const std::string& name, const Ro
                           bool buffered, const std::vector<std::string>& slices = {}) {
     const FieldExtent extent = row.extent(about);
     if (!row.is_image())
-        return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row.life), &row.element,
+        return graph.buffer({name, extent.count() * row.element.size, lifetime_of(row, about), &row.element,
                              row.view == FieldView::texel_buffer});
     const std::uint64_t height = extent.height * std::max<std::size_t>(slices.size(), 1);
     return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
-                        static_cast<std::uint32_t>(height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row.life),
+                        static_cast<std::uint32_t>(height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row, about),
                         !slices.empty() || (buffered && row.view == FieldView::image_and_buffer), slices});
 }
 
@@ -213,24 +219,39 @@ void ClothSolver::add_positions(graph::Graph& graph) {
 void ClothSolver::add_simulation(graph::Graph& graph) {
     for (const KernelVerdict& each : verdicts_)
         graph.choose(fmt::format("{} is {}used", name_of(each.kernel), each.is_used ? "" : "not "), each.reason);
-    for (const Step& step : steps()) {
-        if (step.cloth == between_cloths) {
-            add_step(graph, nullptr, step);
-        } else if (step.together) {
-            add_step(graph, &together_[together_of_[step.cloth]].state, step);
-        } else if (step.cloth != all_cloths) {
-            take(step.cloth);
-            add_step(graph, &cloths_[step.cloth], step);
-            give(step.cloth);
-        } else {
-            for_each_dispatch([&](ClothState& state) { add_step(graph, &state, step); });
-        }
-    }
+    for (const Step& step : steps()) add_dispatches(graph, step);
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
     const char* const name = "self record readback";
     if (run_->self_contact)
         add_buffer_readback(graph, {name, "simulate", name}, contact_[ContactField::record], 0,
                             sizeof(glsl::SelfRecord), contact_readback_name);
+}
+
+void ClothSolver::add_step(graph::Graph& graph, const Step& step) {
+    add_dispatches(graph, step);
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
+}
+
+void ClothSolver::add_dispatches(graph::Graph& graph, const Step& step) {
+    if (step.cloth == between_cloths) {
+        add_step(graph, nullptr, step);
+    } else if (step.together) {
+        add_step(graph, &together_[together_of_[step.cloth]].state, step);
+    } else if (step.cloth != all_cloths) {
+        take(step.cloth);
+        add_step(graph, &cloths_[step.cloth], step);
+        give(step.cloth);
+    } else {
+        for_each_dispatch([&](ClothState& state) { add_step(graph, &state, step); });
+    }
+}
+
+std::vector<std::size_t> ClothSolver::cloths_of(const Step& step) const {
+    if (step.together) return together_[together_of_[step.cloth]].cloths;
+    if (step.cloth < model_.cloths.size()) return {step.cloth};
+    std::vector<std::size_t> all(model_.cloths.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
 }
 
 std::vector<Step> ClothSolver::steps() const {

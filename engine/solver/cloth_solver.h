@@ -43,6 +43,12 @@ class ClothSolver {
     void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
+    /// Adds the passes of one of `steps`, where a frame that needs an inspection runs them one at a time.
+    void add_step(graph::Graph& graph, const Step& step);
+    /// Returns the steps of one frame of the run that was declared.
+    std::vector<Step> steps() const;
+    /// Returns the cloths that a step is taken for.
+    std::vector<std::size_t> cloths_of(const Step& step) const;
     /// Adds passes that take every cloth's positions from the host (solver/position_upload.h).
     void add_positions(graph::Graph& graph);
     /// Adds the normals of every cloth (the graph drops them when nothing reads them).
@@ -142,7 +148,7 @@ class ClothSolver {
     void for_each_cloth(const Add& add);
     glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
                                              std::size_t cloth) const;
-    std::vector<Step> steps() const;
+    void add_dispatches(graph::Graph& graph, const Step& step);
     /// `state` is null where contact is of all cloths at once.
     void add_step(graph::Graph& graph, ClothState* state, const Step& step);
     void declare_contact(graph::Graph& graph);

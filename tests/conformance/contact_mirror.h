@@ -1,0 +1,63 @@
+// The state of contact between cloths, on the device and in the twin, which has it in other containers.
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "field_pair.h"
+#include "graph/executor.h"
+#include "reference/twin.h"
+#include "solver/pass_kit.h"
+
+namespace drape::test {
+
+class ContactMirror {
+  public:
+    ContactMirror(const vulkan::Device& device, const SelfContact& contact, const graph::ResourcePool& pool)
+        : device_(device), contact_(contact), pool_(pool) {
+        for (const glsl::SelfCloth& cloth : contact.cloths)
+            edge_ = std::max({edge_, double{cloth.spacing.x}, double{cloth.spacing.y}});
+    }
+
+    using Names = std::set<std::string, std::less<>>;
+    /// Gives a step the twin's state, before the twin takes it: vectors and sums by place, what touching pairs hold,
+    /// and what pairs bore. The order of lists, the boxes and the tree stay the device's.
+    void upload(const Step& step, const Names& used, const TwinContact& twin) const;
+    /// Adds what a step wrote, and the twin as well.
+    void add_fields(const Step& step, const Names& written, const TwinContact& twin,
+                    std::vector<FieldPair>& fields) const;
+
+  private:
+    template <class T>
+    std::vector<T> list(ContactField field) const;
+    std::vector<glsl::vec4> image(ContactField field) const;
+    void put(ContactField field, std::span<const std::byte> bytes) const;
+    glsl::SelfRecord record() const { return list<glsl::SelfRecord>(ContactField::record).front(); }
+
+    void upload_displacements(const TwinContact& twin) const;
+    void upload_touching(const TwinContact& twin) const;
+    void upload_sums(const TwinContact& twin) const;
+    void upload_borne(const TwinContact& twin) const;
+
+    void add_places(const Step& step, ContactField field, const std::vector<glsl::vec4>& device,
+                    const std::vector<glsl::vec4>& twin, const TwinContact& about,
+                    std::vector<FieldPair>& fields) const;
+    void add_boxes(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_supports(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_touching(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_sums(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_shares(const TwinContact& twin, int round, std::vector<FieldPair>& fields) const;
+    void add_borne(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_crossings(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_record(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
+
+    const vulkan::Device& device_;
+    const SelfContact& contact_;
+    const graph::ResourcePool& pool_;
+    double edge_ = 0;  ///< the longest of any cloth, m
+};
+
+}  // namespace drape::test

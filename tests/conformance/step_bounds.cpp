@@ -1,0 +1,81 @@
+#include "step_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drape::test {
+
+// Vulkan lets a device round a division by 2.5 units and an inverse square root by 2, so a square root, which is one
+// over that, by 4.5; sums and products are rounded as by IEEE, since all are `precise`. A bound is what the longest
+// chain of such operations adds up to where nothing cancels, roughly, and one unit for the last rounding.
+const std::vector<StepBound>& step_bounds() {
+    using enum StepKind;
+    using enum Chain;
+    static const std::vector<StepBound> bounds = {
+        {release, 64, fixed, 0, "a root and a division for each of eight springs, added up"},
+        {wind, 20, fixed, 0, "of each triangle a root, two divisions and a root, its normal used twice; shares added"},
+        {control, 0, fixed, 0, "integers"},
+        {predict, 4, fixed, 0, "the drag's share is one division from 1"},
+        {force, 4, fixed, 0, "as predict"},
+        {explicit_step, 64, steps, 0, "a root and a division for each of eight springs, added up"},
+        {pin, 0, fixed, 0, "sums and products"},
+        {bend, 4, fixed, 0, "a division"},
+        {twist, 4, fixed, 0, "a division"},
+        {all_twist, 16, fixed, 0, "four times twist"},
+        {spring, 12, fixed, 0, "a root, from which the rest length is taken, and two divisions"},
+        {all_springs, 96, fixed, 0, "eight times spring"},
+        {line, 12, lines, 0, "a root and two divisions for each spring, and each moves all that follow"},
+        {nested, 12, lines, 0, "as line, along lines that cross"},
+        {tether, 16, fixed, 0, "a root and a division for each of two tethers"},
+        {box_edges, 32, fixed, 1, "divisions of where a triangle cuts an edge; which edge is decided by them"},
+        {collide, 32, fixed, 1, "roots and divisions of distance and friction; which collider by distance"},
+        {residual, 16, fixed, 0, "a root and a division, squared"},
+        {decide, 0, fixed, 0, "integers; no scene is near its tolerance"},
+        {advance, 8, fixed, 0, "a division and a root"},
+        {self_gather, 0, fixed, 0, "copies"},
+        {self_gather_again, 0, fixed, 0, "copies"},
+        {self_common, 8, fixed, 0, "two divisions"},
+        {self_boxes, 8, fixed, 0, "the motion of self_common"},
+        {self_search, -1, fixed, 0, "the twin tries all pairs: the list that comes of it is judged at self_pairs"},
+        {self_kept, -1, fixed, 0, "as self_search"},
+        {self_levels, -1, fixed, 0, "as self_search"},
+        {self_blocks, -1, fixed, 0, "as self_search"},
+        {self_cells, -1, fixed, 0, "as self_search"},
+        {self_near, -1, fixed, 0, "as self_search"},
+        {self_bent, -1, fixed, 0, "as self_search"},
+        {self_crossings, 8, fixed, 0, "integers"},
+        {self_apart, 8, fixed, 0, "two divisions"},
+        {self_primitives, -1, fixed, 0, "as self_search"},
+        {self_pairs, 0, fixed, 5, "pairs as far apart as the list reaches are in it or not"},
+        {self_begin, 128, fixed, 5, "three divisions and a root of a distance that is a part of the edges"},
+        {self_contact, 128, fixed, 5, "as self_begin; whether a contact slides is decided"},
+        {self_push, 16, fixed, 5, "of the sums, which are integers"},
+        {self_limit, 128, fixed, 5, "as self_begin"},
+        {self_move, 16, fixed, 5, "products"},
+        {self_hand, 0, fixed, 0, "copies"},
+        {self_return, 8, fixed, 0, "a division"},
+    };
+    return bounds;
+}
+
+Difference difference_of(const FieldPair& pair, double units) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double scale = pair.least_scale;
+    for (const float x : pair.twin) scale = std::max(scale, std::abs(double{x}));
+    Difference all{pair.twin.size() + pair.twin_integers.size()};
+    const auto add = [&](double apart) {
+        all.units = std::max(all.units, apart);
+        if (apart > units) ++all.beyond;
+    };
+    for (std::size_t k = 0; k < pair.twin.size(); ++k) {
+        if (pair.device[k] == pair.twin[k]) continue;
+        const double apart = std::abs(double{pair.device[k]} - double{pair.twin[k]}) / scale * 0x1p23;
+        add(std::isnan(apart) ? infinity : apart);
+    }
+    for (std::size_t k = 0; k < pair.twin_integers.size(); ++k)
+        if (pair.device_integers[k] != pair.twin_integers[k]) add(infinity);
+    return all;
+}
+
+}  // namespace drape::test

@@ -1,0 +1,48 @@
+// How far a device may be from the twin after one step, by the kind of step, and why.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cloth/step.h"
+#include "field_pair.h"
+
+namespace drape::test {
+
+/// A longer chain of operations has more roundings.
+enum class Chain : std::uint8_t {
+    fixed,  ///< as long for every particle
+    steps,  ///< a bound counts for each of the steps that are taken at once
+    lines,  ///< a bound counts for each particle of the cloth's longest line
+};
+
+/// A bound counts units of the last place of a float, at the magnitude of the field's largest number (FieldPair): what
+/// is smaller is a difference of such numbers and has their rounding. Integers must be the same.
+struct StepBound {
+    StepKind kind;
+    double units;  ///< 0: the same numbers; below 0: the twin has no such step
+    Chain chain;
+    /// So many of a thousand numbers, or integers, may be farther off: where rounding turned a decision.
+    double turned;
+    std::string_view reason;
+
+    /// Its work is seen in a later step only.
+    bool is_judged_later() const { return units < 0; }
+    /// Returns the bound of a step of a cloth, whose longest line has so many particles.
+    double units_of(const Step& step, std::uint32_t longest_line) const {
+        return units * (chain == Chain::steps ? step.count : chain == Chain::lines ? longest_line : 1);
+    }
+};
+
+/// By StepKind.
+const std::vector<StepBound>& step_bounds();
+
+struct Difference {
+    std::size_t count = 0;   ///< of numbers and integers
+    std::size_t beyond = 0;  ///< those that are farther apart than so many units
+    double units = 0;        ///< the largest distance; infinite where one is no number, or integers differ
+};
+
+Difference difference_of(const FieldPair& pair, double units);
+
+}  // namespace drape::test
