@@ -67,19 +67,21 @@ void run_box_edges(const TwinPlace& where) {
         }
 }
 
-/// Colliders meet a cloth with the displacements that contact between cloths has left on the sheet.
-void take_from_sheet(const TwinPlace& where) {
-    const auto& push = where.step.push<SelfClothPush>();
-    for (std::size_t i = 0; i < where.state[Field::position].size(); ++i)
-        where.state.move_to(i, xyz(where.contact->displacements[place_on_sheet(push, i)]));
+/// Returns the displacement with which a particle comes to the colliders, after impulses that which contact between
+/// cloths has left on the sheet.
+vec3 displacement_before_colliders(const TwinPlace& where, std::size_t particle) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    if (step.after_impulses)
+        return xyz(meeting->displacements[place_on_sheet(step.push<SelfClothPush>(), particle)]);
+    return xyz(state[step.after_edges ? Field::lifted : Field::displacement][particle]);
 }
 
-void leave_on_sheet(const TwinPlace& where) {
-    const auto& push = where.step.push<SelfClothPush>();
-    for (std::size_t i = 0; i < where.state[Field::position].size(); ++i) {
-        vec4& laid = where.contact->displacements[place_on_sheet(push, i)];
-        laid = texel(xyz(where.state[Field::displacement][i]), laid.w);
-    }
+/// Leaves a displacement where it came from.
+void leave(const TwinPlace& where, std::size_t particle, vec3 displacement) {
+    where.state.move_to(particle, displacement);
+    if (!where.step.after_impulses) return;
+    vec4& laid = where.contact->displacements[place_on_sheet(where.step.push<SelfClothPush>(), particle)];
+    laid = texel(displacement, laid.w);
 }
 
 /// Takes a way out of an overlap out of `displacement`, and returns the displacement to leave.
@@ -103,18 +105,13 @@ vec3 led_out(const TwinPlace& where, std::size_t particle, vec3& displacement, v
 void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
-    if (step.after_impulses) take_from_sheet(where);
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     const float recovery = step.leading ? push.contact.w : 0.0f;
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
-        vec3 displacement = xyz(state[Field::displacement][i]), way_out{};
-        bool touched = false;
-        if (step.after_edges) {
-            displacement = xyz(state[Field::lifted][i]);
-            touched = state[Field::lifted][i].w > 0.0f;
-        }
+        vec3 displacement = displacement_before_colliders(where, i), way_out{};
+        bool touched = step.after_edges && state[Field::lifted][i].w > 0.0f;
         vec3 lies_on{};
         vec4 on_grip{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
@@ -136,6 +133,7 @@ void run_collide(const TwinPlace& where) {
             if (deepest > 0.0f) lies_on = normal, on_grip = grip;
             if (!(deepest > push.contact.z)) break;
         }
+        if (!touched) continue;
         const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
         const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
         if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
@@ -143,14 +141,13 @@ void run_collide(const TwinPlace& where) {
             state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
             state[Field::support_grip][i] = on_grip;
         }
-        if (touched && model.scheme.second_order) {
+        if (model.scheme.second_order) {
             state[Field::displacement_before][i] = texel(displacement);
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);
         }
-        state.move_to(i, made);
+        leave(where, i, made);
     }
-    if (step.after_impulses) leave_on_sheet(where);
 }
 
 }  // namespace
