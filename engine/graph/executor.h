@@ -30,7 +30,7 @@ class ResourcePool {
 
     const vulkan::Device& device() const { return device_; }
     bool has(const std::string& name) const;
-    /// Returns an image or a slice of one. Throws GraphError when there is none.
+    /// Returns an image, or a slice of one that a plan uses alone. Throws GraphError when there is none.
     const vulkan::Image& image(const std::string& name) const;
     /// `slot` matters for host_input and host_output buffers only.
     const vulkan::Buffer& buffer(const std::string& name, std::uint32_t slot = 0) const;

@@ -66,7 +66,8 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
             unfit("an image, not a buffer");
         const bool depth = is_depth(resource.image.format);
         const bool multisampled = resource.image.samples != VK_SAMPLE_COUNT_1_BIT;
-        if (resource.image.buffer_view && is_attachment(access)) unfit("an image with a buffer view stays in GENERAL");
+        if (resource.image.stays_general() && is_attachment(access))
+            unfit("an image with a buffer view or slices stays in GENERAL");
         if (access == Access::depth_write && !depth) unfit("the format is no depth format");
         if (access != Access::depth_write && !is_transfer(access) && depth) unfit("the format is a depth format");
         if (access == Access::resolve_write && multisampled) unfit("a resolve target has one sample");
@@ -119,9 +120,9 @@ void check_name(const std::vector<Resource>& resources, const std::string& name)
 void check_slices(const std::vector<Resource>& resources, const ImageDeclaration& image) {
     if (image.slices.empty()) return;
     for (const std::string& slice : image.slices) check_name(resources, slice);
-    if (!image.buffer_view || image.height % image.slices.size() != 0)
-        throw GraphError(fmt::format("image '{}': {} rows{} cannot be cut into {} slices", image.name, image.height,
-                                     image.buffer_view ? "" : " without a buffer view", image.slices.size()));
+    if (image.height % image.slices.size() != 0)
+        throw GraphError(fmt::format("image '{}': {} rows cannot be cut into {} slices", image.name, image.height,
+                                     image.slices.size()));
 }
 
 }  // namespace
@@ -208,7 +209,7 @@ Handle Graph::image(const ImageDeclaration& declaration) {
         throw GraphError(
             fmt::format("image '{}': {} is for buffers", declaration.name, lifetime_name(declaration.lifetime)));
     }
-    if (declaration.buffer_view && (is_depth(declaration.format) || declaration.samples != VK_SAMPLE_COUNT_1_BIT)) {
+    if (declaration.stays_general() && (is_depth(declaration.format) || declaration.samples != VK_SAMPLE_COUNT_1_BIT)) {
         throw GraphError(
             fmt::format("image '{}': depth and multisampled images have no buffer view", declaration.name));
     }

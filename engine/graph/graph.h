@@ -58,9 +58,11 @@ struct ImageDeclaration {
     /// in GENERAL, transient or not, so that every barrier is one on all memory, which covers both views; a barrier on
     /// the image would leave the buffer out. Not every device can: ask buffer_view_obstacle (executor.h) first.
     bool buffer_view = false;
-    /// Passes may use bands of equally many rows, from the top, alone by these names (Handle::slice); only with a
-    /// buffer view. To hazards and versions the image is one: a pass that uses a band uses it.
+    /// Passes may use bands of equally many rows, from the top, alone by these names (Handle::slice). To hazards and
+    /// versions the image is one: a pass that uses a band uses it. Bands that are used share its memory, for which it
+    /// is made like one with a buffer view, and so it stays in GENERAL.
     std::vector<std::string> slices = {};
+    bool stays_general() const { return buffer_view || !slices.empty(); }
 };
 
 struct BufferDeclaration {

@@ -208,7 +208,7 @@ class BarrierPlanner {
         Scope destination;
         destination.add_reads(need.reads);
         if (need.write) destination.add(*need.write);
-        const bool forgotten = resource.lifetime == Lifetime::transient && !resource.image.buffer_view;
+        const bool forgotten = resource.lifetime == Lifetime::transient && !resource.image.stays_general();
         const VkImageLayout rest = forgotten ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL;
         state.entry_barrier = static_cast<std::uint32_t>(entry_.size());
         entry_.push_back({need.resource, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, destination.stages,

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <cstring>
+#include <set>
 
 #include "graph/executor.h"
 #include "vulkan/api.h"
@@ -13,6 +14,7 @@ namespace {
 struct Wanted {
     const Resource* resource = nullptr;
     bool used = false;
+    std::set<std::uint32_t> slices;  ///< those that a pass uses alone
     VkImageUsageFlags image_usage = 0;
     VkBufferUsageFlags buffer_usage = 0;
 };
@@ -79,6 +81,7 @@ WantedByName collect(std::span<const std::pair<const Graph*, const Plan*>> plans
                 Wanted& wanted = all[resource.name];
                 if (resource.is_image) {
                     wanted.image_usage |= image_usage(use.access);
+                    if (use.handle.slice != UINT32_MAX) wanted.slices.insert(use.handle.slice);
                 } else {
                     wanted.buffer_usage |= buffer_usage(use.access);
                 }
@@ -110,7 +113,12 @@ vulkan::ImageDescription describe_image(const Wanted& wanted) {
     if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
         usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     }
-    return {image.name, image.format, image.width, image.height, usage, image.samples, image.buffer_view, image.slices};
+    std::vector<std::string> slices(image.slices.size());
+    for (const std::uint32_t slice : wanted.slices) slices[slice] = image.slices[slice];
+    // A GPU is faster through an image that shares its memory with nothing.
+    const bool shares = image.buffer_view || !wanted.slices.empty();
+    if (!shares) slices.clear();
+    return {image.name, image.format, image.width, image.height, usage, image.samples, shares, slices};
 }
 
 vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
@@ -174,7 +182,8 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
         // Slices come first, since their memory is cleared with the whole.
         for (const auto& [name, slice] : slices_) record_to_general(commands, *slice);
         for (const auto& [name, image] : images_) {
-            if (set_up_once(*all.at(name).resource) || image.buffer()) record_clear(commands, image);
+            const Resource& resource = *all.at(name).resource;
+            if (set_up_once(resource) || resource.image.stays_general()) record_clear(commands, image);
         }
         for (const auto& [name, copies] : buffers_) {
             for (const vulkan::Buffer& buffer : copies) {

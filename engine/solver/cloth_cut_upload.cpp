@@ -1,6 +1,7 @@
-// The part of the solver's uploads that follows a cut: only what changed crosses the bus.
+// The state on its way from old resources to new ones, and what follows a cut: only what changed crosses the bus.
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "solver/cloth_solver.h"
 #include "solver/cut_pass.h"
@@ -66,17 +67,31 @@ void ClothSolver::upload_cut(const graph::ResourcePool& pool, std::size_t cloth,
             upload_change(pool, row, context(cloth), before.fields[static_cast<std::size_t>(row.field)]);
 }
 
+template <class Visit>
+void ClothSolver::for_state_images(const graph::ResourcePool& pool, const Visit& visit) const {
+    for (const FieldRow& row : cloth_fields()) {
+        if (row.life != FieldLife::state) continue;
+        for (const Together& together : together_)
+            if (const std::string name = resource_name(together.state, row); pool.has(name))
+                visit(pool.image(name), row, std::span(together.cloths));
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            if (const std::string name = resource_name(model_.cloths[cloth], row); is_alone(cloth) && pool.has(name))
+                visit(pool.image(name), row, std::span(&cloth, 1));
+    }
+}
+
 std::map<std::string, std::vector<std::byte>> ClothSolver::download_state(const graph::ResourcePool& pool) const {
     std::map<std::string, std::vector<std::byte>> state;
-    for (const ClothModel& cloth : model_.cloths)
-        for (const FieldRow& row : cloth_fields()) {
-            const std::string name = resource_name(cloth, row);
-            if (row.life != FieldLife::state || !pool.has(name)) continue;
-            const vulkan::ImageDescription& image = pool.image(name).description();
-            std::vector<std::byte>& bytes = state[name];
-            bytes.resize(std::size_t{image.width} * image.height * row.element.size);
-            vulkan::download(pool.device(), pool.image(name), bytes);
+    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, std::span<const std::size_t> cloths) {
+        std::vector<std::byte> bytes(std::size_t{image.description().width} * image.description().height *
+                                     row.element.size);
+        vulkan::download(pool.device(), image, bytes);
+        auto next = bytes.begin();
+        for (const std::size_t cloth : cloths) {
+            const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(bytes.size() / cloths.size()));
+            state[resource_name(model_.cloths[cloth], row)].assign(first, next);
         }
+    });
     if (!model_.self_contact) return state;
     const std::string borne = borne_name();
     const vulkan::Buffer& buffer = pool.buffer(borne);
@@ -97,11 +112,15 @@ bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now,
 
 void ClothSolver::upload_state(const graph::ResourcePool& pool,
                                const std::map<std::string, std::vector<std::byte>>& state) const {
-    for (const auto& [name, bytes] : state)
-        if (pool.has(name) && name != borne_name())
-            vulkan::upload(pool.device(), pool.image(name), bytes);
-        else if (pool.has(name))
-            vulkan::upload_range(pool.device(), pool.buffer(name), 0, bytes);  // lists have more room
+    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, std::span<const std::size_t> cloths) {
+        std::vector<std::byte> all;
+        for (const std::size_t cloth : cloths)
+            if (const auto own = state.find(resource_name(model_.cloths[cloth], row)); own != state.end())
+                all.insert(all.end(), own->second.begin(), own->second.end());
+        if (!all.empty()) vulkan::upload(pool.device(), image, all);
+    });
+    if (const auto borne = state.find(borne_name()); borne != state.end() && pool.has(borne->first))
+        vulkan::upload_range(pool.device(), pool.buffer(borne->first), 0, borne->second);  // lists have more room
 }
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,

@@ -74,7 +74,7 @@ graph::Handle declare_row(graph::Graph& graph, const std::string& name, const Ro
     const std::uint64_t height = extent.height * std::max<std::size_t>(slices.size(), 1);
     return graph.image({name, format_of(row), static_cast<std::uint32_t>(extent.width),
                         static_cast<std::uint32_t>(height), VK_SAMPLE_COUNT_1_BIT, lifetime_of(row, about),
-                        !slices.empty() || (buffered && row.view == FieldView::image_and_buffer), slices});
+                        buffered && row.view == FieldView::image_and_buffer, slices});
 }
 
 /// Uploads what a field starts with, where it is somewhere and starts with anything.
@@ -180,7 +180,8 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
             const FieldContext about = context(together.cloths[k], needs, *run_);
             if (!row.needed(about)) continue;
             if (!whole.valid())
-                whole = declare_row(graph, resource_name(together.state, row), row, about, true, slices);
+                whole = declare_row(graph, resource_name(together.state, row), row, about,
+                                    kernels_.has(Kernel::buffer_store), slices);
             cloths_[together.cloths[k]][row.field] = {whole.resource, whole.version, k};
         }
         together.state[row.field] = whole;

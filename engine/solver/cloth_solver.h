@@ -141,6 +141,9 @@ class ClothSolver {
     const std::string& state_name(std::size_t cloth) const;
     /// Returns a cloth's part of what a pass over its state left on the host.
     std::span<const std::byte> part_of(std::size_t cloth, const vulkan::Buffer& of_state) const;
+    /// Calls `visit` with each image of the pool that is of the state, its row and the cloths that lie in it.
+    template <class Visit>
+    void for_state_images(const graph::ResourcePool& pool, const Visit& visit) const;
     /// Calls `add` once for cloths together, and for each of the others.
     template <class Add>
     void for_each_dispatch(const Add& add);

@@ -138,8 +138,8 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
 
 std::string state_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count, bool buffered) {
     if (buffered && !device.wide_integers()) return "the device's shaders have no integers of 64 bits";
-    std::vector<std::string> slices;
-    for (std::uint32_t k = 0; k < count && count > 1; ++k) slices.push_back(fmt::format("state {}", k));
+    std::vector<std::string> slices(count > 1 ? count : 0);
+    if (count > 1) slices[1] = "slice of the state";  // where one may begin, all may
     for (const StateImage& image : state_images(grid)) {
         if (count == 1 && !image.is_stored) continue;
         const std::uint32_t step = glsl::state_row_alignment / vulkan::texel_size(image.format);

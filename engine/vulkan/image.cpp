@@ -102,7 +102,7 @@ Image::Image(const Device& device, const ImageDescription& description) : Image(
     memory_ = device.allocate(requirements, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "image " + description.name);
     byte_count_ = requirements.size;
     bind(memory_, 0);
-    for (std::size_t k = 0; k < slices_.size(); ++k) slices_[k].bind(memory_, k * slice_byte_count());
+    for (std::size_t k = 0; k < slices_.size(); ++k) slices_[k].bind(memory_, slice_offsets_[k]);
 }
 
 std::string Image::obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch) {
@@ -168,10 +168,11 @@ void Image::make_slices(VkMemoryRequirements& requirements) {
     if (count == 0) return;
     if (!description_.buffer_view || description_.height % count != 0)
         refuse(description_, fmt::format("it cannot be cut into {} slices", count));
-    for (const std::string& name : description_.slices) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+        if (description_.slices[k].empty()) continue;
         ImageDescription band = description_;
-        band.name = name, band.height /= count, band.slices.clear();
-        const VkDeviceSize offset = slices_.size() * slice_byte_count();
+        band.name = description_.slices[k], band.height /= count, band.slices.clear();
+        const VkDeviceSize offset = k * slice_byte_count();
         Image slice(*device_, band, Empty{});
         const VkMemoryRequirements needed = slice.make_handles();
         if (slice.row_pitch() != row_pitch_ || offset % needed.alignment != 0)
@@ -180,6 +181,7 @@ void Image::make_slices(VkMemoryRequirements& requirements) {
         requirements.alignment = std::max(requirements.alignment, needed.alignment);
         requirements.memoryTypeBits &= needed.memoryTypeBits;
         slices_.push_back(std::move(slice));
+        slice_offsets_.push_back(offset);
     }
     if (requirements.memoryTypeBits == 0) refuse(description_, "no memory of the device serves it and its slices");
 }
@@ -218,7 +220,8 @@ Image::Image(Image&& other) noexcept
       buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
       row_pitch_(other.row_pitch_),
       byte_count_(std::exchange(other.byte_count_, 0)),
-      slices_(std::move(other.slices_)) {}
+      slices_(std::move(other.slices_)),
+      slice_offsets_(std::move(other.slice_offsets_)) {}
 
 VkImageAspectFlags Image::aspect() const {
     return description_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;

@@ -24,7 +24,8 @@ struct ImageDescription {
     /// every device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
     bool buffer_view = false;
     /// Bands of equally many rows, from the top, have these names: each is an image with a buffer view of its own in
-    /// this one's memory (Image::slices). They need a buffer view, since only LINEAR images may share memory.
+    /// this one's memory (Image::slices). They need a buffer view, since only LINEAR images may share memory. A band
+    /// without a name is no image: some devices take .2 ms for each.
     std::vector<std::string> slices = {};
 };
 
@@ -72,6 +73,7 @@ class Image {
     std::uint32_t row_pitch_ = 0;
     std::uint64_t byte_count_ = 0;
     std::vector<Image> slices_;
+    std::vector<VkDeviceSize> slice_offsets_;  ///< B
 };
 
 enum class BufferHome {

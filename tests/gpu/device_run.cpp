@@ -53,6 +53,7 @@ void DeviceRun::run_frame(std::uint32_t frame) {
     solver_.write_inputs(*pool_, 0, frame);
     slots_.submit(0, recorded_->commands(0));
     slots_.wait(0);
+    state_.clear();
 }
 
 std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
@@ -60,6 +61,10 @@ std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
     if (field == Field::normal) {
         const std::span<const std::byte> host = pool_->buffer(normal_buffer(model), 0).mapped();
         return {host.begin(), host.end()};
+    }
+    if (row_of(field).life == FieldLife::state) {
+        if (state_.empty()) state_ = solver_.download_state(*pool_);
+        return state_.at(resource_name(model, row_of(field)));
     }
     const vulkan::Image& image = pool_->image(resource_name(model, row_of(field)));
     const vulkan::ImageDescription& about = image.description();

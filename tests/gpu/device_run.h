@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ class DeviceRun {
     std::unique_ptr<graph::ResourcePool> pool_;
     std::unique_ptr<graph::RecordedPlan> recorded_;
     vulkan::FrameSlots slots_;
+    mutable std::map<std::string, std::vector<std::byte>> state_;  ///< since the last frame; none: not fetched yet
 };
 
 /// The sets of kernels with the plain ones' bits that the device has for a model's cloths.

@@ -191,6 +191,13 @@ const std::string relaxed =
     with_method(named_scene, "\"relax\", \"substeps\": 3, \"iterations\": 8, \"tolerance\": 0.01");
 const std::string explicitly = with_method(named_scene, "\"explicit\", \"substeps\": 41");
 const std::string by_lines = with_method(named_scene, "\"line\", \"substeps\": 4, \"tethers\": true");
+// Cloths that are alike lie in the same images.
+constexpr const char* alike_scene = R"({"time": {"fps": 60, "frames": 13}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"grid": [9, 7], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "top"}]},
+             {"grid": [8, 7], "size": [0.5, 0.4], "placement": {"origin": [0, 2, 0]}, "pins": [{"edge": "top"}]},
+             {"grid": [9, 7], "size": [0.5, 0.4], "placement": {"origin": [1, 1, 0]}, "pins": [{"edge": "top"}],
+              "velocity": [0, 0, 1]}],
+  "solver": {"method": "line", "substeps": 4}})";
 
 // The cloth falls on its lower edge, onto another one, and folds; a pin carries a corner through it.
 constexpr const char* meeting_scene = R"({"time": {"fps": 60, "frames": 41},
@@ -215,6 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
                                          Case{"Asleep", sleeping_scene}, Case{"CutByAuto", cut_by_auto.c_str(), true},
                                          Case{"CutByLine", cut_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
                                          Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
+                                         Case{"Alike", alike_scene, true},
                                          Case{"PassedByLines", passed_by_lines.c_str()},
                                          Case{"PassedByAuto", passed_by_auto.c_str()}),
                          [](const auto& each) { return std::string(each.param.name); });

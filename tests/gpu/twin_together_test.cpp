@@ -40,7 +40,7 @@ void compare_by(const Kernels& kernels, SceneDescription scene) {
 bool are_together(const SceneDescription& scene, const Kernels& kernels) {
     const SimulationModel model(scene);
     const DeviceRun run(test::gpu().device, model, {}, kernels);
-    return run.pool().has("sheet and 2 more/position") && run.pool().has("third/position");
+    return run.pool().has("sheet and 2 more/position") && !run.pool().has("third/position");
 }
 
 TEST(TwinTogetherTest, Lines) {

@@ -130,6 +130,8 @@ TEST(VulkanImage, slices_are_its_rows) {
         EXPECT_EQ(sent, received);
     }
     EXPECT_EQ(gpu().device.budget().used(), used);
+    about.slices = {"", "second", ""};
+    EXPECT_EQ(Image(gpu().device, about).slices().size(), 1u);
     about.slices.pop_back();
     EXPECT_THAT(error_of([&] { Image(gpu().device, about); }), HasSubstr("cannot be cut into 2 slices"));
 }

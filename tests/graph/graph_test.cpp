@@ -237,13 +237,12 @@ TEST_F(GraphBuilding, ASliceIsABandOfRowsAndAUseOfTheWhole) {
 }
 
 TEST_F(GraphBuilding, SlicesThatDoNotFitAreRefused) {
-    const auto slices = [&](std::uint32_t height, bool view, std::vector<std::string> names) {
-        graph.image({.name = "sliced", .height = height, .buffer_view = view, .slices = std::move(names)});
+    const auto slices = [&](std::uint32_t height, std::vector<std::string> names) {
+        graph.image({.name = "sliced", .height = height, .slices = std::move(names)});
     };
-    EXPECT_THROW(slices(6, false, {"a", "b"}), GraphError);
-    EXPECT_THROW(slices(5, true, {"a", "b"}), GraphError);
-    EXPECT_THROW(slices(6, true, {"a", "flags"}), GraphError) << "there is a resource of this name";
-    EXPECT_NO_THROW(slices(6, true, {"a", "b"}));
+    EXPECT_THROW(slices(5, {"a", "b"}), GraphError);
+    EXPECT_THROW(slices(6, {"a", "flags"}), GraphError) << "there is a resource of this name";
+    EXPECT_NO_THROW(slices(6, {"a", "b"}));
 }
 
 TEST_F(GraphBuilding, SizesAreCheckedIn64Bits) {
