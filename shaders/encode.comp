@@ -31,7 +31,7 @@ vec4 light_at(ivec2 pixel) {
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
 vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
 #endif
-layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D color;  // red in the lowest byte
+layout(set = 0, binding = 2, std430) writeonly buffer Pixels { uint pixels[]; };  // on the host; red in the lowest byte
 
 /// Returns Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
 float threshold(uvec2 pixel) {
@@ -58,7 +58,7 @@ void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
     radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
     ivec3 bytes = ivec3(min(levels + threshold(uvec2(pixel)), 255.0));
-    imageStore(color, pixel, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24));
+    pixels[pixel.y * push.grid.x + pixel.x] = uint(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24);
 }
 
 void main() {

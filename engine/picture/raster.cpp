@@ -22,15 +22,13 @@ struct RasterPass::Targets {
     Handle frame;
     Handle colliders;    ///< invalid where no body is drawn
     Handle heat_colors;  ///< invalid where the view is no heat map
-    Handle color, depth;
+    Handle depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
     Handle shadow_map, shadow_depth, shadow_rows;  ///< invalid without a shadow
 };
 
 namespace {
 
-/// RGBA8 is one integer, as every device has such storage images.
-constexpr VkFormat color_format = VK_FORMAT_R32_UINT;
 /// Radiance goes beyond 1, and light is averaged before it is encoded.
 constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
@@ -243,7 +241,6 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-    targets.color = graph.image({color_name, color_format, width_, height_});
     targets.drawn = targets.light = graph.image({light_name, light_format, width_, height_, samples});
     if (resolves_) targets.light = graph.image({resolved_name, light_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
@@ -268,8 +265,7 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
         graph.skip("shadow", shadow_skip_reason_);
     }
     add_raster(graph, targets, kept);
-    add_encoding(graph, targets);
-    return add_readback(graph, targets);
+    return add_encoding(graph, targets);
 }
 
 void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
@@ -372,33 +368,23 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
     }
 }
 
-void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
+Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {
+    Handle picture =
+        graph.buffer<glsl::uint>(readback_name, std::uint64_t{width_} * height_, graph::Lifetime::host_output);
     graph.add_pass(
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::compute_read, "frame");
             setup.read(targets.light, Access::compute_read, "light");
             if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
-            targets.color = setup.write(targets.color, Access::compute_write, "color");
+            picture = setup.write(picture, Access::compute_write, "pixels");
         },
         [this](graph::PassContext& context) {
             const glsl::GridPush push{{static_cast<int>(width_), static_cast<int>(height_)}};
             const auto [across, down] = compute_.over_strips(push.grid);
             context.dispatch(*encoding_, push, across, down);
         });
-}
-
-Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
-    auto readback =
-        std::make_shared<Handle>(graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
-    graph.add_pass(
-        {"readback", "readback", "readback"},
-        [&](graph::PassSetup& setup) {
-            setup.read(targets.color, Access::transfer_read);
-            *readback = setup.write(*readback, Access::transfer_write);
-        },
-        [color = targets.color, readback](graph::PassContext& context) { copy_to_buffer(context, color, *readback); });
-    return *readback;
+    return picture;
 }
 
 void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const {

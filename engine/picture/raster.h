@@ -56,9 +56,9 @@ class RasterPass {
     RasterPass(const RasterPass&) = delete;
     RasterPass& operator=(const RasterPass&) = delete;
 
-    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow", "raster" and
-    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the
-    /// top, tightly packed. The graph's plans may run as long as this object lives.
+    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow" and "raster"; returns
+    /// the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the top, tightly packed.
+    /// The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
     /// Fills the host inputs of a slot for the picture at `time` (s).
@@ -74,7 +74,6 @@ class RasterPass {
     static constexpr const char* frame_name = "raster/frame";
     static constexpr const char* colliders_name = "raster/colliders";
     static constexpr const char* heat_colors_name = "raster/heat colors";
-    static constexpr const char* color_name = "color";
     static constexpr const char* light_name = "light";  ///< radiance
     static constexpr const char* resolved_name = "light/resolved";
     static constexpr const char* depth_name = "depth";
@@ -102,10 +101,9 @@ class RasterPass {
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
-    void add_encoding(graph::Graph& graph, Targets& targets) const;
+    graph::Handle add_encoding(graph::Graph& graph, const Targets& targets) const;
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
-    graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
     bool resolves_;  ///< the samples, where the encoding pass cannot read them

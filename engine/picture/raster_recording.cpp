@@ -58,13 +58,4 @@ void draw_colliders(const graph::PassContext& context, const ColliderDraw& range
     vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, 0, range.first_instance);
 }
 
-void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer) {
-    const vulkan::Image& source = context.image(image);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {source.aspect(), 0, 0, 1};
-    region.imageExtent = {source.description().width, source.description().height, 1};
-    vkCmdCopyImageToBuffer(context.commands(), source.handle(), context.layout(image), context.buffer(buffer).handle(),
-                           1, &region);
-}
-
 }  // namespace drape

@@ -27,7 +27,4 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
 
-/// Copies to tightly packed rows.
-void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);
-
 }  // namespace drape
