@@ -8,11 +8,13 @@
 #include "include/shading.h"
 #include "include/raster_lights.h"
 
+layout(push_constant) uniform Push { ClothPush push; };
 layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 surface_normal;
 layout(location = 2) in vec2 material;
 layout(location = 3) in vec2 hidden;
-layout(location = look_location) flat in ClothLook look;
+layout(location = look_location) flat in ClothLook triangle_look;
+ClothLook look = constants_by_triangle ? triangle_look : cloth_look(push);
 layout(location = 0) out vec4 color;
 
 /// Mean of the square wave (+1 on even unit intervals, -1 on odd ones) over `width` around x.

@@ -62,5 +62,5 @@ void main() {
     gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);
     gl_ClipDistance[0] = clip_distance(world, push.size.w);
     constants = lit_constants();
-    look = ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second);
+    look = cloth_look(push);
 }

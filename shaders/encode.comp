@@ -15,6 +15,7 @@
 #endif
 #include "include/plane.h"
 #include "include/floor.h"
+#include "include/picture_tiles.h"
 #include "include/tone.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -31,7 +32,9 @@ vec4 light_at(ivec2 pixel) {
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
 vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
 #endif
-layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D color;  // red in the lowest byte
+layout(set = 0, binding = 2, std430) writeonly buffer Pixels { uint pixels[]; };  // on the host; red in the lowest byte
+
+layout(set = 0, binding = 4, std430) readonly buffer Tiles { uint tiles[]; };
 
 /// Returns Bayer's matrix at a pixel: 1/128 .. 127/128 in steps of 1/64.
 float threshold(uvec2 pixel) {
@@ -50,7 +53,8 @@ vec3 srgb(vec3 linear) {
 }
 
 void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
-    vec4 drawn = light_at(pixel);  // w: the share of its samples that something covers
+    bool seen = tiles[tile_at(pixel >> tile_shift)] != 0u;
+    vec4 drawn = seen ? light_at(pixel) : vec4(0.0);  // w: the share of its samples that something covers
     vec2 middle = vec2(pixel) + 0.5;
     vec3 behind = backdrop(background, middle.y);
     if (has_floor) behind = floor_radiance(plane, middle, behind);
@@ -58,7 +62,7 @@ void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
     radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
     ivec3 bytes = ivec3(min(levels + threshold(uvec2(pixel)), 255.0));
-    imageStore(color, pixel, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24));
+    pixels[pixel.y * push.grid.x + pixel.x] = uint(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24);
 }
 
 void main() {

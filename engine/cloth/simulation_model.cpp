@@ -64,9 +64,21 @@ std::uint32_t SimulationModel::most_substeps() const {
     return closed_loop() ? substep_rungs(row_of(scene.solver.method)).back() : scene.solver.substeps;
 }
 
-bool SimulationModel::adaptive() const {
+bool SimulationModel::ends_iterations() const {
     return scene.solver.tolerance > 0 && scene.solver.iterations > 1 && method().iterates();
 }
+
+/// On a GPU all springs of an iteration are one pass, and one that is left out is ten empty ones (docs/devices.md).
+bool SimulationModel::iterates_cheaply() const {
+    constexpr std::uint64_t least_particles = 256 * 256;
+    const auto is_large = [](const Cloth& cloth) {
+        return std::uint64_t{cloth.grid[0]} * cloth.grid[1] >= least_particles;
+    };
+    return options.device == DeviceKind::gpu && scene.solver.method == SolverMethod::relax &&
+           std::ranges::none_of(scene.cloths, is_large);
+}
+
+bool SimulationModel::adaptive() const { return ends_iterations() && !iterates_cheaply(); }
 
 float SimulationModel::iteration_limit() const {
     const double limit = 0.99 * scene.solver.tolerance;
@@ -89,6 +101,9 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
         if (scene.colliders.size() == 1)
             all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
     }
+    if (ends_iterations() && iterates_cheaply())
+        all.push_back({"questions whether a substep needs another iteration",
+                       "on a GPU the iterations of small cloth cost less: all are done"});
     for (const ClothModel& cloth : cloths) {
         all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
         all.insert(all.end(), cloth.scheme.skipped.begin(), cloth.scheme.skipped.end());

@@ -45,7 +45,7 @@ struct SimulationModel {
     StretchLimits stretch_limits() const;
     /// Returns how many substeps a frame of this run may have: buffers have room for them.
     std::uint32_t most_substeps() const;
-    /// Returns whether iterations end when the tolerance is met.
+    /// Returns whether iterations end when the tolerance is met. Where they are cheaper than to ask, all are done.
     bool adaptive() const;
     /// Returns the squared RMS stretch error below which they end: a hundredth under the tolerance, so that the frame's
     /// statistics, which sum in another order, are within it.
@@ -56,6 +56,8 @@ struct SimulationModel {
     std::vector<Compromise> compromises() const;
 
   private:
+    bool ends_iterations() const;
+    bool iterates_cheaply() const;
     void add_cloths(const std::vector<StartCrossing>& crossed);
     void add_colliders();
 };

@@ -10,6 +10,7 @@
 #include "picture/legend.h"
 #include "picture/raster_frame.h"
 #include "picture/raster_recording.h"
+#include "solver/kernel_choice.h"
 #include "vulkan/api.h"
 
 namespace drape {
@@ -22,15 +23,14 @@ struct RasterPass::Targets {
     Handle frame;
     Handle colliders;    ///< invalid where no body is drawn
     Handle heat_colors;  ///< invalid where the view is no heat map
-    Handle color, depth;
+    Handle body_tiles, tiles;
+    Handle depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
     Handle shadow_map, shadow_depth, shadow_rows;  ///< invalid without a shadow
 };
 
 namespace {
 
-/// RGBA8 is one integer, as every device has such storage images.
-constexpr VkFormat color_format = VK_FORMAT_R32_UINT;
 /// Radiance goes beyond 1, and light is averaged before it is encoded.
 constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
@@ -128,6 +128,8 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     : width_(width),
       height_(height),
       samples_(samples),
+      tiles_(width, height),
+      camera_(picture_camera(scene, width, height)),
       resolves_(samples > 1 && !device.samples_in_shaders()),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
@@ -136,15 +138,14 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       scale_(strain_scale(options.view, scene)),
       compute_(device) {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
-    const PictureGeometry picture{picture_camera(scene, width, height), scene_extent(scene), width, height,
-                                  options.shift};
+    const PictureGeometry picture{camera_, scene_extent(scene), width, height, options.shift};
     plane_extent_ = plane_extent(picture.camera, picture.extent);
     const std::optional<std::size_t> floor = floor_of(scene.colliders, picture.camera);
     constants_ = frame_constants(scene, picture, floor ? &scene.colliders[*floor] : nullptr);
     has_floor_ = floor.has_value();
     if (floor) colliders_.erase(colliders_.begin() + static_cast<std::ptrdiff_t>(*floor));
     make_pipelines(device, scene, options);
-    make_compute_pipelines();
+    make_compute_pipelines(options.cut);
 }
 
 void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options,
@@ -171,13 +172,19 @@ void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const Raster
 void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescription& scene,
                                 const RasterOptions& options) {
     const bool shadow = casts_shadow();
-    const std::uint32_t lights = light_count(scene);
+    const bool by_triangle = options.constants_by_triangle.value_or(device_kind(device.info()) == DeviceKind::cpu);
+    const std::vector<vulkan::SpecializationConstant> lit{{"light_count", light_count(scene)},
+                                                          {"constants_by_triangle", by_triangle ? 1u : 0u}};
     vulkan::GraphicsState state;
     state.color_format = light_format;
     state.depth_format = depth_format;
     state.samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-    vulkan::GraphicsState shadow_state = state;
-    state.constants = {{"light_count", lights}};
+    vulkan::GraphicsState shadow_state = state, clear_state = state;
+    clear_state.vertex = {"clear.vert"}, clear_state.fragment = {"clear.frag"};
+    clear_state.constants = tiles_.constants();
+    clear_state.depth_compare = VK_COMPARE_OP_ALWAYS;
+    clearing_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster clear", clear_state);
+    state.constants = lit;
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
@@ -189,7 +196,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
         shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
                                   {"round_columns", range.round_columns}};
         state.constants = shadow_state.constants;
-        state.constants.push_back({"light_count", lights});
+        state.constants.insert(state.constants.end(), lit.begin(), lit.end());
         // A body that has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that
         // there the outer side turns the other way.
         state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
@@ -201,12 +208,17 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     }
 }
 
-void RasterPass::make_compute_pipelines() {
+void RasterPass::make_compute_pipelines(bool cut) {
     encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
                                                                    {"sampled", samples_ > 1 && !resolves_}}),
                               [this](std::string_view name) {
-                                  return name == "has_floor" ? (has_floor_ ? 1u : 0u) : compute_.strip_length();
+                                  return name == "has_floor"      ? (has_floor_ ? 1u : 0u)
+                                         : name == "strip_length" ? compute_.strip_length()
+                                                                  : tiles_.constant(name);
                               });
+    const auto tile_constant = [this](std::string_view name) { return tiles_.constant(name); };
+    cloth_tiles_ = &compute_.get("cloth_tiles.comp", tile_constant);
+    if (cut) cut_cloth_tiles_ = &compute_.get("cloth_tiles_cut.comp", tile_constant);
     if (!casts_shadow()) return;
     constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
     const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
@@ -223,13 +235,12 @@ std::vector<Collider> RasterPass::drawn_bodies(double time) const {
 /// Returns the columns for the largest bodies of each kind, looked for at so many moments.
 RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
     constexpr int moments = 64;
-    const Camera camera = picture_camera(scene, width_, height_);
     const double end = scene.time.frame_count / scene.time.fps;
     RoundColumns columns{};
     for (int moment = 0; moment <= moments; ++moment)
         for (const double time = end * moment / moments; const Collider& body : drawn_bodies(time)) {
             std::uint32_t& most = columns[static_cast<std::size_t>(body.kind())];
-            most = std::max(most, round_columns(radius_in_pixels(body, time, camera, height_)));
+            most = std::max(most, round_columns(radius_in_pixels(body, time, camera_, height_)));
         }
     return columns;
 }
@@ -242,8 +253,9 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
+    targets.body_tiles = graph.buffer<glsl::uint>(body_tiles_name, tiles_.count(), graph::Lifetime::host_input);
+    targets.tiles = graph.buffer<glsl::uint>(tiles_name, tiles_.count(), graph::Lifetime::transient);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-    targets.color = graph.image({color_name, color_format, width_, height_});
     targets.drawn = targets.light = graph.image({light_name, light_format, width_, height_, samples});
     if (resolves_) targets.light = graph.image({resolved_name, light_format, width_, height_});
     targets.depth = graph.image({depth_name, depth_format, width_, height_, samples});
@@ -267,9 +279,9 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
     } else {
         graph.skip("shadow", shadow_skip_reason_);
     }
+    add_tiles(graph, targets, kept);
     add_raster(graph, targets, kept);
-    add_encoding(graph, targets);
-    return add_readback(graph, targets);
+    return add_encoding(graph, targets);
 }
 
 void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
@@ -284,6 +296,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
                 setup.read(cloth.indices, Access::index_read);
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
             }
+            attachments->cleared = true;
             attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
             attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
         },
@@ -314,6 +327,39 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
         [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, {}, shadow_rows_invocations_, 1); });
 }
 
+void RasterPass::add_tiles(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
+    const auto copied = std::make_shared<Handle>();
+    graph.add_pass(
+        {"tiles of bodies", "raster", "tiles of bodies"},
+        [&](graph::PassSetup& setup) {
+            setup.read(targets.body_tiles, Access::transfer_read);
+            *copied = targets.tiles = setup.write(targets.tiles, Access::transfer_write);
+        },
+        [copied, from = targets.body_tiles, size = tiles_.count() * sizeof(glsl::uint)](graph::PassContext& context) {
+            const VkBufferCopy region{0, 0, size};
+            vkCmdCopyBuffer(context.commands(), context.buffer(from).handle(), context.buffer(*copied).handle(), 1,
+                            &region);
+        });
+    for (const RasterCloth& cloth : cloths) {
+        const bool cut = cloth.cut_vertices.valid();
+        const std::uint32_t triangles = cloth.index_count / 3;
+        graph.add_pass(
+            {cloth.name + "/tiles", "raster", "tiles of cloth"},
+            [&](graph::PassSetup& setup) {
+                setup.read(targets.frame, Access::compute_read, "frame");
+                setup.read(cloth.position, Access::compute_read, "position");
+                setup.read(cloth.indices, Access::compute_read, "triangles");
+                if (cut) setup.read(cloth.cut_vertices, Access::compute_read, "cut_vertices");
+                setup.read(targets.tiles, Access::compute_read);
+                targets.tiles = setup.write(targets.tiles, Access::compute_write, "tiles");
+            },
+            [pipeline = cut ? cut_cloth_tiles_ : cloth_tiles_, triangles,
+             push = glsl::ClothTilesPush{{cloth.columns, cloth.rows, triangles, 0}}](graph::PassContext& context) {
+                context.dispatch(*pipeline, push, triangles, 1);
+            });
+    }
+}
+
 void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
     auto attachments = std::make_shared<RasterAttachments>();
     graph.add_pass(
@@ -331,7 +377,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
                 if (scale_ && cloth.spring_shares.valid()) setup.read(cloth.spring_shares, Access::vertex_read);
             }
-            attachments->clear = {0, 0, 0, 0};
+            setup.read(targets.tiles, Access::vertex_read);
             attachments->color = targets.drawn = setup.write(targets.drawn, Access::color_write);
             attachments->depth = setup.write(targets.depth, Access::depth_write);
             if (resolves_) attachments->resolve = targets.light = setup.write(targets.light, Access::resolve_write);
@@ -339,6 +385,9 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
         },
         [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);
+            const graph::Binding bound[] = {{"tiles", targets.tiles}};
+            context.bind(*clearing_, bound);
+            vkCmdDraw(context.commands(), 6, tiles_.count(), 0, 0);
             draw_picture(context, targets, cloths);
             vkCmdEndRendering(context.commands());
         });
@@ -372,40 +421,34 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
     }
 }
 
-void RasterPass::add_encoding(graph::Graph& graph, Targets& targets) const {
+Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {
+    Handle picture =
+        graph.buffer<glsl::uint>(readback_name, std::uint64_t{width_} * height_, graph::Lifetime::host_output);
     graph.add_pass(
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::compute_read, "frame");
             setup.read(targets.light, Access::compute_read, "light");
+            setup.read(targets.tiles, Access::compute_read, "tiles");
             if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
-            targets.color = setup.write(targets.color, Access::compute_write, "color");
+            picture = setup.write(picture, Access::compute_write, "pixels");
         },
         [this](graph::PassContext& context) {
             const glsl::GridPush push{{static_cast<int>(width_), static_cast<int>(height_)}};
             const auto [across, down] = compute_.over_strips(push.grid);
             context.dispatch(*encoding_, push, across, down);
         });
-}
-
-Handle RasterPass::add_readback(graph::Graph& graph, const Targets& targets) const {
-    auto readback =
-        std::make_shared<Handle>(graph.buffer({readback_name, readback_byte_count(), graph::Lifetime::host_output}));
-    graph.add_pass(
-        {"readback", "readback", "readback"},
-        [&](graph::PassSetup& setup) {
-            setup.read(targets.color, Access::transfer_read);
-            *readback = setup.write(*readback, Access::transfer_write);
-        },
-        [color = targets.color, readback](graph::PassContext& context) { copy_to_buffer(context, color, *readback); });
-    return *readback;
+    return picture;
 }
 
 void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const {
     const auto write = [&](const char* name, std::span<const std::byte> bytes) {
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
-    const std::vector<glsl::ColliderInstance> instances = collider_instances(drawn_bodies(time), plane_extent_, time);
+    const std::vector<Collider> bodies = drawn_bodies(time);
+    const std::vector<glsl::ColliderInstance> instances = collider_instances(bodies, plane_extent_, time);
+    const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, camera_);
+    write(body_tiles_name, std::as_bytes(std::span(marks)));
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
     if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
     if (!scale_) return;

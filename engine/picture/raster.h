@@ -15,6 +15,7 @@
 #include "graph/executor.h"
 #include "picture/collider_mesh.h"
 #include "picture/fixtures.h"
+#include "picture/picture_tiles.h"
 #include "picture/strain_scale.h"
 #include "shared/raster_types.h"
 #include "solver/pass_kit.h"
@@ -46,6 +47,9 @@ struct RasterOptions {
     /// The picture is moved by so many pixels right and down: pictures moved by parts of a pixel add up to one of many
     /// samples.
     std::array<double, 2> shift{0, 0};
+    /// Fragments get the frame's constants with their triangle (shaders/include/lit_constants.h), to the same bytes;
+    /// nothing: what is faster on the device.
+    std::optional<bool> constants_by_triangle;
 };
 
 class RasterPass {
@@ -56,9 +60,9 @@ class RasterPass {
     RasterPass(const RasterPass&) = delete;
     RasterPass& operator=(const RasterPass&) = delete;
 
-    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow", "raster" and
-    /// "readback"; returns the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the
-    /// top, tightly packed. The graph's plans may run as long as this object lives.
+    /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow" and "raster"; returns
+    /// the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the top, tightly packed.
+    /// The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
     /// Fills the host inputs of a slot for the picture at `time` (s).
@@ -74,7 +78,8 @@ class RasterPass {
     static constexpr const char* frame_name = "raster/frame";
     static constexpr const char* colliders_name = "raster/colliders";
     static constexpr const char* heat_colors_name = "raster/heat colors";
-    static constexpr const char* color_name = "color";
+    static constexpr const char* body_tiles_name = "raster/tiles of bodies";
+    static constexpr const char* tiles_name = "raster/tiles";
     static constexpr const char* light_name = "light";  ///< radiance
     static constexpr const char* resolved_name = "light/resolved";
     static constexpr const char* depth_name = "depth";
@@ -98,16 +103,18 @@ class RasterPass {
     void make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options, vulkan::GraphicsState state,
                               vulkan::GraphicsState shadow_state);
     void make_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options);
-    void make_compute_pipelines();
+    void make_compute_pipelines(bool cut);
     Targets declare(graph::Graph& graph) const;
     void add_shadow(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
+    void add_tiles(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
-    void add_encoding(graph::Graph& graph, Targets& targets) const;
+    graph::Handle add_encoding(graph::Graph& graph, const Targets& targets) const;
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
-    graph::Handle add_readback(graph::Graph& graph, const Targets& targets) const;
 
     std::uint32_t width_, height_, samples_;
+    PictureTiles tiles_;
+    Camera camera_;
     bool resolves_;  ///< the samples, where the encoding pass cannot read them
     RoundColumns columns_in_picture(const SceneDescription& scene) const;
     /// Returns the scene's colliders and then its fixtures, at `time` (s).
@@ -123,10 +130,12 @@ class RasterPass {
     std::optional<StrainScale> scale_;  ///< set for a heat map
     ClothPipelines cloth_, shadow_cloth_;
     std::vector<Draw> draws_, shadow_draws_;
+    std::unique_ptr<vulkan::GraphicsPipeline> clearing_;
     Pipelines compute_;
     const vulkan::ComputePipeline* shadow_rows_ = nullptr;  ///< none without a shadow
     std::uint32_t shadow_rows_invocations_ = 0;
     const vulkan::ComputePipeline* encoding_ = nullptr;
+    const vulkan::ComputePipeline *cloth_tiles_ = nullptr, *cut_cloth_tiles_ = nullptr;  ///< none of cut cloth without
 };
 
 }  // namespace drape

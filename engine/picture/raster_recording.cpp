@@ -1,18 +1,16 @@
 #include "picture/raster_recording.h"
 
-#include <algorithm>
-
 #include "vulkan/api.h"
 
 namespace drape {
 namespace {
 
-VkRenderingAttachmentInfo attachment(const graph::PassContext& context, graph::Handle handle, bool keep) {
+VkRenderingAttachmentInfo attachment(const graph::PassContext& context, graph::Handle handle, bool clear, bool keep) {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     info.imageView = context.image(handle).view();
     info.imageLayout = context.layout(handle);
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.loadOp = clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     info.storeOp = keep ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
     return info;
 }
@@ -22,8 +20,8 @@ VkRenderingAttachmentInfo attachment(const graph::PassContext& context, graph::H
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments) {
     const vulkan::Image& target = context.image(attachments.color);
     const bool resolved = attachments.resolve.valid();
-    VkRenderingAttachmentInfo color = attachment(context, attachments.color, !resolved);
-    std::ranges::copy(attachments.clear, color.clearValue.color.float32);
+    VkRenderingAttachmentInfo color = attachment(context, attachments.color, attachments.cleared, !resolved);
+    color.clearValue.color = {{1, 1, 1, 1}};
     if (resolved) {
         color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
         color.resolveImageView = context.image(attachments.resolve).view();
@@ -31,7 +29,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     }
     VkRenderingAttachmentInfo depth{};
     if (attachments.depth.valid()) {
-        depth = attachment(context, attachments.depth, false);
+        depth = attachment(context, attachments.depth, attachments.cleared, false);
         depth.clearValue.depthStencil = {1.0f, 0};
     }
     const VkExtent2D extent{target.description().width, target.description().height};
@@ -56,15 +54,6 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range) {
     vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, 0, range.first_instance);
-}
-
-void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer) {
-    const vulkan::Image& source = context.image(image);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {source.aspect(), 0, 0, 1};
-    region.imageExtent = {source.description().width, source.description().height, 1};
-    vkCmdCopyImageToBuffer(context.commands(), source.handle(), context.layout(image), context.buffer(buffer).handle(),
-                           1, &region);
 }
 
 }  // namespace drape

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,18 +15,15 @@ struct RasterAttachments {
     graph::Handle color;
     graph::Handle depth = {};  ///< invalid: none
     graph::Handle resolve;     ///< invalid: none
-    std::array<float, 4> clear{1, 1, 1, 1};
+    bool cleared = false;      ///< colour to 1, and depth; or else they hold anything
 };
 
-/// Begins dynamic rendering over the whole attachments, viewport and scissor set; depth is cleared to 1 (the far end)
+/// Begins dynamic rendering over the whole attachments, viewport and scissor set; depth is cleared to 1 (the far end),
 /// and forgotten at the end, like the samples when they are resolved.
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments);
 
 void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count);
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range);
-
-/// Copies to tightly packed rows.
-void copy_to_buffer(const graph::PassContext& context, graph::Handle image, graph::Handle buffer);
 
 }  // namespace drape

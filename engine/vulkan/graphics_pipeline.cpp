@@ -46,7 +46,7 @@ struct FixedFunctions {
         multisample.rasterizationSamples = state.samples;
         depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED;
         depth.depthWriteEnable = depth.depthTestEnable;
-        depth.depthCompareOp = VK_COMPARE_OP_LESS;
+        depth.depthCompareOp = state.depth_compare;
         attachment.colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
         blend.attachmentCount = has_color ? 1 : 0;

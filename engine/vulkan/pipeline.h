@@ -86,9 +86,10 @@ struct GraphicsState {
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
 };
 
-/// Draws triangle lists without vertex buffers; viewport and scissor are dynamic, so is rendering, and depth is LESS.
+/// Draws triangle lists without vertex buffers; viewport and scissor are dynamic, and so is rendering.
 class GraphicsPipeline : public Pipeline {
   public:
     /// Throws like ComputePipeline, and when descriptors are not read only or do not mean the same in both stages.

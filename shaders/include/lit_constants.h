@@ -1,6 +1,6 @@
-// The frame's and the cloth's constants that fragments of lit surfaces read go with the triangle as flat inputs, which
-// are one value each; the default device's compiler loads a buffer's constants, and pushed ones, lane by lane in
-// fragments (docs/devices.md).
+// The frame's and the cloth's constants that fragments of lit surfaces read. On a CPU they go with the triangle as flat
+// inputs, which are one value each: its compiler loads a buffer's constants, and pushed ones, lane by lane in fragments.
+// On a GPU, which takes every input lane by lane, they are read where they are (docs/devices.md).
 #ifndef DRAPE_LIT_CONSTANTS_H
 #define DRAPE_LIT_CONSTANTS_H
 
@@ -22,6 +22,10 @@ struct LitConstants {
 struct ClothLook {
     vec4 front, back, second;
 };
+
+ClothLook cloth_look(ClothPush push) {
+    return ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second);
+}
 
 const int lit_location = 4;                                    // the first behind the surfaces' own
 const int look_location = lit_location + 6 + 2 * light_limit;  // behind LitConstants

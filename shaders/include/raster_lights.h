@@ -3,10 +3,12 @@
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
 
-#include "include/lit_constants.h"
+#include "include/raster_frame.h"
 
 layout(constant_id = 2) const int light_count = 2;
-layout(location = lit_location) flat in LitConstants constants;
+layout(constant_id = 3) const bool constants_by_triangle = true;
+layout(location = lit_location) flat in LitConstants triangle_constants;
+LitConstants constants = constants_by_triangle ? triangle_constants : lit_constants();
 
 #ifdef SHADOWED
 #include "include/shadow_map.h"

@@ -55,6 +55,10 @@ struct ClothPush {
     vec4 second;  // the pattern's other colour, on both sides
 };
 
+struct ClothTilesPush {
+    uvec4 grid;  // columns, rows, triangles; w unused
+};
+
 /// Number of colours of a heat map, at even places from its low end to its high end.
 const int heat_color_count = 256;
 

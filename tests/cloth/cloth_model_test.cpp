@@ -69,6 +69,25 @@ TEST(ClothModelTest, NeedlessWorkIsLeftOutWithAReason) {
     EXPECT_TRUE(skips(model.skipped(), "collision"));
 }
 
+TEST(ClothModelTest, AGpuIsNotAskedWhetherSmallClothNeedsAnotherIteration) {
+    const std::string question = "questions whether a substep needs another iteration";
+    const auto decisions = [](const SimulationModel& model) {
+        return std::ranges::count(frame_steps(model), StepKind::decide, &Step::kind);
+    };
+    SceneDescription scene = test::sheet(255, 255, 1, 1, 2, 4);
+    scene.solver.tolerance = 0.05;
+    const SimulationModel cpu(scene), gpu(scene, {.device = DeviceKind::gpu});
+    EXPECT_EQ(decisions(cpu), 6);
+    EXPECT_FALSE(skips(cpu.skipped(), question));
+    EXPECT_EQ(decisions(gpu), 0);
+    EXPECT_TRUE(skips(gpu.skipped(), question));
+    scene.cloths[0].grid = {256, 256};
+    EXPECT_EQ(decisions(SimulationModel(scene, {.device = DeviceKind::gpu})), 6);
+    scene.cloths[0].grid = {65, 65};
+    scene.solver.method = SolverMethod::line;
+    EXPECT_EQ(decisions(SimulationModel(scene, {.device = DeviceKind::gpu})), 6);
+}
+
 TEST(ClothModelTest, ALaterPinOverridesAnEarlierOne) {
     SceneDescription scene = test::sheet(4, 4, 1, 1, 4);
     Pin released = test::pin_box(3, 0, 3, 0);

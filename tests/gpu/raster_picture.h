@@ -115,6 +115,18 @@ inline SceneDescription dark_room() {
     return scene;
 }
 
+inline Collider painted(const ColliderShape& shape, const Vec3& color) { return {shape, 0.3, {}, {}, color}; }
+
+/// A floor, with a square one metre above it and light straight down.
+inline SceneDescription floor_scene() {
+    SceneDescription scene = dark_room();
+    scene.camera = Camera{{0, 2.5, 3}, {0, 0, 0}, 50};
+    scene.ambient = scene.ambient_ground = {0.2, 0.2, 0.2};
+    scene.lights = {{{0, -1, 0}, white, 0.6}};
+    scene.colliders.push_back(painted(Plane{{0, 1, 0}, 0}, {0.6, 0.6, 0.6}));
+    return scene;
+}
+
 class Raster : public testing::Test {
   protected:
     Picture draw(SceneDescription scene, const std::vector<DrawnCloth>& cloths, const Shot& shot = {}) {
@@ -171,7 +183,6 @@ class Raster : public testing::Test {
             return graph.image({name + part, VK_FORMAT_R32G32B32A32_SFLOAT, cloth.columns, cloth.rows,
                                 VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::constant});
         };
-        const auto byte_count = cloth.indices.size() * sizeof(std::uint32_t);
         return {name,
                 cloth.columns,
                 cloth.rows,
@@ -181,7 +192,7 @@ class Raster : public testing::Test {
                 cloth.appearance,
                 image("/position"),
                 image("/normal"),
-                graph.buffer({name + "/triangles", byte_count, graph::Lifetime::constant}),
+                graph.buffer<glsl::uint>(name + "/triangles", cloth.indices.size(), graph::Lifetime::constant),
                 static_cast<std::uint32_t>(cloth.indices.size())};
     }
 

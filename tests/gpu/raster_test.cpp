@@ -98,8 +98,6 @@ TEST_F(Raster, FrontIsWhereTheNormalPoints) {
     EXPECT_EQ(channels(behind.at(pixel(scene, {0.5, 0, 0}))), channels(red));
 }
 
-Collider painted(const ColliderShape& shape, const Vec3& color) { return {shape, 0.3, {}, {}, color}; }
-
 class RasterDepth : public Raster, public testing::WithParamInterface<ColliderShape> {};
 
 TEST_P(RasterDepth, ClothHidesAndIsHidden) {
@@ -321,16 +319,6 @@ TEST_F(Raster, MissingCellsAreNotDrawn) {
         EXPECT_EQ(channels(picture.at(pixel(scene, kept))), channels(red));
 }
 
-/// A floor, with a square one metre above it and light straight down.
-SceneDescription floor_scene() {
-    SceneDescription scene = dark_room();
-    scene.camera = Camera{{0, 2.5, 3}, {0, 0, 0}, 50};
-    scene.ambient = scene.ambient_ground = {0.2, 0.2, 0.2};
-    scene.lights = {{{0, -1, 0}, white, 0.6}};
-    scene.colliders.push_back(painted(Plane{{0, 1, 0}, 0}, {0.6, 0.6, 0.6}));
-    return scene;
-}
-
 TEST_F(Raster, FirstLightCastsShadows) {
     SceneDescription scene = floor_scene();
     const DrawnCloth cloth = flat_cloth({0, 1, 0}, {0.6, 0, 0}, {0, 0, -0.6}, {0, 1, 0}, red, blue);
@@ -427,27 +415,6 @@ TEST_F(Raster, FourSamplesComeCloseToSixtyFour) {
     std::printf("[ measured ] PSNR against 64 samples: %.2f dB with 1, %.2f dB with 4\n", one, four);
     EXPECT_GT(four, one + 1);
     EXPECT_GT(four, 42.5);
-}
-
-/// Where shaders cannot load samples, these are resolved first, and rounded once more.
-TEST_F(Raster, ResolvedSamplesMakeTheSamePicture) {
-    SceneDescription scene = floor_scene();
-    scene.colliders.push_back(painted(Sphere{{0.2, 0.3, 0}, 0.3}, {0.4, 0.5, 0.6}));
-    const std::vector<DrawnCloth> cloths{flat_cloth({0, 0.8, 0}, {1, 0.2, 0}, {0, 0.1, -1}, {0, 1, 0}, red, blue, 9)};
-    const vulkan::Device resolving(test::gpu().instance, test::gpu().device.info().uuid_text(),
-                                   {.samples_in_shaders = false});
-    EXPECT_FALSE(resolving.samples_in_shaders());
-    Shot shot{.samples = 4, .options = {.shadow = true}};
-    const Picture loaded = draw(scene, cloths, shot);
-    shot.device = &resolving;
-    const Picture resolved = draw(scene, cloths, shot);
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < loaded.bytes.size(); ++i) {
-        ASSERT_NEAR(loaded.bytes[i], resolved.bytes[i], 1) << i;
-        other += loaded.bytes[i] != resolved.bytes[i];
-    }
-    std::printf("[ measured ] %zu of %zu bytes differ\n", other, loaded.bytes.size());
-    EXPECT_LT(other, loaded.bytes.size() / 100);
 }
 
 TEST_F(Raster, SaysWhyThereIsNoShadow) {

@@ -62,9 +62,10 @@ Arithmetic arithmetic_of(const SpirvModule& module) {
     return found;
 }
 
-/// Compute modules are the simulation; vertex and fragment modules only draw, and so does the one that encodes.
+/// Compute modules are the simulation; vertex and fragment modules only draw, and so do those of two passes.
 bool simulates(const SpirvModule& module) {
-    return module.name.ends_with(".comp") && !module.name.starts_with("encode");
+    return module.name.ends_with(".comp") && !module.name.starts_with("encode") &&
+           !module.name.starts_with("cloth_tiles");
 }
 
 TEST(ArithmeticTest, NoSumOrProductOfTheSimulationMayBeContracted) {
