@@ -44,8 +44,8 @@ const int self_size_near = 0, self_size_search = 1, self_size_kept = 2, self_siz
 /// The first of the sizes that begin anew with every substep, not with a search.
 const int self_size_of_substep = self_size_search;
 
-/// What moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
-/// overlap, or both.
+/// By these a particle was moved since contact gathered its motion; 0 is by nothing. A collider leads it out of an
+/// overlap.
 const float self_pushed = 1.0f, self_led_out = 2.0f, self_pushed_and_led = 3.0f;
 
 /// A pair that touches in this substep, or would.
