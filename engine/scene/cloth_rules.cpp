@@ -179,6 +179,7 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
 
 /// Says what becomes of the crossing, and what would help.
 std::string crossing_fate(const SceneDescription& scene, const StartCrossing& crossing) {
+    if (crossing.untied > 0) return "";
     if (crossing.first == crossing.second) return ": no frame is proved; less jitter would help";
     const std::string elsewhere = "; place one of them elsewhere";
     if (is_led_apart(scene, crossing))

@@ -93,7 +93,9 @@ const Object<Placement> placement{
         {"jitter", &Placement::jitter, number(not_negative),
          "Metres: every particle that no pin holds starts up to so far from its place along x, y and z. Particle p = "
          "row * columns + column along axis k (0, 1, 2) by jitter * (2 r - 1), r being the top 53 bits of "
-         "splitmix64(splitmix64(seed) + 3 p + k) over 2^53 (splitmix64: see gust)."},
+         "splitmix64(splitmix64(seed) + 3 p + k) over 2^53 (splitmix64: see gust). Where that would have a cloth that "
+         "meets itself start through itself, the particles of triangles that cross start, with a warning, half as far "
+         "from their places, and so on until none cross."},
         {"seed", &Placement::seed, integer(0, 0xFFFFFFFFu), "Picks the jitter."},
     },
     check_placement};

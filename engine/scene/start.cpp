@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -29,7 +30,68 @@ double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
 }
 
+std::vector<Vec3> jittered_positions(const Cloth& cloth) {
+    const double jitter = start_jitter(cloth);
+    const std::vector<bool> is_held = held_at_start(cloth);
+    std::vector<Vec3> positions;
+    positions.reserve(is_held.size());
+    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column) {
+            const auto particle = static_cast<std::uint32_t>(positions.size());
+            Vec3 at = start_place(cloth, column, row);
+            if (jitter > 0 && !is_held[particle]) at = plus(at, start_offset(cloth.placement, jitter, particle));
+            positions.push_back(at);
+        }
+    return positions;
+}
+
+/// Moves the particles of triangles that cross half the way to their places, until none do. Flat cloth does not cross
+/// itself, so this ends. Single precision, in which the cloth starts, is asked.
+void untie(const Cloth& cloth, std::vector<Vec3>& positions) {
+    constexpr int most_rounds = 64;  // beyond it nothing is left of any jitter
+    for (int round = 0; round < most_rounds; ++round) {
+        std::vector<Vec3> rounded = positions;
+        for (Vec3& at : rounded)
+            for (double& x : at) x = static_cast<float>(x);
+        const std::vector<bool> crossed = TriangleCrossings({start_mesh(cloth, std::move(rounded))}).crossed_points();
+        if (std::ranges::none_of(crossed, std::identity())) return;
+        for (std::uint32_t particle = 0; particle < positions.size(); ++particle) {
+            const Vec3 place = start_place(cloth, particle % cloth.grid[0], particle / cloth.grid[0]);
+            if (crossed[particle]) positions[particle] = times(0.5, plus(positions[particle], place));
+        }
+    }
+}
+
+/// Returns whether a cloth that meets itself may start through itself. Where jitter turns no triangle over, seen along
+/// the normal, none can cross another. Gathered cloth is refused.
+bool may_be_tied(const Cloth& cloth) {
+    const double height = start_height(cloth), jitter = start_jitter(cloth);
+    return cloth.self_collision && height > resolution(cloth, side(cloth, 0), side(cloth, 1)) && height <= 4 * jitter;
+}
+
 }  // namespace
+
+TriangleCrossings::Mesh start_mesh(const Cloth& cloth, std::vector<Vec3> at) {
+    TriangleCrossings::Mesh mesh{std::move(at), {}};
+    const std::vector<bool> missing = missing_cells(cloth);
+    const std::uint32_t columns = cloth.grid[0], cells = columns - 1;
+    for (std::uint32_t row = 0; row + 1 < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cells; ++column) {
+            if (missing[std::size_t{row} * cells + column]) continue;
+            const std::uint32_t first = row * columns + column, below = first + columns;
+            for (const std::uint32_t corner : {first, first + 1, below, first + 1, below + 1, below})
+                mesh.indices.push_back(corner);
+        }
+    return mesh;
+}
+
+double start_height(const Cloth& cloth) {
+    double side[2];
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        side[axis] = std::abs(cloth.placement.scale[axis]) * cloth.size[axis] / (cloth.grid[axis] - 1);
+    const double longest = std::hypot(side[0], side[1]);
+    return longest > 0 ? side[0] * side[1] / longest : 0;
+}
 
 double start_jitter(const Cloth& cloth) {
     const Vec3 u = side(cloth, 0), v = side(cloth, 1);
@@ -101,21 +163,17 @@ Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t parti
 }
 
 std::vector<Vec3> start_positions(const Cloth& cloth) {
-    const double jitter = start_jitter(cloth);
-    const std::vector<bool> is_held = held_at_start(cloth);
-    std::vector<Vec3> positions;
-    positions.reserve(is_held.size());
-    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
-        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column) {
-            const auto particle = static_cast<std::uint32_t>(positions.size());
-            Vec3 at = start_place(cloth, column, row);
-            if (jitter > 0 && !is_held[particle]) {
-                const Vec3 offset = start_offset(cloth.placement, jitter, particle);
-                for (std::size_t k = 0; k < 3; ++k) at[k] += offset[k];
-            }
-            positions.push_back(at);
-        }
+    std::vector<Vec3> positions = jittered_positions(cloth);
+    if (may_be_tied(cloth)) untie(cloth, positions);
     return positions;
+}
+
+double start_untied(const Cloth& cloth) {
+    if (!may_be_tied(cloth)) return 0;
+    const std::vector<Vec3> tied = jittered_positions(cloth), untied = start_positions(cloth);
+    double farthest = 0;
+    for (std::size_t i = 0; i < tied.size(); ++i) farthest = std::max(farthest, length(minus(tied[i], untied[i])));
+    return farthest;
 }
 
 Vec3 start_normal(const Cloth& cloth) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "drape/scene.h"
+#include "scene/triangle_crossings.h"
 
 namespace drape {
 
@@ -27,8 +28,19 @@ Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);
 /// Returns how far from its place a particle starts, m: up to `jitter` along each axis.
 Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t particle);
 
-/// Returns where every particle starts, m, row by row; the jitter moves those without a pin.
+/// Returns the cloth's triangles with its particles at these places.
+TriangleCrossings::Mesh start_mesh(const Cloth& cloth, std::vector<Vec3> at);
+
+/// Returns the height of the cloth's triangles without jitter, m.
+double start_height(const Cloth& cloth);
+
+/// Returns where every particle starts, m, row by row; the jitter moves those without a pin. Where it would have a
+/// cloth that meets itself start through itself, particles of triangles that cross are moved by half, a quarter and so
+/// on of it, until none do.
 std::vector<Vec3> start_positions(const Cloth& cloth);
+
+/// Returns how far (m) that leaves a particle, at most, from where all of its jitter would move it.
+double start_untied(const Cloth& cloth);
 
 /// Returns the unit normal of the plane through three of the cloth's corners; 0 where they are on a line.
 Vec3 start_normal(const Cloth& cloth);

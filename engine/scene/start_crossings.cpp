@@ -37,18 +37,7 @@ struct Sheet {
         doubt = 4e-6 * farthest + of.placement.jitter;
     }
 
-    TriangleCrossings::Mesh mesh() const {
-        TriangleCrossings::Mesh mesh{at, {}};
-        const std::uint32_t columns = cloth->grid[0], cells = columns - 1;
-        for (std::uint32_t row = 0; row + 1 < cloth->grid[1]; ++row)
-            for (std::uint32_t column = 0; column < cells; ++column) {
-                if (missing[std::size_t{row} * cells + column]) continue;
-                const std::uint32_t first = row * columns + column, below = first + columns;
-                for (const std::uint32_t corner : {first, first + 1, below, first + 1, below + 1, below})
-                    mesh.indices.push_back(corner);
-            }
-        return mesh;
-    }
+    TriangleCrossings::Mesh mesh() const { return start_mesh(*cloth, at); }
 
     /// Returns whether a point is on the flat cloth or up to `within` (m) off it.
     bool holds(const Vec3& point, double within) const {
@@ -104,15 +93,6 @@ bool touches(const Sheet& a, const Sheet& b, double within) {
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
 
-/// Returns the height of the cloth's triangles, m.
-double start_height(const Cloth& cloth) {
-    double side[2];
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        side[axis] = std::abs(cloth.placement.scale[axis]) * cloth.size[axis] / (cloth.grid[axis] - 1);
-    const double longest = std::hypot(side[0], side[1]);
-    return longest > 0 ? side[0] * side[1] / longest : 0;
-}
-
 /// Returns whether the sheet's triangles are lower than what rounding moves them by.
 bool is_gathered(const Sheet& sheet) {
     return !(start_height(*sheet.cloth) > sheet.doubt - sheet.cloth->placement.jitter);
@@ -134,9 +114,13 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
     std::vector<Sheet> sheets;
     for (const Cloth& cloth : scene.cloths) sheets.emplace_back(cloth);
     std::vector<StartCrossing> all;
-    for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth)
-        if (scene.cloths[cloth].self_collision && (is_gathered(sheets[cloth]) || crosses_itself(sheets[cloth])))
-            all.push_back({.first = cloth, .second = cloth, .gathered = is_gathered(sheets[cloth])});
+    for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth) {
+        if (!scene.cloths[cloth].self_collision) continue;
+        const bool gathered = is_gathered(sheets[cloth]), crosses = !gathered && crosses_itself(sheets[cloth]);
+        const double untied = gathered || crosses ? 0 : start_untied(scene.cloths[cloth]);
+        if (gathered || crosses || untied > 0)
+            all.push_back({.first = cloth, .second = cloth, .untied = untied, .gathered = gathered});
+    }
     for (std::size_t second = 1; second < sheets.size(); ++second)
         for (std::size_t first = 0; first < second; ++first) {
             const Sheet &a = sheets[first], &b = sheets[second];
@@ -178,8 +162,13 @@ std::string crossing_text(const SceneDescription& scene, const StartCrossing& cr
             "cloth \"{}\", which meets itself, starts gathered on a line or in a point, where contact would hold it (a "
             "scale away from 0, or no self_collision, would do)",
             scene.cloths[crossing.first].name);
-    if (crossing.first == crossing.second)
-        return fmt::format("cloth \"{}\" starts through itself", scene.cloths[crossing.first].name);
+    const std::string& name = scene.cloths[crossing.first].name;
+    if (crossing.untied > 0)
+        return fmt::format(
+            "cloth \"{}\" would start through itself by its jitter: particles start nearer to their places, by up to "
+            "{:.3g} m, so that it does not",
+            name, crossing.untied);
+    if (crossing.first == crossing.second) return fmt::format("cloth \"{}\" starts through itself", name);
     const char *are = crossing.triangles == 1 ? "" : "s", *cross = crossing.triangles == 1 ? "es" : "";
     const std::string off = fmt::format("moved by {:.3g} m one would be off the other", crossing.depth);
     const std::string how = crossing.triangles > 0

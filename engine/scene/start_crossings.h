@@ -16,11 +16,12 @@ struct StartCrossing {
     std::size_t triangles = 0;  ///< pairs of triangles that cross; 0: the two only touch, as along a line of both
     double depth = 0;  ///< m: the least by which one of the two, moved along a normal of either, would be off the other
     Vec3 way{};        ///< unit: moved by the depth along it, the second would be off the first; zero: unknown
+    double untied = 0;      ///< m: how far particles start from where jitter would have had the cloth go through itself
     bool gathered = false;  ///< the cloth is on a line or in a point, where contact would hold it for good
 };
 
 /// Finds every two cloths that at time 0 cross, or are somewhere nearer to each other than single precision can tell,
-/// and every cloth that meets itself and crosses itself then, by its jitter or gathered on a line. Positions are exact
+/// and every cloth that meets itself and is untied or gathered on a line, which would cross itself. Positions are exact
 /// in double precision; holes count as such.
 std::vector<StartCrossing> start_crossings(const SceneDescription& scene);
 

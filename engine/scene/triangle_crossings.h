@@ -47,10 +47,19 @@ class TriangleCrossings {
         return crossings;
     }
     bool any() const {
-        const auto all = [](std::size_t, std::size_t) { return true; };
         for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
             if (crossings_of(0, triangle, box_of(triangle), all) > 0) return true;
         return false;
+    }
+    /// Returns by point, of all meshes in turn, whether it is a corner of a triangle that crosses another.
+    std::vector<bool> crossed_points() const {
+        std::vector<bool> crossed(points_.size());
+        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
+            crossings_of(0, triangle, box_of(triangle), all, [&](std::uint32_t other) {
+                for (const std::uint32_t each : {triangle, other})
+                    for (const std::uint32_t corner : triangles_[each]) crossed[corner] = true;
+            });
+        return crossed;
     }
     std::size_t count() const {
         return count([](std::size_t, std::size_t) { return true; });
@@ -69,6 +78,8 @@ class TriangleCrossings {
             return true;
         }
     };
+    static bool all(std::size_t, std::size_t) { return true; }
+
     struct Node {
         Box box;
         std::size_t begin, end, left = 0, right = 0;  ///< left is 0 in a leaf
@@ -109,15 +120,23 @@ class TriangleCrossings {
 
     template <class Counts>
     std::size_t crossings_of(std::size_t place, std::uint32_t triangle, const Box& box, const Counts& counts) const {
-        const Node& node = nodes_[place];
-        if (!node.box.meets(box)) return 0;
-        if (node.left != 0)
-            return crossings_of(node.left, triangle, box, counts) + crossings_of(node.right, triangle, box, counts);
         std::size_t crossings = 0;
-        for (std::size_t i = node.begin; i < node.end; ++i)
-            if (order_[i] > triangle && box_of(order_[i]).meets(box) && counts(mesh_[triangle], mesh_[order_[i]]))
-                crossings += cross(triangle, order_[i]) ? 1 : 0;
+        crossings_of(place, triangle, box, counts, [&](std::uint32_t) { ++crossings; });
         return crossings;
+    }
+    template <class Counts, class See>
+    void crossings_of(std::size_t place, std::uint32_t triangle, const Box& box, const Counts& counts,
+                      const See& see) const {
+        const Node& node = nodes_[place];
+        if (!node.box.meets(box)) return;
+        if (node.left != 0) {
+            crossings_of(node.left, triangle, box, counts, see);
+            return crossings_of(node.right, triangle, box, counts, see);
+        }
+        for (std::size_t i = node.begin; i < node.end; ++i)
+            if (order_[i] > triangle && box_of(order_[i]).meets(box) && counts(mesh_[triangle], mesh_[order_[i]]) &&
+                cross(triangle, order_[i]))
+                see(order_[i]);
     }
 
     bool cross(std::uint32_t first, std::uint32_t second) const {

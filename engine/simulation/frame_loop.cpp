@@ -28,7 +28,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
         for (const StartCrossing& each : model_.self_contact->crossed)
             if (each.first != each.second)
                 self_contact_->crossed.emplace_back(each.first, each.second);
-            else
+            else if (!(each.untied > 0))
                 self_contact_->first_unproved = 0;
         if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
             self_contact_->last_crossed = 0;

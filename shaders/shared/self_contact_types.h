@@ -34,15 +34,15 @@ const int self_rounds = 3;
 
 /// Index into the sizes of indirect dispatches that a pass takes; a pass of several rounds or levels has one for each.
 /// The one for a search is no size: x says whether there is one in this substep, w how many workgroups have come to the
-/// end of the pass that asks for it, as beside the size of the tree. A pass is dispatched only for entries that exist: an invocation without work costs the default device as much as one
-/// with.
+/// end of the pass that asks for it, as beside the size of the tree. A pass is dispatched only for entries that exist:
+/// an invocation without work costs the default device as much as one with.
 const int self_size_search = 0, self_size_tree = 1, self_size_blocks = 2, self_size_primitives = self_size_blocks + 1,
           self_size_pairs = self_size_primitives + 1,
           self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
           self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
 
-/// This moved a particle since contact looked at its motion: nothing (0), contact, a collider that led it out of an
-/// overlap, or both.
+/// By these a particle was moved since contact gathered its motion; 0 is by nothing. A collider leads it out of an
+/// overlap.
 const float self_pushed = 1.0f, self_led_out = 2.0f, self_pushed_and_led = 3.0f;
 
 /// A pair that touches in this substep, or would.

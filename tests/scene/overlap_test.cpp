@@ -176,7 +176,7 @@ TEST(StartCrossingTest, IsSaidOfClothsThatMeet) {
                 ElementsAre(HasSubstr("are set to touch, but will pass through each other")));
 }
 
-TEST(StartCrossingTest, OfAClothWithItselfIsSaid) {
+TEST(StartCrossingTest, OfAClothWithItselfIsUntiedAndSaid) {
     const auto warned = [](const std::string& placement) {
         const SceneResult read =
             crossing(beside, {"/cloths/0/placement/" + placement, "/cloths/1/placement/origin=[9,9,9]"});
@@ -184,9 +184,10 @@ TEST(StartCrossingTest, OfAClothWithItselfIsSaid) {
         for (const SceneError& warning : read.warnings) texts += warning.text() + "\n";
         return texts;
     };
-    const auto through_itself =
-        HasSubstr("/cloths/0/placement: cloth \"sheet\" starts through itself: no frame is proved");
-    EXPECT_THAT(warned("jitter=0.3"), through_itself);
+    EXPECT_THAT(
+        warned("jitter=0.3"),
+        HasSubstr("/cloths/0/placement: cloth \"sheet\" would start through itself by its jitter: particles start "
+                  "nearer to their places, by up to 0."));
     EXPECT_THAT(warned("scale=[0.01,0.01]"), IsEmpty());
     EXPECT_THAT(warned("scale=[-1,1]"), IsEmpty());
     EXPECT_THAT(warned("jitter=0.03"), IsEmpty());
