@@ -9,8 +9,8 @@
 namespace drape::glsl {
 #endif
 
-/// A workgroup has so many by so many invocations to make the tree of boxes, each with 4 x 4 cells: so many a side, which
-/// are one box at the level named.
+/// A workgroup has so many by so many invocations to make the tree of boxes, each with 4 x 4 cells: so many a side,
+/// which are one box at the level named.
 const int self_tile_side = 8, self_tile_cells = 4 * self_tile_side, self_tile_top = 5;
 /// Units of a weight in 1: integers, so that atomic sums are exact in any order.
 const float self_weight_units = 65536.0f;
@@ -37,9 +37,9 @@ const int self_rounds = 3;
 /// end of the pass that asks for it, as beside the size of the tree. A pass is dispatched only for entries that exist:
 /// an invocation without work costs the default device as much as one with.
 const int self_size_search = 0, self_size_tree = 1, self_size_blocks = 2, self_size_primitives = self_size_blocks + 1,
-          self_size_pairs = self_size_primitives + 1,
-          self_size_contact = self_size_pairs + 1, self_size_push = self_size_contact + 1,
-          self_size_limit = self_size_push + 1, self_size_count = self_size_limit + self_rounds;
+          self_size_pairs = self_size_primitives + 1, self_size_contact = self_size_pairs + 1,
+          self_size_push = self_size_contact + 1, self_size_limit = self_size_push + 1,
+          self_size_count = self_size_limit + self_rounds;
 
 /// By these a particle was moved since contact gathered its motion; 0 is by nothing. A collider leads it out of an
 /// overlap.

@@ -99,8 +99,8 @@ struct CollisionPush {
     vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction coefficient; z:
                    // depth, m, under which a contact asks for no further round; w: m that a substep resolves of an
                    // overlap that was there before
-    ivec2 grid;         // columns, rows
-    int first;          // first collider of this substep
+    ivec2 grid;    // columns, rows
+    int first;     // first collider of this substep
     int sheet_columns;  // after contact between cloths: columns of their sheet (shared/self_contact_types.h)
     ivec2 laid;         // and where this one lies on it
     ivec2 unused;
