@@ -18,10 +18,6 @@ namespace {
 const ContactRow& row_of(ContactField field) { return contact_fields()[static_cast<std::size_t>(field)]; }
 std::string name_of(ContactField field) { return resource_name(row_of(field)); }
 
-/// A pair of primitives, in an order of its own.
-using PairKey = std::tuple<bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-PairKey key_of(bool edges, const glsl::uvec4& all) { return {edges, all.x, all.y, all.z, all.w}; }
-
 /// A list of the device has one kind of entry from its beginning and the other, edges, from its end.
 template <class T, class Visit>
 void for_both(std::vector<T>& list, std::uint32_t points, std::uint32_t edges, const Visit& visit) {
@@ -39,19 +35,22 @@ std::array<std::uint32_t, 2> words_of(std::int64_t units, bool wide) {
     return {static_cast<std::uint32_t>(bits & 0xfffffu), static_cast<std::uint32_t>(units >> 20)};
 }
 
-/// Returns whether a step may write a place of this owner.
-bool concerns(const Step& step, int owner) {
-    return owner >= 0 && (step.cloth == between_cloths || step.cloth == static_cast<std::size_t>(owner));
+}  // namespace
+
+bool ContactMirror::concerns(const Step& step, const TwinContact& twin, std::size_t place) const {
+    const int owner = twin.owners[place];
+    return owner >= 0 && (step.cloth == between_cloths || step.cloth == static_cast<std::size_t>(owner)) &&
+           !turned_places_.contains(place);
 }
 
-std::map<PairKey, SelfTouch> touching_of(const TwinContact& twin) {
+std::map<ContactMirror::PairKey, SelfTouch> ContactMirror::touching_of(const TwinContact& twin) {
     std::map<PairKey, SelfTouch> all;
     for (const TwinTouch& each : twin.touching) all.emplace(key_of(each.edges, each.touch.corners), each.touch);
     return all;
 }
 
 /// Returns for every pair of either set whether each of them has it.
-FieldPair membership(const char* name, const std::set<PairKey>& device, const std::set<PairKey>& twin) {
+FieldPair ContactMirror::membership(const char* name, const std::set<PairKey>& device, const std::set<PairKey>& twin) {
     std::set<PairKey> all = device;
     all.insert(twin.begin(), twin.end());
     FieldPair pair{.name = name};
@@ -62,7 +61,16 @@ FieldPair membership(const char* name, const std::set<PairKey>& device, const st
     return pair;
 }
 
-}  // namespace
+void ContactMirror::keep_turned(const std::set<PairKey>& device, const std::set<PairKey>& twin) {
+    std::vector<PairKey> apart;
+    std::ranges::set_symmetric_difference(device, twin, std::back_inserter(apart));
+    for (const PairKey& key : apart) {
+        turned_.insert(key);
+        const auto& [edges, a, b, c, d] = key;
+        for (const std::uint32_t corner : {a, b, c, d})
+            turned_places_.insert((corner >> 16) * static_cast<std::size_t>(contact_.push.grid.x) + (corner & 0xffffu));
+    }
+}
 
 template <class T>
 std::vector<T> ContactMirror::list(ContactField field) const {
@@ -140,7 +148,8 @@ void ContactMirror::upload_borne(const TwinContact& twin) const {
 }
 
 void ContactMirror::add_fields(const Step& step, const Names& written, const TwinContact& twin,
-                               std::vector<FieldPair>& fields) const {
+                               std::vector<FieldPair>& fields) {
+    if (step.kind == StepKind::self_common) turned_.clear(), turned_places_.clear();
     const auto wrote = [&](ContactField field) { return written.contains(name_of(field)); };
     const bool touches = !twin.touching.empty();
     if (wrote(ContactField::positions))
@@ -158,8 +167,8 @@ void ContactMirror::add_fields(const Step& step, const Names& written, const Twi
         add_places(step, ContactField::made_good, list<vec4>(ContactField::made_good), twin.made_good, twin, fields);
     if (step.kind == StepKind::self_pairs) add_pairs(twin, fields);
     if (wrote(ContactField::touching) && step.kind != StepKind::self_pairs) add_touching(twin, fields);
-    if (wrote(ContactField::sums) && step.kind != StepKind::self_primitives && touches) add_sums(twin, fields);
-    if (step.kind == StepKind::self_limit) add_shares(twin, step.push<glsl::SelfContactPush>().round, fields);
+    if (wrote(ContactField::sums) && step.kind != StepKind::self_primitives && touches) add_sums(step, twin, fields);
+    if (step.kind == StepKind::self_limit) add_shares(step, twin, fields);
     if (step.kind == StepKind::self_contact && step.push<glsl::SelfContactPush>().round == glsl::self_iterations - 1)
         add_borne(twin, fields);
     if (step.kind == StepKind::self_crossings || step.kind == StepKind::self_apart) add_crossings(step, twin, fields);
@@ -173,7 +182,7 @@ void ContactMirror::add_places(const Step& step, ContactField field, const std::
     // Velocities of particles that contact did not move are left over from earlier substeps.
     const bool of_moved = field == ContactField::velocities || field == ContactField::made_good;
     for (std::size_t place = 0; place < twin.size(); ++place) {
-        if (!concerns(step, about.owners[place]) || (of_moved && about.before[place].w == 0.0f)) continue;
+        if (!concerns(step, about, place) || (of_moved && about.before[place].w == 0.0f)) continue;
         if (field == ContactField::displacements)  // the device has more bits in w
             texels.add(xyz(device[place]), xyz(twin[place]));
         else
@@ -197,7 +206,7 @@ void ContactMirror::add_supports(const Step& step, const TwinContact& twin, std:
     TexelPairs planes("contact supports", 0, edge_), grips("contact grips", edge_);
     const auto supports = list<vec4>(ContactField::supports);
     for (std::size_t place = 0; place < twin.supports.size(); ++place) {
-        if (!concerns(step, twin.owners[place])) continue;
+        if (!concerns(step, twin, place)) continue;
         planes.add(supports[2 * place], twin.supports[place].plane);
         grips.add(supports[2 * place + 1], twin.supports[place].grip);
     }
@@ -205,7 +214,7 @@ void ContactMirror::add_supports(const Step& step, const TwinContact& twin, std:
     grips.put_into(fields);
 }
 
-void ContactMirror::add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields) const {
+void ContactMirror::add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields) {
     std::set<PairKey> theirs, ours, theirs_touching, ours_touching;
     for (const TwinPair& pair : twin.pairs) theirs.insert(key_of(pair.edges, pair.corners));
     for (const TwinTouch& each : twin.touching) theirs_touching.insert(key_of(each.edges, each.touch.corners));
@@ -218,6 +227,8 @@ void ContactMirror::add_pairs(const TwinContact& twin, std::vector<FieldPair>& f
              [&](bool edges, const SelfTouch& touch) { ours_touching.insert(key_of(edges, touch.corners)); });
     fields.push_back(membership("contact pairs", ours, theirs));
     fields.push_back(membership("contact touching pairs", ours_touching, theirs_touching));
+    keep_turned(ours, theirs);
+    keep_turned(ours_touching, theirs_touching);
 }
 
 void ContactMirror::add_touching(const TwinContact& twin, std::vector<FieldPair>& fields) const {
@@ -242,14 +253,14 @@ void ContactMirror::add_touching(const TwinContact& twin, std::vector<FieldPair>
     impulses.put_into(fields);
 }
 
-void ContactMirror::add_sums(const TwinContact& twin, std::vector<FieldPair>& fields) const {
+void ContactMirror::add_sums(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
     const bool wide = device_.wide_atomics();
     const auto all = list<glsl::SelfSum>(ContactField::sums);
     FieldPair units{.name = "contact sums",
                     .least_scale = edge_ * glsl::self_units_per_impulse(contact_.push.thickness)};
     FieldPair weights{.name = "contact sums of weights"};
     for (std::size_t place = 0; place < twin.sums.size(); ++place) {
-        if (twin.owners[place] < 0) continue;
+        if (!concerns(step, twin, place)) continue;
         for (std::size_t which = 0; which < glsl::self_sum_count; ++which) {
             const glsl::SelfSum& sum = all[which * twin.sums.size() + place];
             const std::int64_t values[] = {units_of(sum.xy.x, sum.xy.y, wide), units_of(sum.xy.z, sum.xy.w, wide),
@@ -266,11 +277,12 @@ void ContactMirror::add_sums(const TwinContact& twin, std::vector<FieldPair>& fi
     fields.push_back(weights);
 }
 
-void ContactMirror::add_shares(const TwinContact& twin, int round, std::vector<FieldPair>& fields) const {
+void ContactMirror::add_shares(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
+    const int round = step.push<glsl::SelfContactPush>().round;
     const auto shares = list<float>(ContactField::shares);
     FieldPair pair{.name = "contact shares", .least_scale = 1};
     for (std::size_t place = 0; place < twin.shares.size(); ++place) {
-        if (twin.owners[place] < 0) continue;
+        if (!concerns(step, twin, place)) continue;
         pair.device.push_back(shares[static_cast<std::size_t>(round) * contact_.place_count() + place]);
         pair.twin.push_back(twin.shares[place]);
     }
@@ -282,10 +294,13 @@ void ContactMirror::add_borne(const TwinContact& twin, std::vector<FieldPair>& f
     const double step = contact_.push.step;
     TexelPairs forces("contact borne", edge_ / (step * step));
     std::set<PairKey> ours, theirs;
-    for (const auto& [key, force] : twin.borne) theirs.insert({key[4] != 0, key[0], key[1], key[2], key[3]});
+    const auto add_known = [this](std::set<PairKey>& pairs, const PairKey& key) {
+        if (!turned_.contains(key)) pairs.insert(key);
+    };
+    for (const auto& [key, force] : twin.borne) add_known(theirs, {key[4] != 0, key[0], key[1], key[2], key[3]});
     for (std::size_t k = 1; k <= all.front().corners.x; ++k) {
         const glsl::uvec4 &corners = all[k].corners, &force = all[k].force;
-        ours.insert(key_of((force.w & 1u) != 0, corners));
+        add_known(ours, key_of((force.w & 1u) != 0, corners));
         const auto found = twin.borne.find({corners.x, corners.y, corners.z, corners.w, force.w & 1u});
         if (found == twin.borne.end()) continue;
         forces.add(
@@ -325,7 +340,7 @@ void ContactMirror::add_record(const Step& step, const TwinContact& twin, std::v
         carried.add(xyz(ours.carried), xyz(theirs.carried));
         carried.put_into(fields);
     }
-    if (step.kind == StepKind::self_move) {
+    if (step.kind == StepKind::self_move && turned_.empty()) {
         fields.push_back(
             {"contact record", {}, {}, {ours.unproved, ours.truncated}, {theirs.unproved, theirs.truncated}});
         fields.push_back({"contact lag",

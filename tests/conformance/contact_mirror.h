@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "field_pair.h"
@@ -25,11 +27,21 @@ class ContactMirror {
     /// Gives a step the twin's state, before the twin takes it: vectors and sums by place, what touching pairs hold,
     /// and what pairs bore. The order of lists, the boxes and the tree stay the device's.
     void upload(const Step& step, const Names& used, const TwinContact& twin) const;
-    /// Adds what a step wrote, and the twin as well.
-    void add_fields(const Step& step, const Names& written, const TwinContact& twin,
-                    std::vector<FieldPair>& fields) const;
+    /// Adds what a step wrote, and the twin as well. Where rounding turned whether a pair is listed, what follows at
+    /// its corners in the substep is left out.
+    void add_fields(const Step& step, const Names& written, const TwinContact& twin, std::vector<FieldPair>& fields);
 
   private:
+    /// A pair of primitives: whether it is two edges, its corners.
+    using PairKey = std::tuple<bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+    static PairKey key_of(bool edges, const glsl::uvec4& all) { return {edges, all.x, all.y, all.z, all.w}; }
+    static std::map<PairKey, glsl::SelfTouch> touching_of(const TwinContact& twin);
+    static FieldPair membership(const char* name, const std::set<PairKey>& device, const std::set<PairKey>& twin);
+    /// Keeps the pairs that one side alone has.
+    void keep_turned(const std::set<PairKey>& device, const std::set<PairKey>& twin);
+    /// Returns whether a place of this owner is to be compared after a step.
+    bool concerns(const Step& step, const TwinContact& twin, std::size_t place) const;
+
     template <class T>
     std::vector<T> list(ContactField field) const;
     std::vector<glsl::vec4> image(ContactField field) const;
@@ -46,10 +58,10 @@ class ContactMirror {
                     std::vector<FieldPair>& fields) const;
     void add_boxes(const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_supports(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
-    void add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields);
     void add_touching(const TwinContact& twin, std::vector<FieldPair>& fields) const;
-    void add_sums(const TwinContact& twin, std::vector<FieldPair>& fields) const;
-    void add_shares(const TwinContact& twin, int round, std::vector<FieldPair>& fields) const;
+    void add_sums(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_shares(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_borne(const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_crossings(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_record(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
@@ -58,6 +70,8 @@ class ContactMirror {
     const SelfContact& contact_;
     const graph::ResourcePool& pool_;
     double edge_ = 0;  ///< the longest of any cloth, m
+    std::set<PairKey> turned_;
+    std::set<std::size_t> turned_places_;  ///< places of their corners
 };
 
 }  // namespace drape::test

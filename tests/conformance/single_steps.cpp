@@ -93,6 +93,26 @@ void add_pair(const FieldRow& row, std::pair<double, double> least, std::span<co
     }
 }
 
+/// Returns which particles lie on something, which rounding may turn: a particle that rests is as deep in a surface as
+/// it may be.
+FieldPair lie_on(std::span<const std::byte> device, std::span<const std::byte> twin) {
+    FieldPair pair{.name = "lies on a surface"};
+    for (const auto& [bytes, lie] : {std::pair{device, &pair.device_integers}, {twin, &pair.twin_integers}})
+        for (const glsl::vec4& plane : list_of<glsl::vec4>(bytes))
+            lie->push_back(plane.x != 0 || plane.y != 0 || plane.z != 0);
+    return pair;
+}
+
+/// Returns a field of texels with the twin's where a decision was turned.
+std::vector<std::byte> without_turned(const FieldPair& decision, std::vector<std::byte> device,
+                                      std::span<const std::byte> twin) {
+    for (std::size_t k = 0; k < decision.twin_integers.size(); ++k)
+        if (decision.device_integers[k] != decision.twin_integers[k])
+            std::ranges::copy(twin.subspan(k * sizeof(glsl::vec4), sizeof(glsl::vec4)),
+                              device.begin() + static_cast<std::ptrdiff_t>(k * sizeof(glsl::vec4)));
+    return device;
+}
+
 /// Sums up in the order of the decision that reads them.
 glsl::ResidualRecord sum_of(const std::vector<glsl::ResidualRecord>& records) {
     std::array<glsl::ResidualRecord, glsl::workgroup_width> lanes{};
@@ -125,14 +145,13 @@ SingleSteps::SingleSteps(const vulkan::Device& device, const SimulationModel& mo
 void SingleSteps::find_singles() {
     const std::vector<Step> steps = solver_.steps();
     all_kernels_ = std::ranges::all_of(steps, [](const Step& step) { return step.kernel == Kernel::plain; });
-    const bool away =
-        std::ranges::any_of(model_.cloths, [](const ClothModel& cloth) { return cloth.scheme.spare_state; });
     std::vector<DeviceStep> device;
     for (const Step& step : steps) device.push_back({step, solver_.cloths_of(step)});
     const std::vector<std::vector<Step>> twin = twin_steps(twin_.steps(), device, model_.cloths.size());
     for (std::size_t k = 0; k < device.size(); ++k) {
         const auto& [step, cloths] = device[k];
-        if (step.kind != StepKind::advance || !away || !all_kernels_) singles_.push_back(std::make_unique<Single>());
+        const bool turned = all_kernels_ && k > 0 && device[k - 1].step.kind == StepKind::explicit_step;
+        if (step.kind != StepKind::advance || !turned) singles_.push_back(std::make_unique<Single>());
         Single& single = *singles_.back();
         single.steps.push_back(step);
         single.cloths = cloths;
@@ -184,6 +203,7 @@ void SingleSteps::put(const std::string& name, std::span<const std::byte> bytes)
 std::vector<FieldPair> SingleSteps::fields(const Single& single) {
     std::vector<FieldPair> fields;
     for (const std::size_t cloth : single.cloths) {
+        FieldPair lies;
         for (const FieldRow& row : cloth_fields()) {
             const graph::Handle handle = single.after[cloth][row.field];
             if (!handle.valid() || !mirrored(row) || spare(row)) continue;
@@ -194,7 +214,11 @@ std::vector<FieldPair> SingleSteps::fields(const Single& single) {
             bytes.resize(expected.size());
             vulkan::download(device_, pool_->image(name), bytes);
             const double length = length_of(single.step().kind, model_.cloths[cloth], twin_.cloth(cloth));
-            add_pair(row, least_scales(row.field, twin_.cloth(cloth), length), bytes, expected, fields);
+            if (single.step().kind == StepKind::collide && row.field == Field::support)
+                fields.push_back(lies = lie_on(bytes, expected));
+            const bool of_support = row.field == Field::support || row.field == Field::support_grip;
+            add_pair(row, least_scales(row.field, twin_.cloth(cloth), length),
+                     of_support ? without_turned(lies, bytes, expected) : bytes, expected, fields);
         }
         add_decision(single, cloth, fields);
     }
@@ -233,7 +257,7 @@ void SingleSteps::run_frame(std::uint32_t frame, const Visit& visit) {
     for (const auto& single : singles_) {
         if (single->runs()) run(*single);
         for (const Step& step : single->twin) twin_.run_step(step, inputs);
-        if (single->runs()) visit(single->step(), fields(*single));
+        if (single->runs()) visit(single->steps, fields(*single));
     }
 }
 

@@ -24,14 +24,14 @@ class SingleSteps {
     /// where the device has not what a kernel needs.
     SingleSteps(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels, Twin& twin);
 
-    /// Gets the fields that a step wrote.
-    using Visit = std::function<void(const Step& step, const std::vector<FieldPair>& fields)>;
+    /// Gets the fields that a step wrote, or a frame's last two together.
+    using Visit = std::function<void(const std::vector<Step>& steps, const std::vector<FieldPair>& fields)>;
     /// Takes device and twin from frame - 1 to `frame`.
     void run_frame(std::uint32_t frame, const Visit& visit);
 
   private:
     /// A step as a graph of its own, which is empty where the device leaves the step out. What a frame ends with is one
-    /// with the step before it, where that may have left the state in the spare images.
+    /// with an explicit step before it, which may have left the state in the spare images.
     struct Single {
         std::vector<Step> steps{}, twin{};  ///< the device's, the twin's
         std::vector<std::size_t> cloths{};

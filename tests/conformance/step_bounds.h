@@ -17,13 +17,13 @@ enum class Chain : std::uint8_t {
 };
 
 /// A bound counts units of the last place of a float, at the magnitude of the field's largest number (FieldPair): what
-/// is smaller is a difference of such numbers and has their rounding. Integers must be the same.
+/// is smaller is a difference of such numbers and has their rounding. What follows from a decision that rounding turned
+/// is not compared.
 struct StepBound {
     StepKind kind;
     double units;  ///< 0: the same numbers; below 0: the twin has no such step
     Chain chain;
-    /// So many of a thousand numbers, or integers, may be farther off: where rounding turned a decision.
-    double turned;
+    double turned;  ///< so many of a thousand integers, which are decisions, rounding may turn
     std::string_view reason;
 
     /// Its work is seen in a later step only.

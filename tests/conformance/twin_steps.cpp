@@ -14,7 +14,7 @@ class Lane {
     /// Takes the steps of one of the device's, before the `next` one of the lane; null: all that are left.
     std::vector<Step> take(const Step& step, const Step* next) {
         std::size_t end = begin_of(step, begin_);
-        // Of several substeps at once it does the last one's, too.
+        // Several substeps at once end with the last one.
         for (std::uint32_t k = 1; k < step.count && end < steps_.size(); ++k) {
             Step later = step;
             later.substep += k;
