@@ -92,13 +92,12 @@ void ContactMirror::put(ContactField field, std::span<const std::byte> bytes) co
 
 void ContactMirror::upload(const Step& step, const Names& used, const TwinContact& twin) const {
     const auto uses = [&](ContactField field) { return used.contains(name_of(field)); };
-    if (step.kind == StepKind::self_common) upload_borne(twin);
-    if (uses(ContactField::displacements) && step.kind != StepKind::self_gather &&
-        step.kind != StepKind::self_gather_again)
-        upload_displacements(twin);
+    if (step.kind == StepKind::self_boxes) upload_borne(twin);
+    if (uses(ContactField::displacements) && step.kind != StepKind::self_gather) upload_displacements(twin);
     for (const auto& [field, values] : {std::pair{ContactField::before, &twin.before},
                                         {ContactField::velocities, &twin.velocities},
-                                        {ContactField::made_good, &twin.made_good}})
+                                        {ContactField::made_good, &twin.made_good},
+                                        {ContactField::led_ways, &twin.led_ways}})
         if (uses(field) && !values->empty()) put(field, std::as_bytes(std::span(*values)));
     if (uses(ContactField::crossings) && step.kind == StepKind::self_apart)
         put(ContactField::crossings, std::as_bytes(std::span(twin.crossings)));
@@ -149,7 +148,7 @@ void ContactMirror::upload_borne(const TwinContact& twin) const {
 
 void ContactMirror::add_fields(const Step& step, const Names& written, const TwinContact& twin,
                                std::vector<FieldPair>& fields) {
-    if (step.kind == StepKind::self_common) turned_.clear(), turned_places_.clear();
+    if (step.kind == StepKind::self_gather) turned_.clear(), turned_places_.clear();
     const auto wrote = [&](ContactField field) { return written.contains(name_of(field)); };
     const bool touches = !twin.touching.empty();
     if (wrote(ContactField::positions))
@@ -165,8 +164,10 @@ void ContactMirror::add_fields(const Step& step, const Names& written, const Twi
         add_places(step, ContactField::velocities, list<vec4>(ContactField::velocities), twin.velocities, twin, fields);
     if (wrote(ContactField::made_good))
         add_places(step, ContactField::made_good, list<vec4>(ContactField::made_good), twin.made_good, twin, fields);
+    if (wrote(ContactField::led_ways))
+        add_places(step, ContactField::led_ways, list<vec4>(ContactField::led_ways), twin.led_ways, twin, fields);
     if (step.kind == StepKind::self_pairs) add_pairs(twin, fields);
-    if (wrote(ContactField::touching) && step.kind != StepKind::self_pairs) add_touching(twin, fields);
+    if (wrote(ContactField::touching)) add_touching(twin, fields);
     if (wrote(ContactField::sums) && step.kind != StepKind::self_primitives && touches) add_sums(step, twin, fields);
     if (step.kind == StepKind::self_limit) add_shares(step, twin, fields);
     if (step.kind == StepKind::self_contact && step.push<glsl::SelfContactPush>().round == glsl::self_iterations - 1)
@@ -179,10 +180,12 @@ void ContactMirror::add_places(const Step& step, ContactField field, const std::
                                const std::vector<vec4>& twin, const TwinContact& about,
                                std::vector<FieldPair>& fields) const {
     TexelPairs texels("contact " + std::string(row_of(field).name), edge_);
-    // Velocities of particles that contact did not move are left over from earlier substeps.
-    const bool of_moved = field == ContactField::velocities || field == ContactField::made_good;
+    // What contact did not move has values left over from earlier substeps.
+    const bool of_moved = field == ContactField::velocities || field == ContactField::made_good,
+               of_led = field == ContactField::led_ways;
     for (std::size_t place = 0; place < twin.size(); ++place) {
         if (!concerns(step, about, place) || (of_moved && about.before[place].w == 0.0f)) continue;
+        if (of_led && about.before[place].w < glsl::self_led_out) continue;
         if (field == ContactField::displacements)  // the device has more bits in w
             texels.add(xyz(device[place]), xyz(twin[place]));
         else
@@ -335,12 +338,12 @@ void ContactMirror::add_crossings(const Step& step, const TwinContact& twin, std
 
 void ContactMirror::add_record(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
     const glsl::SelfRecord ours = record(), &theirs = twin.record;
-    if (step.kind == StepKind::self_common) {
+    if (step.kind == StepKind::self_gather && step.push<glsl::SelfClothPush>().cloth_count > 0) {
         TexelPairs carried("contact carried", edge_);
         carried.add(xyz(ours.carried), xyz(theirs.carried));
         carried.put_into(fields);
     }
-    if (step.kind == StepKind::self_move && turned_.empty()) {
+    if (step.kind == StepKind::self_return && turned_.empty()) {
         fields.push_back(
             {"contact record", {}, {}, {ours.unproved, ours.truncated}, {theirs.unproved, theirs.truncated}});
         fields.push_back({"contact lag",

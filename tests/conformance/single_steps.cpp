@@ -19,8 +19,9 @@ std::vector<std::string> names_of(const graph::Graph& graph, graph::Handle handl
     return resource.image.slices;
 }
 
-/// The field in which the twin, which has no spare tension, keeps what the device may have in another.
+/// The field in which the twin, which has no spare tension or control, keeps what the device may have in another.
 Field twin_field(Field field) {
+    if (field == Field::line_control_spare) return Field::line_control;
     for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
         if (field == tension_spare_of(direction)) return tension_of(direction);
     return field;
