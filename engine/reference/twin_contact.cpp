@@ -71,8 +71,7 @@ void run_box_edges(const TwinPlace& where) {
 /// cloths has left on the sheet.
 vec3 displacement_before_colliders(const TwinPlace& where, std::size_t particle) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    if (step.after_impulses)
-        return xyz(meeting->displacements[place_on_sheet(step.push<SelfClothPush>(), particle)]);
+    if (step.after_impulses) return xyz(meeting->displacements[place_on_sheet(step.push<SelfClothPush>(), particle)]);
     return xyz(state[step.after_edges ? Field::lifted : Field::displacement][particle]);
 }
 

@@ -1,6 +1,6 @@
 // The frame's and the cloth's constants that fragments of lit surfaces read. On a CPU they go with the triangle as flat
-// inputs, which are one value each: its compiler loads a buffer's constants, and pushed ones, lane by lane in fragments.
-// On a GPU, which takes every input lane by lane, they are read where they are (docs/devices.md).
+// inputs, which are one value each: its compiler loads a buffer's constants, and pushed ones, lane by lane in
+// fragments. On a GPU, which takes every input lane by lane, they are read where they are (docs/devices.md).
 #ifndef DRAPE_LIT_CONSTANTS_H
 #define DRAPE_LIT_CONSTANTS_H
 

@@ -6,8 +6,7 @@
 layout(constant_id = 21) const int picture_width = 1280;
 layout(constant_id = 22) const int picture_height = 720;
 layout(constant_id = 23) const int tile_shift = 5;  // two to this power is a tile's side, pixels
-const ivec2 tile_counts =
-    ivec2(((picture_width - 1) >> tile_shift) + 1, ((picture_height - 1) >> tile_shift) + 1);
+const ivec2 tile_counts = ivec2(((picture_width - 1) >> tile_shift) + 1, ((picture_height - 1) >> tile_shift) + 1);
 
 int tile_at(ivec2 tile) { return tile.y * tile_counts.x + tile.x; }
 

@@ -180,7 +180,7 @@ void ContactMirror::add_places(const Step& step, ContactField field, const std::
                                const std::vector<vec4>& twin, const TwinContact& about,
                                std::vector<FieldPair>& fields) const {
     TexelPairs texels("contact " + std::string(row_of(field).name), edge_);
-    // What contact did not move has values left over from earlier substeps.
+    // Places that contact did not move have values left over from earlier substeps.
     const bool of_moved = field == ContactField::velocities || field == ContactField::made_good,
                of_led = field == ContactField::led_ways;
     for (std::size_t place = 0; place < twin.size(); ++place) {

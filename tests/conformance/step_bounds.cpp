@@ -43,7 +43,8 @@ const std::vector<StepBound>& step_bounds() {
         {self_apart, 8, fixed, 0, "two divisions"},
         {self_primitives, -1, fixed, 0, "as self_tree"},
         {self_pairs, 128, fixed, 50,
-         "three divisions and a root of a distance that is a part of the edges; which pairs are within reach, and edges "
+         "three divisions and a root of a distance that is a part of the edges; which pairs are within reach, and "
+         "edges "
          "that lie along each other are nearest anywhere"},
         {self_contact, 128, fixed, 0, "as self_pairs"},
         {self_push, 16, fixed, 0, "of the sums, which are integers"},

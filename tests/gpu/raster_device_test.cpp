@@ -1,4 +1,4 @@
-// What the raster pass does in another way on other devices makes the same picture.
+// The raster pass makes the same picture where it works in another way, as on other devices.
 #include <gtest/gtest.h>
 
 #include "raster_picture.h"
