@@ -19,6 +19,12 @@ std::vector<std::string> names_of(const graph::Graph& graph, graph::Handle handl
     return resource.image.slices;
 }
 
+/// Returns where a slice of so many bytes begins in its image, whose slices lie below each other.
+std::ptrdiff_t first_of(const graph::Resource& resource, const std::string& slice, std::size_t bytes) {
+    const auto& slices = resource.image.slices;
+    return (std::ranges::find(slices, slice) - slices.begin()) * static_cast<std::ptrdiff_t>(bytes);
+}
+
 /// The field in which the twin, which has no spare tension or control, keeps what the device may have in another.
 Field twin_field(Field field) {
     if (field == Field::line_control_spare) return Field::line_control;
@@ -189,16 +195,33 @@ void SingleSteps::upload(const Single& single) {
             if (!handle.valid() || !mirrored(row) || marked(row)) continue;
             const std::span<const std::byte> bytes = twin_.cloth(cloth).bytes(twin_field(row.field));
             for (const std::string& name : names_of(single.graph, handle))
-                if (single.used.contains(name) && !bytes.empty()) put(name, bytes);
+                if (single.used.contains(name) && !bytes.empty()) put(single, handle, name, bytes);
         }
     if (contact_) contact_->upload(single.step(), single.used, twin_.contact());
 }
 
-void SingleSteps::put(const std::string& name, std::span<const std::byte> bytes) {
+void SingleSteps::put(const Single& single, graph::Handle handle, const std::string& name,
+                      std::span<const std::byte> bytes) {
     std::vector<std::byte>& held = held_[name];
     if (std::ranges::equal(held, bytes)) return;
     held.assign(bytes.begin(), bytes.end());
-    vulkan::upload(device_, pool_->image(name), bytes);
+    const graph::Resource& resource = single.graph.resources()[handle.resource];
+    const vulkan::Image& image = pool_->image(resource.name);
+    if (resource.image.slices.empty()) return vulkan::upload(device_, image, bytes);
+    std::vector<std::byte> whole(bytes.size() * resource.image.slices.size());
+    vulkan::download(device_, image, whole);
+    std::ranges::copy(bytes, whole.begin() + first_of(resource, name, bytes.size()));
+    vulkan::upload(device_, image, whole);
+}
+
+void SingleSteps::get(const Single& single, graph::Handle handle, const std::string& name,
+                      std::vector<std::byte>& bytes) const {
+    const graph::Resource& resource = single.graph.resources()[handle.resource];
+    const vulkan::Image& image = pool_->image(resource.name);
+    if (resource.image.slices.empty()) return vulkan::download(device_, image, bytes);
+    std::vector<std::byte> whole(bytes.size() * resource.image.slices.size());
+    vulkan::download(device_, image, whole);
+    std::copy_n(whole.begin() + first_of(resource, name, bytes.size()), bytes.size(), bytes.begin());
 }
 
 std::vector<FieldPair> SingleSteps::fields(const Single& single) {
@@ -213,7 +236,7 @@ std::vector<FieldPair> SingleSteps::fields(const Single& single) {
             if (!single.written.contains(name) || expected.empty()) continue;
             std::vector<std::byte>& bytes = held_[name];
             bytes.resize(expected.size());
-            vulkan::download(device_, pool_->image(name), bytes);
+            get(single, handle, name, bytes);
             const double length = length_of(single.step().kind, model_.cloths[cloth], twin_.cloth(cloth));
             if (single.step().kind == StepKind::collide && row.field == Field::support)
                 fields.push_back(lies = lie_on(bytes, expected));

@@ -49,7 +49,9 @@ class SingleSteps {
     void run(Single& single);
     void upload(const Single& single);
     /// Uploads what the image does not hold already.
-    void put(const std::string& name, std::span<const std::byte> bytes);
+    /// Uploads and downloads a cloth's field, which is an image or, where cloths are together, a slice of one.
+    void put(const Single& single, graph::Handle handle, const std::string& name, std::span<const std::byte> bytes);
+    void get(const Single& single, graph::Handle handle, const std::string& name, std::vector<std::byte>& bytes) const;
     std::vector<FieldPair> fields(const Single& single);
     /// Adds what a step of a cloth left beside its images.
     void add_decision(const Single& single, std::size_t cloth, std::vector<FieldPair>& fields) const;
