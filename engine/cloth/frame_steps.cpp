@@ -96,7 +96,8 @@ class ContactSteps {
             add_one(kind);
         if (!contact_.to_part.empty())
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
-        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs}) add_one(kind);
+        for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})
+            add_one(kind);
         for (push.round = 0; push.round < glsl::self_iterations; ++push.round) add_one(StepKind::self_contact);
         add_one(StepKind::self_push);
         if (!model_.scene.colliders.empty()) collide();

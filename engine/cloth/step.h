@@ -47,6 +47,7 @@ enum class StepKind {
     self_apart,
     self_primitives,
     self_pairs,
+    self_begin,
     self_contact,
     self_push,
     self_limit,

@@ -455,7 +455,7 @@ void cut_short(TwinContact& contact, std::size_t cloth) {
 
 void Twin::run_contact(const Step& step) {
     // The twin tries all pairs of cells, so it has no search: none of self_tree to self_near,
-    // and no self_primitives.
+    // and no self_primitives. What `self_begin` does belongs to its `self_pairs`.
     static constexpr std::pair<StepKind, void (ContactStep::*)()> rows[] = {
         {StepKind::self_boxes, &ContactStep::boxes},     {StepKind::self_crossings, &ContactStep::crossings},
         {StepKind::self_apart, &ContactStep::apart},     {StepKind::self_pairs, &ContactStep::pairs},

@@ -167,7 +167,7 @@ void ContactMirror::add_fields(const Step& step, const Names& written, const Twi
     if (wrote(ContactField::led_ways))
         add_places(step, ContactField::led_ways, list<vec4>(ContactField::led_ways), twin.led_ways, twin, fields);
     if (step.kind == StepKind::self_pairs) add_pairs(twin, fields);
-    if (wrote(ContactField::touching)) add_touching(twin, fields);
+    if (wrote(ContactField::touching) && step.kind != StepKind::self_pairs) add_touching(twin, fields);
     if (wrote(ContactField::sums) && step.kind != StepKind::self_primitives && touches) add_sums(step, twin, fields);
     if (step.kind == StepKind::self_limit) add_shares(step, twin, fields);
     if (step.kind == StepKind::self_contact && step.push<glsl::SelfContactPush>().round == glsl::self_iterations - 1)

@@ -42,13 +42,12 @@ const std::vector<StepBound>& step_bounds() {
         {self_crossings, 8, fixed, 0, "integers"},
         {self_apart, 8, fixed, 0, "two divisions"},
         {self_primitives, -1, fixed, 0, "as self_tree"},
-        {self_pairs, 128, fixed, 50,
-         "three divisions and a root of a distance that is a part of the edges; which pairs are within reach, and "
-         "edges "
-         "that lie along each other are nearest anywhere"},
-        {self_contact, 128, fixed, 0, "as self_pairs"},
+        {self_pairs, 0, fixed, 50,
+         "which pairs are within reach; edges that lie along each other are nearest anywhere"},
+        {self_begin, 128, fixed, 0, "three divisions and a root of a distance that is a part of the edges"},
+        {self_contact, 128, fixed, 0, "as self_begin"},
         {self_push, 16, fixed, 0, "of the sums, which are integers"},
-        {self_limit, 128, fixed, 0, "as self_pairs"},
+        {self_limit, 128, fixed, 0, "as self_begin"},
         {self_return, 16, fixed, 0, "products and a division"},
     };
     return bounds;
