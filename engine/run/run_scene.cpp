@@ -386,6 +386,17 @@ void end_with_manifest(OutputFolder& folder, Manifest& manifest, const std::opti
     if (!failure || failure->frame) checkpoints.remove_all();
 }
 
+/// Returns what a run is warned of when all of its frames are there.
+std::vector<std::string> closing_warnings(const Simulation& simulation, Sink& sink) {
+    std::vector<std::string> warnings;
+    for (const auto& warning :
+         {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()), lost_proof(simulation),
+          still_crossed(simulation), held_back(simulation), simulation.possible_passage()})
+        if (warning) warnings.push_back(*warning);
+    for (const std::string& warning : simulation.verdict().warnings) warnings.push_back(warning);
+    return warnings;
+}
+
 }  // namespace
 
 RunSummary run_scene(const RunRequest& request) {
@@ -432,11 +443,7 @@ RunSummary run_scene(const RunRequest& request) {
         const RunParts run{request, missing, simulation,         sink,   checkpoints ? &*checkpoints : nullptr,
                            summary, failure, earlier_validation, device, progress};
         summary.complete = run_missing(run, from, range);
-        for (const auto& warning :
-             {missed_limits(simulation.facts(), *sink.statistics(), simulation.verdict()), lost_proof(simulation),
-              still_crossed(simulation), held_back(simulation), simulation.possible_passage()})
-            if (warning) warn(*warning);
-        for (const std::string& warning : simulation.verdict().warnings) warn(warning);
+        std::ranges::for_each(closing_warnings(simulation, sink), warn);
         manifest.warnings = summary.warnings;
         manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
         describe_contact(manifest, simulation, sink.cuts());
