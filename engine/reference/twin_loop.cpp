@@ -51,7 +51,10 @@ TwinLoop::TwinLoop(const SimulationModel& model)
       sleep_(model),
       drive_(model),
       state_(model),
-      state_substeps_(model.scene.solver.substeps) {}
+      companion_(model),
+      state_substeps_(model.scene.solver.substeps),
+      companion_substeps_(state_substeps_),
+      position_error_(model) {}
 
 const SimulationModel& TwinLoop::at(std::uint32_t substeps) {
     std::unique_ptr<SimulationModel>& run = runs_[substeps];
@@ -69,12 +72,29 @@ std::vector<ClothStatistics> TwinLoop::statistics(Twin& twin, std::uint32_t fram
     return all;
 }
 
+std::vector<double> TwinLoop::differences(const Twin& fine, const Twin& coarse) const {
+    std::vector<double> all;
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+        all.push_back(
+            difference_of(partial_differences(model_.cloths[cloth].grid, fine.cloth(cloth), coarse.cloth(cloth))));
+    return all;
+}
+
+/// Simulates the kept segment's frames, which begin with the next one and end with `end`, in the companion.
+void TwinLoop::follow_segment(const Twin& end) {
+    const Segment& segment = control_.segment();
+    const std::uint32_t substeps = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
+    if (substeps != companion_substeps_) companion_.change_substep(at(substeps));
+    companion_substeps_ = substeps;
+    for (std::uint32_t k = 0; k < segment.frame_count; ++k) companion_.run_frame(next_ + k);
+    position_error_.saw(next_ + segment.frame_count - 1, differences(end, companion_), segment.substeps);
+}
+
 double TwinLoop::motion(const Twin& fine, const Twin& coarse) {
     double worst = motion_error_ = 0;
+    const std::vector<double> apart = differences(fine, coarse);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
-        const double apart =
-            difference_of(partial_differences(model_.cloths[cloth].grid, fine.cloth(cloth), coarse.cloth(cloth)));
-        const double error = motion_error(model_, apart, control_.segment().frame_count);
+        const double error = motion_error(model_, apart[cloth], control_.segment().frame_count);
         if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
         worst = std::max(worst, error / motion_limit(model_, cloth));
         motion_error_ = std::max(motion_error_, error);
@@ -121,7 +141,8 @@ void TwinLoop::run(std::uint32_t last,
     using Verdict = SubstepControl::Verdict;
     while (next_ <= last) {
         if (sleep_.asleep(next_)) {
-            finished(next_++, state_, {.attempts = 0, .asleep = true});
+            finished(next_++, state_,
+                     {.attempts = 0, .position_error = position_error_.error(), .asleep = true});
             continue;
         }
         before_ = attempt_statistics_.empty() ? starting_statistics(model_) : attempt_statistics_.back();
@@ -140,6 +161,8 @@ void TwinLoop::run(std::uint32_t last,
         if (control_.segment().probes) effort.motion_error = motion_error_;
         for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, state_substeps_);
         state_ = frames.back();
+        follow_segment(state_);
+        effort.position_error = position_error_.error();
         for (const Twin& twin : frames) finished(next_++, twin, effort);
     }
 }

@@ -15,29 +15,39 @@
 
 namespace drape {
 
-std::span<const AttemptStep> FrameLoop::attempt_steps() const {
+std::span<const AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     using enum AttemptStep;
-    static constexpr std::array all{keep, restore, change_substep, remember, compare};
+    static constexpr std::array all{change_substep, keep, restore, remember, compare, compare_companion};
     static_assert(all.size() == attempt_step_count);
-    if (model_.closed_loop()) return all;
-    return std::span(all).first(model_.self_contact ? 2 : 0);
+    // Contact alone, whose lists may be too short, needs to keep and restore.
+    const bool is_companion = set == StateSet::companion, meets = model_.self_contact.has_value();
+    if (!model_.closed_loop()) return std::span(all).subspan(1, meets && !is_companion ? 2 : 0);
+    return is_companion ? std::span(all).first(meets ? 3 : 1) : all;
+}
+
+template <class Visit>
+void FrameLoop::for_each_attempt(const Visit& visit) {
+    for (std::size_t set = 0; set < state_set_count; ++set)
+        for (const AttemptStep step : attempt_steps(static_cast<StateSet>(set)))
+            visit(attempt(step, static_cast<StateSet>(set)));
 }
 
 void FrameLoop::build_attempts() {
-    for (const AttemptStep step : attempt_steps()) {
-        Frame frame;
-        solver_.declare(frame.graph, {});
-        solver_.add_attempt(frame.graph, step);
-        frame.plan = graph::make_plan(frame.graph);
-        attempts_[static_cast<std::size_t>(step)] = std::move(frame);
-    }
+    for (std::size_t set = 0; set < state_set_count; ++set)
+        for (const AttemptStep step : attempt_steps(static_cast<StateSet>(set))) {
+            Frame frame;
+            solver_.declare(frame.graph, {}, model_, static_cast<StateSet>(set));
+            solver_.add_attempt(frame.graph, step);
+            frame.plan = graph::make_plan(frame.graph);
+            attempt(step, static_cast<StateSet>(set)) = std::move(frame);
+        }
 }
 
-FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps) {
-    Rung& rung = rungs_[substeps];
+FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps, StateSet set) {
+    Rung& rung = rungs_[static_cast<std::size_t>(set)][substeps];
     if (rung.frame.recorded) return rung;
     rung.model = std::make_unique<SimulationModel>(model_, substeps);
-    rung.frame = build(FrameKind::simulate, *rung.model);
+    rung.frame = set == StateSet::run ? build(FrameKind::simulate, *rung.model) : build_companion(*rung.model);
     rung.frame.recorded = recording(rung.frame);
     return rung;
 }
@@ -46,14 +56,11 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& at
     if (asked.stop && asked.stop()) throw Stopped();
     if (options_.on_attempt) options_.on_attempt({run.frame, run.substeps, attempt.number});
     const Rung& rung = this->rung(run.substeps);
-    const auto commands = [&](AttemptStep step) {
-        return attempts_[static_cast<std::size_t>(step)].recorded->commands(slot);
-    };
     std::vector<VkCommandBuffer> all;
-    if (run.before) all.push_back(commands(*run.before));
-    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_substep));
+    if (run.before) all.push_back(commands(*run.before, slot));
+    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_substep, slot));
     all.push_back(rung.frame.recorded->commands(slot));
-    if (run.after) all.push_back(commands(*run.after));
+    if (run.after) all.push_back(commands(*run.after, slot));
     const std::vector<glsl::SubstepChange> changes = substep_changes(model_, state_substeps_, run.substeps);
     std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
@@ -140,7 +147,8 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
 /// with.
 void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
     simulated_ = frame + 1;
-    Judged still{attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}};
+    Judged still{
+        attempt_statistics_.back(), {.attempts = 0, .position_error = position_error_.error(), .asleep = true}, {}};
     for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
     const bool wanted = asked.wanted(frame);
     if (!wanted) pass_over(frame, still.statistics, still.effort);
@@ -215,13 +223,21 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
         note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
+    const std::vector<double> errors = follow_segment(frame, segment.probes ? withhold_ : asked.finished);
+    const auto effort_of = [&](std::uint32_t k) {
+        FrameEffort effort = single.effort;
+        effort.position_error = errors[k];
+        return effort;
+    };
     // Frames behind the last that is asked for are withheld, for they may be wanted then.
     for (std::uint32_t k = 0; k < segment.frame_count && frame + k <= asked.last; ++k)
-        if (!asked.wanted(frame + k)) pass_over(frame + k, attempt_statistics_[k], single.effort);
-    if (!segment.probes)
+        if (!asked.wanted(frame + k)) pass_over(frame + k, attempt_statistics_[k], effort_of(k));
+    if (!segment.probes) {
+        single.effort = effort_of(0);
         return submit_output(frame, std::move(single), frame > asked.last || asked.wanted(frame), asked.finished);
+    }
     deliver_all(withhold_);
-    for (FrameCopy& copy : withheld_) copy.effort() = single.effort;
+    for (FrameCopy& copy : withheld_) copy.effort() = effort_of(copy.frame().frame - frame);
 }
 
 void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {

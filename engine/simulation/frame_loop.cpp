@@ -19,6 +19,8 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       sleep_(model),
       drive_(model),
       state_substeps_(model.scene.solver.substeps),
+      position_error_(model),
+      companion_substeps_(model.scene.solver.substeps),
       slots_(device) {
     if (model_.closed_loop())
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
@@ -56,17 +58,17 @@ void FrameLoop::build_graphs() {
 }
 
 void FrameLoop::allocate_and_record() {
-    rungs_.clear();
+    rungs_ = {};
     build_attempts();
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
     for (const FrameKind kind : kinds()) {
         const Frame& frame = frames_[static_cast<std::size_t>(kind)];
         plans.emplace_back(&frame.graph, &frame.plan);
     }
-    for (const AttemptStep step : attempt_steps()) {
-        const Frame& frame = attempts_[static_cast<std::size_t>(step)];
-        plans.emplace_back(&frame.graph, &frame.plan);
-    }
+    for_each_attempt([&](Frame& frame) { plans.emplace_back(&frame.graph, &frame.plan); });
+    Frame companion;  // its resources are those of every rung
+    if (model_.closed_loop()) companion = build_companion(model_);
+    if (model_.closed_loop()) plans.emplace_back(&companion.graph, &companion.plan);
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     record();
@@ -79,9 +81,9 @@ void FrameLoop::record() {
         Frame& frame = frames_[static_cast<std::size_t>(kind)];
         frame.recorded = recording(frame);
     }
-    for (const AttemptStep step : attempt_steps())
-        if (Frame& frame = attempts_[static_cast<std::size_t>(step)]; !frame.recorded)
-            frame.recorded = recording(frame);
+    for_each_attempt([&](Frame& frame) {
+        if (!frame.recorded) frame.recorded = recording(frame);
+    });
 }
 
 std::unique_ptr<graph::RecordedPlan> FrameLoop::recording(const Frame& frame) const {
@@ -124,7 +126,7 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
 
 void FrameLoop::rebuild_resources(const SimulationState& state) {
     for (Frame& frame : frames_) frame.recorded.reset();
-    rungs_.clear();
+    rungs_ = {};
     attempts_ = {};
     build_graphs();
     allocate_and_record();
@@ -188,7 +190,7 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
     std::vector<VkCommandBuffer> commands;
     if (has.simulates && model_.self_contact)
-        commands.push_back(attempts_[static_cast<std::size_t>(AttemptStep::keep)].recorded->commands(slot));
+        commands.push_back(this->commands(AttemptStep::keep, slot));
     commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
     slots_.submit(slot, commands);
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
@@ -213,7 +215,7 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
 
 void FrameLoop::restore_kept() {
     const std::uint32_t slot = next_slot_;
-    slots_.submit(slot, {attempts_[static_cast<std::size_t>(AttemptStep::restore)].recorded->commands(slot)});
+    slots_.submit(slot, {commands(AttemptStep::restore, slot)});
     slots_.wait(slot);
 }
 

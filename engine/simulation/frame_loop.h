@@ -15,6 +15,7 @@
 #include "cloth/drive.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/frame_steps.h"
+#include "cloth/motion_error.h"
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
@@ -179,10 +180,19 @@ class FrameLoop {
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
     // These are in closed_loop.cpp.
-    /// Returns the steps that the loop takes: all, or where only lists may be too short, keep and restore.
-    std::span<const AttemptStep> attempt_steps() const;
+    /// Returns the steps that the loop takes in a set.
+    std::span<const AttemptStep> attempt_steps(StateSet set) const;
     void build_attempts();
-    Rung& rung(std::uint32_t substeps);
+    Frame& attempt(AttemptStep step, StateSet set = StateSet::run) {
+        return attempts_[static_cast<std::size_t>(set)][static_cast<std::size_t>(step)];
+    }
+    VkCommandBuffer commands(AttemptStep step, std::uint32_t slot, StateSet set = StateSet::run) {
+        return attempt(step, set).recorded->commands(slot);
+    }
+    /// Calls `visit` with the frame of each of them.
+    template <class Visit>
+    void for_each_attempt(const Visit& visit);
+    Rung& rung(std::uint32_t substeps, StateSet set = StateSet::run);
     struct Asked {
         std::uint32_t last;
         const std::function<bool(std::uint32_t)>& wanted;
@@ -217,6 +227,13 @@ class FrameLoop {
     Judged take_judged(std::uint32_t slot, std::uint32_t substeps);
     void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
     void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
+    // These are in companion_run.cpp.
+    Frame build_companion(const SimulationModel& run);
+    /// Simulates the kept segment's frames in the companion. Returns the estimated position error (m) of each.
+    std::vector<double> follow_segment(std::uint32_t frame, const Finished& finished);
+    void submit_companion(std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);
+    /// Whether the companion's frame in the slot had lists of contact that were too short, and has longer ones now.
+    bool lengthen_companions_lists(std::uint32_t slot, const Finished& finished);
     void give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked);
     void release_withheld(std::uint32_t frame, bool wanted, const Finished& finished);
     void pass_over(std::uint32_t frame, const std::vector<ClothStatistics>& statistics, const FrameEffort& effort);
@@ -227,8 +244,8 @@ class FrameLoop {
     ClothSolver solver_;
     ClothRaster raster_;
     std::array<Frame, frame_contents.size()> frames_;
-    std::array<Frame, attempt_step_count> attempts_;
-    std::map<std::uint32_t, Rung> rungs_;  ///< by substeps
+    std::array<std::array<Frame, attempt_step_count>, state_set_count> attempts_;  ///< by set
+    std::array<std::map<std::uint32_t, Rung>, state_set_count> rungs_;  ///< by set and substeps
     std::optional<SubstepControl> control_;
     Watch watch_;
     Sleep sleep_;
@@ -244,6 +261,8 @@ class FrameLoop {
     bool kept_ = false;                      ///< the device has what the segment started from
     std::uint32_t simulated_ = 1;            ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;                ///< the last probe's
+    MotionError position_error_;
+    std::uint32_t companion_substeps_;  ///< substeps of its state's history
     std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
     std::deque<FinishedFrame> passed_over_;  ///< a closed loop's frames that are not wanted and not told of yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };

@@ -38,7 +38,8 @@ std::vector<std::byte> cut_bytes(const CutTopology& topology) {
 
 template <class Archive>
 void FrameLoop::transfer(Archive& archive) {
-    archive(next_frame_, state_substeps_, simulated_, motion_error_);
+    archive(next_frame_, state_substeps_, simulated_, motion_error_, companion_substeps_);
+    if (!position_error_.transfer(archive)) refuse("not as many cloths that have errors");
     if (self_contact_)
         archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
                 self_contact_->longest_lag, self_contact_->first_lagging, self_contact_->lagging_frames,

@@ -82,11 +82,10 @@ void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& s
                      {state.model->grid.columns(), state.model->grid.rows(), state.count}, {&state, nullptr, inputs});
 }
 
-void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
+void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle coarse) {
     const Grid& grid = state.model->grid;
     graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
         difference_readback_name(state.name), difference_count(grid) * state.count, graph::Lifetime::host_output);
-    graph::Handle coarse = copy_of(graph, state, Field::position, coarse_run);
     constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
     add_compute_pass(graph, state.pass_name("compare", "judge"), pipelines.get("difference.comp"),
                      glsl::GridPush{grid.size()}, {grid.columns(), (grid.rows() + rows - 1) / rows, state.count},
@@ -131,7 +130,11 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case AttemptStep::remember:
             return add_remember(graph, state);
         case AttemptStep::compare:
-            return add_compare(graph, pipelines, state);
+            return add_compare(graph, pipelines, state, copy_of(graph, state, Field::position, coarse_run));
+        case AttemptStep::compare_companion:
+            return add_compare(
+                graph, pipelines, state,
+                graph.image(in_set(declaration_of(graph, state[Field::position]), StateSet::companion)));
     }
 }
 

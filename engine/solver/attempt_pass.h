@@ -12,8 +12,9 @@ enum class AttemptStep : std::uint8_t {
     change_substep,  ///< reads `attempt`; reads and writes displacement, end excess and history
     remember,        ///< reads position, writes its copy
     compare,         ///< reads both, writes a record per workgroup for the host
+    compare_companion,  ///< reads position here and in the companion's set, writes likewise
 };
-inline constexpr std::size_t attempt_step_count = 5;
+inline constexpr std::size_t attempt_step_count = 6;
 
 inline constexpr const char* attempt_name = "attempt";
 /// Host output buffer with the differences of a state's cloths (ClothState::name, count), difference_count each.

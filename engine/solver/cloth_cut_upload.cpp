@@ -42,7 +42,9 @@ void upload_change(const graph::ResourcePool& pool, const FieldRow& row, const F
 /// Returns whether the host makes a field that a cut may change.
 bool follows_cuts(const FieldRow& row) { return row.life == FieldLife::constant && row.start != nullptr; }
 
-std::string borne_name() { return resource_name(contact_fields()[static_cast<std::size_t>(ContactField::borne)]); }
+std::string borne_name(StateSet set) {
+    return resource_name(contact_fields()[static_cast<std::size_t>(ContactField::borne)], set);
+}
 
 }  // namespace
 
@@ -69,40 +71,46 @@ void ClothSolver::upload_cut(const graph::ResourcePool& pool, std::size_t cloth,
 
 template <class Visit>
 void ClothSolver::for_state_images(const graph::ResourcePool& pool, const Visit& visit) const {
-    for (const FieldRow& row : cloth_fields()) {
-        if (row.life != FieldLife::state) continue;
-        for (const Together& together : together_)
-            if (const std::string name = resource_name(together.state, row); pool.has(name))
-                visit(pool.image(name), row, std::span(together.cloths));
-        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            if (const std::string name = resource_name(model_.cloths[cloth], row); is_alone(cloth) && pool.has(name))
-                visit(pool.image(name), row, std::span(&cloth, 1));
-    }
+    for (std::size_t k = 0; k < state_set_count; ++k)
+        for (const FieldRow& row : cloth_fields()) {
+            if (row.life != FieldLife::state) continue;
+            const auto set = static_cast<StateSet>(k);
+            for (const Together& together : together_)
+                if (const std::string name = resource_name(together.state, row, set); pool.has(name))
+                    visit(pool.image(name), row, set, std::span(together.cloths));
+            for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+                if (const std::string name = resource_name(model_.cloths[cloth], row, set);
+                    is_alone(cloth) && pool.has(name))
+                    visit(pool.image(name), row, set, std::span(&cloth, 1));
+        }
 }
 
 std::map<std::string, std::vector<std::byte>> ClothSolver::download_state(const graph::ResourcePool& pool) const {
     std::map<std::string, std::vector<std::byte>> state;
-    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, std::span<const std::size_t> cloths) {
+    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
+                               std::span<const std::size_t> cloths) {
         std::vector<std::byte> bytes(std::size_t{image.description().width} * image.description().height *
                                      row.element.size);
         vulkan::download(pool.device(), image, bytes);
         auto next = bytes.begin();
         for (const std::size_t cloth : cloths) {
             const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(bytes.size() / cloths.size()));
-            state[resource_name(model_.cloths[cloth], row)].assign(first, next);
+            state[resource_name(model_.cloths[cloth], row, set)].assign(first, next);
         }
     });
     if (!model_.self_contact) return state;
-    const std::string borne = borne_name();
-    const vulkan::Buffer& buffer = pool.buffer(borne);
-    std::vector<glsl::SelfBorne> entries(buffer.description().byte_count / sizeof(glsl::SelfBorne));
-    vulkan::download(pool.device(), buffer, std::as_writable_bytes(std::span(entries)));
-    state[borne] = borne_state(std::move(entries));
+    for (const std::string& borne : names_in_sets(borne_name)) {
+        if (!pool.has(borne)) continue;
+        const vulkan::Buffer& buffer = pool.buffer(borne);
+        std::vector<glsl::SelfBorne> entries(buffer.description().byte_count / sizeof(glsl::SelfBorne));
+        vulkan::download(pool.device(), buffer, std::as_writable_bytes(std::span(entries)));
+        state[borne] = borne_state(std::move(entries));
+    }
     return state;
 }
 
 bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now, std::span<const std::byte> saved) {
-    if (!model_.self_contact || name != borne_name()) return now.size() == saved.size();
+    if (!model_.self_contact || !std::ranges::count(names_in_sets(borne_name), name)) return now.size() == saved.size();
     if (!is_borne_state(saved, *model_.self_contact)) return false;
     ContactCapacity wanted = contact_.capacity;
     wanted.touching = std::max(wanted.touching, borne_count(saved));
@@ -112,15 +120,17 @@ bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now,
 
 void ClothSolver::upload_state(const graph::ResourcePool& pool,
                                const std::map<std::string, std::vector<std::byte>>& state) const {
-    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, std::span<const std::size_t> cloths) {
+    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
+                               std::span<const std::size_t> cloths) {
         std::vector<std::byte> all;
         for (const std::size_t cloth : cloths)
-            if (const auto own = state.find(resource_name(model_.cloths[cloth], row)); own != state.end())
+            if (const auto own = state.find(resource_name(model_.cloths[cloth], row, set)); own != state.end())
                 all.insert(all.end(), own->second.begin(), own->second.end());
         if (!all.empty()) vulkan::upload(pool.device(), image, all);
     });
-    if (const auto borne = state.find(borne_name()); borne != state.end() && pool.has(borne->first))
-        vulkan::upload_range(pool.device(), pool.buffer(borne->first), 0, borne->second);  // lists have more room
+    for (const std::string& name : names_in_sets(borne_name))
+        if (const auto borne = state.find(name); borne != state.end() && pool.has(name))
+            vulkan::upload_range(pool.device(), pool.buffer(name), 0, borne->second);  // lists have more room
 }
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,

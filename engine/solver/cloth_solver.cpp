@@ -115,10 +115,11 @@ ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& mo
     find_together(device);
 }
 
-void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run) {
+void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run, StateSet set) {
     cloths_.clear();
     inputs_ = {};
     run_ = &run;
+    set_ = set;
     for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
@@ -140,7 +141,7 @@ void ClothSolver::declare_contact(graph::Graph& graph) {
     contact_.buffered = kernels_.has(Kernel::buffer_store);
     for (const ContactRow& row : contact_fields())
         if (row.needed(about))
-            contact_[row.field] = declare_row(graph, resource_name(row), row, about, contact_.buffered);
+            contact_[row.field] = declare_row(graph, resource_name(row, set_), row, about, contact_.buffered);
 }
 
 ClothState ClothSolver::state_of(std::size_t index) const {
@@ -162,7 +163,7 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
     ClothState state = state_of(index);
     for (const FieldRow& row : cloth_fields())
         if (row.needed(about) && (is_alone(index) || !lies_together(row)))
-            state[row.field] = declare_row(graph, resource_name(about.cloth, row), row, about, state.buffered);
+            state[row.field] = declare_row(graph, resource_name(about.cloth, row, set_), row, about, state.buffered);
     cloths_.push_back(state);
 }
 
@@ -175,12 +176,13 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
         if (!lies_together(row)) continue;
         graph::Handle whole;
         std::vector<std::string> slices;
-        for (const std::size_t cloth : together.cloths) slices.push_back(resource_name(model_.cloths[cloth], row));
+        for (const std::size_t cloth : together.cloths)
+            slices.push_back(resource_name(model_.cloths[cloth], row, set_));
         for (std::uint32_t k = 0; k < count; ++k) {
             const FieldContext about = context(together.cloths[k], needs, *run_);
             if (!row.needed(about)) continue;
             if (!whole.valid())
-                whole = declare_row(graph, resource_name(together.state, row), row, about,
+                whole = declare_row(graph, resource_name(together.state, row, set_), row, about,
                                     kernels_.has(Kernel::buffer_store), slices);
             cloths_[together.cloths[k]][row.field] = {whole.resource, whole.version, k};
         }
@@ -368,7 +370,11 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) {
         const FieldContext about = context(index);
         for (const FieldRow& row : cloth_fields())
-            if (is_alone(index) || !lies_together(row)) upload_row(pool, resource_name(about.cloth, row), row, about);
+            if (is_alone(index) || !lies_together(row))
+                for (const std::string& name : names_in_sets([&](StateSet set) {
+                         return resource_name(about.cloth, row, set);
+                     }))
+                    upload_row(pool, name, row, about);
         const std::string name = resource_name(about.cloth, row_of(Field::iteration_sizes));
         if (!pool.has(name)) continue;
         std::vector<glsl::uvec4> sizes = *iteration_sizes_[index];
@@ -377,7 +383,8 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
     }
     if (model_.self_contact)
         for (const ContactRow& row : contact_fields())
-            upload_row(pool, resource_name(row), row, ContactContext{*model_.self_contact, contact_.capacity});
+            for (const std::string& name : names_in_sets([&](StateSet set) { return resource_name(row, set); }))
+                upload_row(pool, name, row, ContactContext{*model_.self_contact, contact_.capacity});
     upload_together(pool);
 }
 

@@ -40,7 +40,8 @@ class ClothSolver {
     void declare(graph::Graph& graph, const FrameNeeds& needs) { declare(graph, needs, model_); }
     /// Declares those of a run of the same scene at other substeps, which must outlive the graph and what is added to
     /// it.
-    void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run);
+    void declare(graph::Graph& graph, const FrameNeeds& needs, const SimulationModel& run,
+                 StateSet set = StateSet::run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
     /// Adds the passes of one of `steps`, where a frame that needs an inspection runs them one at a time.
@@ -72,6 +73,7 @@ class ClothSolver {
     /// Uploads the initial state, masks, triangles and pins to whatever of them the pool holds.
     void upload(const graph::ResourcePool& pool) const;
     /// Fetches the state of all cloths, by resource, so that it can be carried over to new resources.
+    /// In every set that the pool has.
     std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
     void upload_state(const graph::ResourcePool& pool,
                       const std::map<std::string, std::vector<std::byte>>& state) const;
@@ -159,6 +161,7 @@ class ClothSolver {
 
     const SimulationModel& model_;
     const SimulationModel* run_;  ///< the run of the graph that is being built
+    StateSet set_ = StateSet::run;  ///< the set that it works on
     Kernels kernels_;
     std::vector<KernelVerdict> verdicts_;
     std::vector<CutTopology> topologies_;

@@ -144,13 +144,16 @@ std::vector<std::byte> ClothSolver::start_of(const Together& together, const Fie
 void ClothSolver::upload_together(const graph::ResourcePool& pool) const {
     for (const Together& together : together_)
         for (const FieldRow& row : cloth_fields()) {
-            const std::string name = resource_name(together.state, row);
-            if (!row.start || !pool.has(name)) continue;
-            const std::vector<std::byte> bytes = start_of(together, row);
-            if (row.is_image())
-                vulkan::upload(pool.device(), pool.image(name), bytes);
-            else
-                vulkan::upload(pool.device(), pool.buffer(name), bytes);
+            if (!row.start) continue;
+            for (const std::string& name :
+                 names_in_sets([&](StateSet set) { return resource_name(together.state, row, set); })) {
+                if (!pool.has(name)) continue;
+                const std::vector<std::byte> bytes = start_of(together, row);
+                if (row.is_image())
+                    vulkan::upload(pool.device(), pool.image(name), bytes);
+                else
+                    vulkan::upload(pool.device(), pool.buffer(name), bytes);
+            }
         }
 }
 

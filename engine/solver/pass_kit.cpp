@@ -6,12 +6,31 @@
 
 namespace drape {
 
-std::string resource_name(const ClothModel& cloth, const FieldRow& row) {
-    return cloth.name + "/" + std::string(row.name);
+namespace {
+
+std::string suffix_of(StateSet set) { return set == StateSet::run ? "" : " of the companion"; }
+
+template <class Row>
+std::string in_set(std::string name, const Row& row, StateSet set) {
+    return row.life == FieldLife::state ? name + suffix_of(set) : name;
 }
 
-std::string resource_name(const ClothState& whole, const FieldRow& row) {
-    return whole.name + "/" + std::string(row.name);
+}  // namespace
+
+std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set) {
+    return in_set(cloth.name + "/" + std::string(row.name), row, set);
+}
+
+std::string resource_name(const ClothState& whole, const FieldRow& row, StateSet set) {
+    return in_set(whole.name + "/" + std::string(row.name), row, set);
+}
+
+std::string resource_name(const ContactRow& row, StateSet set) { return in_set(resource_name(row), row, set); }
+
+graph::ImageDeclaration in_set(graph::ImageDeclaration image, StateSet set) {
+    image.name += suffix_of(set);
+    for (std::string& slice : image.slices) slice += suffix_of(set);
+    return image;
 }
 
 void ClothState::turn() {

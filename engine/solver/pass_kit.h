@@ -70,9 +70,29 @@ struct SceneInputs {
     graph::Handle attempt;    ///< closed loops: a SubstepChange per cloth
 };
 
-/// "<cloth>/<name>": the resource of a field.
-std::string resource_name(const ClothModel& cloth, const FieldRow& row);
+/// A scene's motion may be simulated more than once on a device, each time in images of its own.
+enum class StateSet : std::uint8_t {
+    run,        ///< what is handed out
+    companion,  ///< with fewer substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
+};
+inline constexpr std::size_t state_set_count = 2;
+
+/// "<cloth>/<name>": the resource of a field; those of the state have one in every set.
+std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set = StateSet::run);
 /// The one of cloths that are simulated together.
-std::string resource_name(const ClothState& whole, const FieldRow& row);
+std::string resource_name(const ClothState& whole, const FieldRow& row, StateSet set = StateSet::run);
+/// The resource of a field of contact.
+std::string resource_name(const ContactRow& row, StateSet set);
+/// Returns a name in every set, each once: what is not of the state has the same name in all.
+template <class NameOf>
+std::vector<std::string> names_in_sets(const NameOf& name_of) {
+    std::vector<std::string> names;
+    for (std::size_t set = 0; set < state_set_count; ++set)
+        if (std::string name = name_of(static_cast<StateSet>(set)); names.empty() || name != names.front())
+            names.push_back(std::move(name));
+    return names;
+}
+/// Returns a resource's declaration as it is in another set.
+graph::ImageDeclaration in_set(graph::ImageDeclaration image, StateSet set);
 
 }  // namespace drape

@@ -52,9 +52,9 @@ std::uint64_t count_of(const graph::Graph& graph, ContactField field) {
 }
 
 bool same(const FrameEffort& a, const FrameEffort& b) {
+    const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
     return a.substeps == b.substeps && a.attempts == b.attempts && a.predictable == b.predictable &&
-           a.asleep == b.asleep &&
-           (a.motion_error == b.motion_error || (std::isnan(a.motion_error) && std::isnan(b.motion_error)));
+           a.asleep == b.asleep && equal(a.motion_error, b.motion_error) && equal(a.position_error, b.position_error);
 }
 
 Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) {

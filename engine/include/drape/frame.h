@@ -27,6 +27,9 @@ struct FrameEffort {
     /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
+    /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
+    /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated.
+    double position_error = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` sets false where motion_error is above its limit and more substeps do not reduce it. Cloth that
     /// crumples parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;
