@@ -42,7 +42,8 @@ SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std
       resolves_(method.trust == Method::Trust::resolves),
       probe_length_(probe_length),
       lowest_(rung_of(least)),
-      rung_(std::max(lowest_, rung_of(proposed))) {}
+      proposed_(std::max(lowest_, rung_of(proposed))),
+      rung_(proposed_) {}
 
 /// Returns the first rung of at least so many substeps, or the top.
 std::size_t SubstepControl::rung_of(double substeps) const {
@@ -61,16 +62,23 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
     hopeless_ = false;
     only_motion_failed_.reset();
     turned_back_ = false;
+    needed_ = lowest_;
     lagged_ = {};
     segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
+    Judgement strict = judgement;
+    strict.motion *= strictness_;
+    return judge_strictly(strict);
+}
+
+SubstepControl::Verdict SubstepControl::judge_strictly(const Judgement& judgement) {
     if (lags_alike(judgement)) until_lag_ = lag_pause * probe_length_;
     const double lag = until_lag_ == 0 ? judgement.lag : 0;
     passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
-    if (turned_back_) return accept_unpredictable(judgement, tried_);
+    if (turned_back_) return accept_unpredictable(judgement);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
     if (worst <= 1 && lags(judgement)) {
@@ -84,8 +92,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     }
     if (top_motion_ > 0) return look_back(judgement);
     if (turn_back(judgement)) return try_again_with(*only_motion_failed_);
-    // Fewer substeps may not cost what more do not buy.
-    if (futile(judgement)) return accept_unpredictable(judgement, below(began_, 2));
+    if (futile(judgement)) return take_best(judgement);
     if (at_top()) {
         if (!worth_looking_back(judgement)) return Verdict::give_up;
         top_motion_ = judgement.motion;
@@ -145,17 +152,41 @@ bool SubstepControl::turn_back(const Judgement& judgement) {
 SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
     const bool as_good = judgement.stretch <= 1 && judgement.motion < 2 * top_motion_;
     top_motion_ = 0;
-    if (as_good) return accept_unpredictable(judgement, below(tried_, 1));
+    if (as_good) return accept_unpredictable(judgement);
     hopeless_ = true;
     return try_again_with(rungs_.size() - 1);
 }
 
-SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& judgement, std::size_t rung) {
+SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& judgement) {
     slack_ = unpredictable_slack * judgement.motion;
     succeed(judgement);
-    rung_ = rung;
+    rung_ = std::max(began_, needed_);
     until_probe_ = 0;
     return Verdict::unpredictable;
+}
+
+/// More substeps hardly helped: goes back to those that erred least, which need not be the most.
+SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
+    if (before_.motion >= judgement.motion) return accept_unpredictable(judgement);
+    turned_back_ = true;
+    return try_again_with(rung_of(before_.substeps));
+}
+
+void SubstepControl::accumulated(double share) {
+    constexpr double comfortable = 0.7, strictest = 8, leap = 0.1;
+    strictness_ = std::clamp(share / comfortable, 1.0, strictest);
+    if (share > share_ + leap && strictness_ > 1) until_probe_ = 0;
+    if (resolves_) follow_share(share);
+    share_ = share;
+}
+
+/// Of a method without probes the companion alone says whether the motion takes more than its law proposed.
+void SubstepControl::follow_share(double share) {
+    constexpr double high = 0.5, low = 0.1;
+    if (share > high && share >= share_ && rung_ < std::min(proposed_ + 6, rungs_.size() - 1))
+        ++rung_;
+    else if (share < low && rung_ > proposed_)
+        --rung_;
 }
 
 /// Returns whether more substeps have hardly reduced the segment's error of motion: by less than their square root.
@@ -197,6 +228,7 @@ double SubstepControl::wanted_factor(const Judgement& judgement) const {
 
 void SubstepControl::refine(const Judgement& judgement) {
     const double factor = wanted_factor(judgement);
+    if (judgement.stretch > 1) needed_ = tried_ + 1;
     const bool measured = segment_.probes && judgement.stretch <= 1;  // else its motion is not known
     if (measured && (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps))
         before_ = {static_cast<double>(segment_.substeps), judgement.motion};
@@ -220,7 +252,9 @@ void SubstepControl::succeed(const Judgement& judgement) {
     }
     slack_ = std::max(1.0, std::min(slack_, unpredictable_slack * judgement.motion));
     until_probe_ = interval_ * probe_length_;
-    interval_ = std::min(2 * interval_, longest_interval);
+    // The companion notices what happens between probes, so far from the limit few are enough.
+    constexpr double far = 0.3;
+    interval_ = std::min((share_ < far ? 4 : 2) * interval_, longest_interval);
     consider_fewer(judgement);
 }
 

@@ -58,6 +58,10 @@ class SubstepControl {
     bool at_top() const { return tried_ + 1 == rungs_.size(); }
     /// Keeps the frames although the last judgement says no.
     void keep_anyway();
+    /// Tells how much of what its limit allows the motion's error has come to since the start, after a segment is kept
+    /// (cloth/motion_error.h); 0 where that is the motion's own doing. Errors that grow afterwards are not in a probe, so
+    /// where they come near the limit probes are judged more strictly, and where they are far from it there are fewer.
+    void accumulated(double share);
 
     /// Hands everything that changes, between segments, to `archive(members...)`, which writes or reads it
     /// (byte_stream.h). Returns whether what was read can be.
@@ -66,7 +70,7 @@ class SubstepControl {
         archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
                 probed_.motion, top_motion_, hopeless_, only_motion_failed_, turned_back_, segment_.substeps,
                 segment_.frame_count, segment_.probes, interval_, until_probe_, since_fewer_, patience_, easy_,
-                passage_rung_, until_lag_);
+                passage_rung_, until_lag_, share_, strictness_);
         return std::max({rung_, began_, tried_, passage_rung_, only_motion_failed_.value_or(0)}) < rungs_.size() &&
                rung_ >= lowest_;
     }
@@ -80,7 +84,10 @@ class SubstepControl {
     bool hardly_fell(const Judgement& judgement) const;
     bool futile(const Judgement& judgement) const;
     double wanted_factor(const Judgement& judgement) const;
-    Verdict accept_unpredictable(const Judgement& judgement, std::size_t rung);
+    void follow_share(double share);
+    Verdict judge_strictly(const Judgement& judgement);
+    Verdict accept_unpredictable(const Judgement& judgement);
+    Verdict take_best(const Judgement& judgement);
     bool worth_looking_back(const Judgement& judgement) const;
     Verdict try_again_with(std::size_t rung);
     Verdict follow(double excess);
@@ -95,7 +102,7 @@ class SubstepControl {
     std::span<const std::uint32_t> rungs_;
     bool resolves_;  ///< no probe is needed
     std::uint32_t probe_length_;
-    std::size_t lowest_;
+    std::size_t lowest_, proposed_;
     std::size_t rung_;       ///< the rung of frames to come
     std::size_t began_ = 0;  ///< the rung before the segment
     std::size_t tried_ = 0;  ///< the rung of the attempt
@@ -109,7 +116,10 @@ class SubstepControl {
     bool hopeless_ = false;  ///< that one was worse: more substeps would help, and there are none
     /// The finest attempt at the segment so far that only its motion let fail.
     std::optional<std::size_t> only_motion_failed_;
-    bool turned_back_ = false;  ///< it went back to that one
+    bool turned_back_ = false;  ///< it went back to an earlier one
+    std::size_t needed_ = 0;    ///< the least rung that the segment's stretch may take
+    double share_ = 0;          ///< of the allowed error that there is
+    double strictness_ = 1;     ///< factor on the motion's errors of probes
     /// The rung that the ways and lags of the last attempt ask for. It holds for frames while something goes by a
     /// collider fast, or meets fast, and those after have `rung_` again.
     std::size_t passage_rung_ = 0;

@@ -23,6 +23,7 @@ namespace drape::glsl {
 #include "include/cyclic.h"
 #include "include/cyclic_bent.h"
 #include "include/difference.h"
+#include "include/disturb.h"
 #include "include/end_velocity.h"
 #include "include/explicit.h"
 #include "include/line.h"

@@ -78,6 +78,18 @@ void Twin::run_frame(std::uint32_t frame) {
     for (const Step& step : steps()) run_step(step, inputs);
 }
 
+void Twin::disturb() {
+    for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
+        std::vector<vec4>& positions = cloths_[cloth][Field::position];
+        const float amplitude = disturbance(model_->cloths[cloth]);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const vec3 there =
+                disturbed(xyz(positions[i]), positions[i].w, static_cast<std::uint32_t>(i), amplitude);
+            positions[i] = {there.x, there.y, there.z, positions[i].w};
+        }
+    }
+}
+
 void Twin::change_substep(const SimulationModel& run) {
     const std::vector<SubstepChange> changes =
         substep_changes(run, model_->scene.solver.substeps, run.scene.solver.substeps);

@@ -132,6 +132,8 @@ class Twin {
     void run_frame(std::uint32_t frame);
     /// Goes on with the substeps of `run`, a model of the same scene, which must outlive this.
     void change_substep(const SimulationModel& run);
+    /// Displaces every cloth's particles by next to nothing (cloth/sensitivity.h).
+    void disturb();
     /// Takes one step, of one cloth or of all of them.
     void run_step(const Step& step, const FrameInputs& inputs);
     void normals(std::size_t cloth);

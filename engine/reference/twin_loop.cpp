@@ -52,9 +52,12 @@ TwinLoop::TwinLoop(const SimulationModel& model)
       drive_(model),
       state_(model),
       companion_(model),
+      disturbed_(model),
       state_substeps_(model.scene.solver.substeps),
       companion_substeps_(state_substeps_),
-      position_error_(model) {}
+      disturbed_substeps_(state_substeps_),
+      position_error_(model),
+      sensitivity_(model) {}
 
 const SimulationModel& TwinLoop::at(std::uint32_t substeps) {
     std::unique_ptr<SimulationModel>& run = runs_[substeps];
@@ -80,14 +83,31 @@ std::vector<double> TwinLoop::differences(const Twin& fine, const Twin& coarse) 
     return all;
 }
 
-/// Simulates the kept segment's frames, which begin with the next one and end with `end`, in the companion.
-void TwinLoop::follow_segment(const Twin& end) {
+/// Simulates the kept segment's frames, which begin with the next one and end with `end`, in another twin. Returns how
+/// far that ends from it, by cloth, m.
+std::vector<double> TwinLoop::follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps,
+                                     const Twin& end) {
+    if (substeps != of_history) beside.change_substep(at(substeps));
+    of_history = substeps;
+    for (std::uint32_t k = 0; k < control_.segment().frame_count; ++k) beside.run_frame(next_ + k);
+    return differences(end, beside);
+}
+
+void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
     const Segment& segment = control_.segment();
-    const std::uint32_t substeps = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
-    if (substeps != companion_substeps_) companion_.change_substep(at(substeps));
-    companion_substeps_ = substeps;
-    for (std::uint32_t k = 0; k < segment.frame_count; ++k) companion_.run_frame(next_ + k);
-    position_error_.saw(next_ + segment.frame_count - 1, differences(end, companion_), segment.substeps);
+    const std::uint32_t last = next_ + segment.frame_count - 1;
+    const std::uint32_t coarse = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
+    position_error_.saw(last, follow(companion_, companion_substeps_, coarse, end), segment.substeps);
+    if (sensitivity_.runs())
+        sensitivity_.saw(last, follow(disturbed_, disturbed_substeps_, segment.substeps, end), position_error_);
+    if (sensitivity_.begins(last, position_error_)) {
+        sensitivity_.begin(last);
+        disturbed_ = end;
+        disturbed_.disturb();
+        disturbed_substeps_ = segment.substeps;
+    }
+    control_.accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());
+    note_motion(position_error_, sensitivity_, effort);
 }
 
 double TwinLoop::motion(const Twin& fine, const Twin& coarse) {
@@ -141,8 +161,9 @@ void TwinLoop::run(std::uint32_t last,
     using Verdict = SubstepControl::Verdict;
     while (next_ <= last) {
         if (sleep_.asleep(next_)) {
-            finished(next_++, state_,
-                     {.attempts = 0, .position_error = position_error_.error(), .asleep = true});
+            FrameEffort asleep{.attempts = 0, .asleep = true};
+            note_motion(position_error_, sensitivity_, asleep);
+            finished(next_++, state_, asleep);
             continue;
         }
         before_ = attempt_statistics_.empty() ? starting_statistics(model_) : attempt_statistics_.back();
@@ -161,8 +182,7 @@ void TwinLoop::run(std::uint32_t last,
         if (control_.segment().probes) effort.motion_error = motion_error_;
         for (const std::vector<ClothStatistics>& cloths : attempt_statistics_) sleep_.saw(cloths, state_substeps_);
         state_ = frames.back();
-        follow_segment(state_);
-        effort.position_error = position_error_.error();
+        follow_segment(state_, effort);
         for (const Twin& twin : frames) finished(next_++, twin, effort);
     }
 }

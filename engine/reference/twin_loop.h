@@ -9,6 +9,7 @@
 #include "cloth/drive.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/motion_error.h"
+#include "cloth/sensitivity.h"
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
@@ -33,7 +34,8 @@ class TwinLoop {
     std::vector<ClothStatistics> statistics(Twin& twin, std::uint32_t frame, const SimulationModel& run) const;
     double motion(const Twin& fine, const Twin& coarse);
     std::vector<double> differences(const Twin& fine, const Twin& coarse) const;
-    void follow_segment(const Twin& end);
+    std::vector<double> follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps, const Twin& end);
+    void follow_segment(const Twin& end, FrameEffort& effort);
 
     const SimulationModel& model_;
     std::map<std::uint32_t, std::unique_ptr<SimulationModel>> runs_;
@@ -43,10 +45,11 @@ class TwinLoop {
     Drive drive_;
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
-    Twin state_, companion_;
-    std::uint32_t next_ = 1, state_substeps_, companion_substeps_;
+    Twin state_, companion_, disturbed_;
+    std::uint32_t next_ = 1, state_substeps_, companion_substeps_, disturbed_substeps_;
     double motion_error_ = 0;
     MotionError position_error_;
+    Sensitivity sensitivity_;
 };
 
 }  // namespace drape

@@ -17,12 +17,13 @@ namespace drape {
 
 std::span<const AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     using enum AttemptStep;
-    static constexpr std::array all{change_substep, keep, restore, remember, compare, compare_companion};
+    static constexpr std::array all{change_substep, keep,    restore,          remember, compare,
+                                    compare_companion, disturb, compare_disturbed};
     static_assert(all.size() == attempt_step_count);
     // Contact alone, whose lists may be too short, needs to keep and restore.
-    const bool is_companion = set == StateSet::companion, meets = model_.self_contact.has_value();
-    if (!model_.closed_loop()) return std::span(all).subspan(1, meets && !is_companion ? 2 : 0);
-    return is_companion ? std::span(all).first(meets ? 3 : 1) : all;
+    const bool is_beside = set != StateSet::run, meets = model_.self_contact.has_value();
+    if (!model_.closed_loop()) return std::span(all).subspan(1, meets && !is_beside ? 2 : 0);
+    return is_beside ? std::span(all).first(meets ? 3 : 1) : all;
 }
 
 template <class Visit>
@@ -47,7 +48,7 @@ FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps, StateSet set) {
     Rung& rung = rungs_[static_cast<std::size_t>(set)][substeps];
     if (rung.frame.recorded) return rung;
     rung.model = std::make_unique<SimulationModel>(model_, substeps);
-    rung.frame = set == StateSet::run ? build(FrameKind::simulate, *rung.model) : build_companion(*rung.model);
+    rung.frame = set == StateSet::run ? build(FrameKind::simulate, *rung.model) : build_beside(*rung.model, set);
     rung.frame.recorded = recording(rung.frame);
     return rung;
 }
@@ -147,8 +148,8 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
 /// with.
 void FrameLoop::sleep_through(std::uint32_t frame, const Asked& asked) {
     simulated_ = frame + 1;
-    Judged still{
-        attempt_statistics_.back(), {.attempts = 0, .position_error = position_error_.error(), .asleep = true}, {}};
+    Judged still{attempt_statistics_.back(), {.attempts = 0, .asleep = true}, {}};
+    note_motion(position_error_, sensitivity_, still.effort);
     for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
     const bool wanted = asked.wanted(frame);
     if (!wanted) pass_over(frame, still.statistics, still.effort);
@@ -223,21 +224,15 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
         note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
-    const std::vector<double> errors = follow_segment(frame, segment.probes ? withhold_ : asked.finished);
-    const auto effort_of = [&](std::uint32_t k) {
-        FrameEffort effort = single.effort;
-        effort.position_error = errors[k];
-        return effort;
-    };
+    follow_segment(frame, segment.probes ? withhold_ : asked.finished);
+    note_motion(position_error_, sensitivity_, single.effort);
     // Frames behind the last that is asked for are withheld, for they may be wanted then.
     for (std::uint32_t k = 0; k < segment.frame_count && frame + k <= asked.last; ++k)
-        if (!asked.wanted(frame + k)) pass_over(frame + k, attempt_statistics_[k], effort_of(k));
-    if (!segment.probes) {
-        single.effort = effort_of(0);
+        if (!asked.wanted(frame + k)) pass_over(frame + k, attempt_statistics_[k], single.effort);
+    if (!segment.probes)
         return submit_output(frame, std::move(single), frame > asked.last || asked.wanted(frame), asked.finished);
-    }
     deliver_all(withhold_);
-    for (FrameCopy& copy : withheld_) copy.effort() = effort_of(copy.frame().frame - frame);
+    for (FrameCopy& copy : withheld_) copy.effort() = single.effort;
 }
 
 void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {

@@ -20,8 +20,9 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       drive_(model),
       state_substeps_(model.scene.solver.substeps),
       position_error_(model),
-      companion_substeps_(model.scene.solver.substeps),
+      sensitivity_(model),
       slots_(device) {
+    beside_substeps_.assign(state_set_count, state_substeps_);
     if (model_.closed_loop())
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
                          probe_length(model_));
@@ -66,9 +67,12 @@ void FrameLoop::allocate_and_record() {
         plans.emplace_back(&frame.graph, &frame.plan);
     }
     for_each_attempt([&](Frame& frame) { plans.emplace_back(&frame.graph, &frame.plan); });
-    Frame companion;  // its resources are those of every rung
-    if (model_.closed_loop()) companion = build_companion(model_);
-    if (model_.closed_loop()) plans.emplace_back(&companion.graph, &companion.plan);
+    std::array<Frame, state_set_count> beside;  // their resources are those of every rung
+    for (const StateSet set : {StateSet::companion, StateSet::disturbed})
+        if (Frame& frame = beside[static_cast<std::size_t>(set)]; model_.closed_loop()) {
+            frame = build_beside(model_, set);
+            plans.emplace_back(&frame.graph, &frame.plan);
+        }
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     record();

@@ -16,6 +16,7 @@
 #include "cloth/frame_judgement.h"
 #include "cloth/frame_steps.h"
 #include "cloth/motion_error.h"
+#include "cloth/sensitivity.h"
 #include "cloth/sleep.h"
 #include "cloth/substep_control.h"
 #include "cloth/watch.h"
@@ -228,12 +229,14 @@ class FrameLoop {
     void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
     void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
     // These are in companion_run.cpp.
-    Frame build_companion(const SimulationModel& run);
-    /// Simulates the kept segment's frames in the companion. Returns the estimated position error (m) of each.
-    std::vector<double> follow_segment(std::uint32_t frame, const Finished& finished);
-    void submit_companion(std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);
-    /// Whether the companion's frame in the slot had lists of contact that were too short, and has longer ones now.
-    bool lengthen_companions_lists(std::uint32_t slot, const Finished& finished);
+    Frame build_beside(const SimulationModel& run, StateSet set);
+    /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
+    void follow_segment(std::uint32_t frame, const Finished& finished);
+    /// Simulates them in a set. Returns how far it ends from the run, by cloth, m.
+    std::vector<double> follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished);
+    void submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);
+    /// Whether the set's frame in the slot had lists of contact that were too short, and has longer ones now.
+    bool lengthen_lists_of(StateSet set, std::uint32_t slot, const Finished& finished);
     void give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked);
     void release_withheld(std::uint32_t frame, bool wanted, const Finished& finished);
     void pass_over(std::uint32_t frame, const std::vector<ClothStatistics>& statistics, const FrameEffort& effort);
@@ -262,7 +265,8 @@ class FrameLoop {
     std::uint32_t simulated_ = 1;            ///< the frame after those that a closed loop has simulated
     double motion_error_ = 0;                ///< the last probe's
     MotionError position_error_;
-    std::uint32_t companion_substeps_;  ///< substeps of its state's history
+    Sensitivity sensitivity_;
+    std::vector<std::uint32_t> beside_substeps_;  ///< by set, of the histories beside the run's
     std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
     std::deque<FinishedFrame> passed_over_;  ///< a closed loop's frames that are not wanted and not told of yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };

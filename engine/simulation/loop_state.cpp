@@ -38,7 +38,8 @@ std::vector<std::byte> cut_bytes(const CutTopology& topology) {
 
 template <class Archive>
 void FrameLoop::transfer(Archive& archive) {
-    archive(next_frame_, state_substeps_, simulated_, motion_error_, companion_substeps_);
+    archive(next_frame_, state_substeps_, simulated_, motion_error_, beside_substeps_);
+    sensitivity_.transfer(archive);
     if (!position_error_.transfer(archive)) refuse("not as many cloths that have errors");
     if (self_contact_)
         archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
@@ -84,6 +85,7 @@ bool FrameLoop::can_be() const {
     // A loop may run beyond its scene's frames, but not beyond any scene's.
     const std::uint32_t most = std::max(scene_frame_limit, model_.scene.time.frame_count);
     if (std::max(next_frame_, simulated_) > most) return false;
+    if (beside_substeps_.size() != state_set_count || std::ranges::count(beside_substeps_, 0u) > 0) return false;
     const bool as_it_begins = state_substeps_ == model_.scene.solver.substeps;
     if (!as_it_begins &&
         !(control_ && std::ranges::count(substep_rungs(row_of(model_.scene.solver.method)), state_substeps_) == 1))

@@ -1,6 +1,7 @@
 #include "solver/attempt_pass.h"
 
 #include "cloth/frame_judgement.h"
+#include "cloth/sensitivity.h"
 #include "solver/compute_pass.h"
 #include "vulkan/api.h"
 
@@ -65,6 +66,24 @@ void add_state_copies(graph::Graph& graph, ClothState& state, bool back) {
     for (std::size_t i = 0; i < fields.size(); ++i) state[fields[i]] = copies[i].to;
 }
 
+void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
+    std::vector<Copy> copies;
+    graph::Handle position;
+    for (const FieldRow& row : cloth_fields()) {
+        if (row.life != FieldLife::state || !state[row.field].valid()) continue;
+        const graph::Handle live = state[row.field];
+        copies.push_back(
+            copy_between(graph, live, graph.image(in_set(declaration_of(graph, live), StateSet::disturbed))));
+    }
+    add_copies(graph, state, "begin disturbed run", copies);
+    position = copies.front().to;
+    static_assert(static_cast<int>(Field::position) == 0);
+    const glsl::DisturbPush push{state.model->grid.size(), disturbance(*state.model)};
+    add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp"), push,
+                     {state.model->grid.columns(), state.model->grid.rows(), state.count},
+                     {&state, nullptr, {}, {{"position", &position}}});
+}
+
 constexpr const char* coarse_run = " of the coarse run";
 
 void add_remember(graph::Graph& graph, ClothState& state) {
@@ -92,17 +111,27 @@ void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, g
                      {&state, nullptr, {}, {{"coarse_position", &coarse}, {"partials", &partials}}});
 }
 
+graph::Handle position_in(graph::Graph& graph, const ClothState& state, StateSet set) {
+    return graph.image(in_set(declaration_of(graph, state[Field::position]), set));
+}
+
 }  // namespace
 
-void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back) {
+void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptStep step) {
+    const bool back = step == AttemptStep::restore;
+    if (!back && step != AttemptStep::keep && step != AttemptStep::disturb) return;
     for (const ContactRow& row : contact_fields()) {
         if (row.life != FieldLife::state) continue;
         const graph::BufferDeclaration live = graph.resources()[contact[row.field].resource].buffer;
-        const graph::Handle kept = graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
+        const graph::Handle kept =
+            step == AttemptStep::disturb
+                ? graph.buffer(in_set(live, StateSet::disturbed))
+                : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
         const graph::Handle from = back ? kept : contact[row.field];
         const auto to = std::make_shared<graph::Handle>(back ? contact[row.field] : kept);
+        const std::string name = back ? "restore contact" : step == AttemptStep::keep ? "keep contact" : "disturb contact";
         graph.add_pass(
-            {back ? "restore contact" : "keep contact", "judge", live.name + (back ? " restored" : " kept")},
+            {name, "judge", live.name + ": " + name},
             [&](graph::PassSetup& setup) {
                 setup.read(from, graph::Access::transfer_read);
                 *to = setup.write(*to, graph::Access::transfer_write);
@@ -132,9 +161,11 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case AttemptStep::compare:
             return add_compare(graph, pipelines, state, copy_of(graph, state, Field::position, coarse_run));
         case AttemptStep::compare_companion:
-            return add_compare(
-                graph, pipelines, state,
-                graph.image(in_set(declaration_of(graph, state[Field::position]), StateSet::companion)));
+            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion));
+        case AttemptStep::disturb:
+            return add_disturb(graph, pipelines, state);
+        case AttemptStep::compare_disturbed:
+            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::disturbed));
     }
 }
 

@@ -13,15 +13,17 @@ enum class AttemptStep : std::uint8_t {
     remember,        ///< reads position, writes its copy
     compare,         ///< reads both, writes a record per workgroup for the host
     compare_companion,  ///< reads position here and in the companion's set, writes likewise
+    disturb,            ///< reads the state, writes that of the disturbed run
+    compare_disturbed,  ///< reads position here and there, writes likewise
 };
-inline constexpr std::size_t attempt_step_count = 6;
+inline constexpr std::size_t attempt_step_count = 8;
 
 inline constexpr const char* attempt_name = "attempt";
 /// Host output buffer with the differences of a state's cloths (ClothState::name, count), difference_count each.
 std::string difference_readback_name(const std::string& state);
 
-/// Keeps, or takes back, what contact between the cloths hands from frame to frame.
-void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back);
+/// Does what `step` does with the state for what contact between the cloths hands from frame to frame.
+void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptStep step);
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                  AttemptStep step);
 

@@ -297,8 +297,7 @@ std::vector<std::span<const float>> ClothSolver::readback(const graph::ResourceP
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
     for_each_dispatch([&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, step); });
-    if (run_->self_contact && (step == AttemptStep::keep || step == AttemptStep::restore))
-        add_contact_copies(graph, contact_, step == AttemptStep::restore);
+    if (run_->self_contact) add_contact_attempt(graph, contact_, step);
 }
 
 std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, std::uint32_t slot) const {

@@ -8,7 +8,11 @@ namespace drape {
 
 namespace {
 
-std::string suffix_of(StateSet set) { return set == StateSet::run ? "" : " of the companion"; }
+std::string suffix_of(StateSet set) {
+    static constexpr std::array<const char*, state_set_count> suffixes = {"", " of the companion",
+                                                                          " of the disturbed run"};
+    return suffixes.at(static_cast<std::size_t>(set));
+}
 
 template <class Row>
 std::string in_set(std::string name, const Row& row, StateSet set) {
@@ -26,6 +30,11 @@ std::string resource_name(const ClothState& whole, const FieldRow& row, StateSet
 }
 
 std::string resource_name(const ContactRow& row, StateSet set) { return in_set(resource_name(row), row, set); }
+
+graph::BufferDeclaration in_set(graph::BufferDeclaration buffer, StateSet set) {
+    buffer.name += suffix_of(set);
+    return buffer;
+}
 
 graph::ImageDeclaration in_set(graph::ImageDeclaration image, StateSet set) {
     image.name += suffix_of(set);

@@ -73,9 +73,10 @@ struct SceneInputs {
 /// A scene's motion may be simulated more than once on a device, each time in images of its own.
 enum class StateSet : std::uint8_t {
     run,        ///< what is handed out
-    companion,  ///< with fewer substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
+    companion,  ///< with other substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
+    disturbed,  ///< begun with next to nothing between, at times: tells chaos from error (cloth/sensitivity.h)
 };
-inline constexpr std::size_t state_set_count = 2;
+inline constexpr std::size_t state_set_count = 3;
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set = StateSet::run);
@@ -94,5 +95,6 @@ std::vector<std::string> names_in_sets(const NameOf& name_of) {
 }
 /// Returns a resource's declaration as it is in another set.
 graph::ImageDeclaration in_set(graph::ImageDeclaration image, StateSet set);
+graph::BufferDeclaration in_set(graph::BufferDeclaration buffer, StateSet set);
 
 }  // namespace drape

@@ -24,6 +24,11 @@ struct ChangeSubstepPush {
     int cloth;
 };
 
+struct DisturbPush {
+    ivec2 grid;
+    float amplitude;  // m, along each axis
+};
+
 /// Difference of two runs of the same frame, summed over the particles that are not held.
 struct DifferenceRecord {
     float moved;  // mass share x squared distance, m^2

@@ -30,6 +30,13 @@ struct FrameEffort {
     /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
     /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated.
     double position_error = std::numeric_limits<double>::quiet_NaN();
+    /// What tolerance_motion allows until then, m.
+    double position_allowed = std::numeric_limits<double>::quiet_NaN();
+    /// Method `auto` found that equally exact runs part as far as position_error says (cloth that crumples): positions
+    /// have no truth from here on. Stretch, contact and means hold all the same.
+    bool sensitive = false;
+    /// How far apart such runs were when they were last compared, m; NaN: they were not.
+    double parted = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` sets false where motion_error is above its limit and more substeps do not reduce it. Cloth that
     /// crumples parts from its neighbouring motions whatever is done; its stretch error is kept all the same.
     bool predictable = true;

@@ -1,0 +1,52 @@
+#include "cloth/sensitivity.h"
+
+#include <algorithm>
+
+namespace drape {
+
+namespace {
+
+/// The disturbed run begins when the estimated error is this share of what the motion's limit allows.
+constexpr double matters = 0.5;
+/// Runs that part by this share of the estimated error are as far apart as any.
+constexpr double as_far = 0.3;
+/// s: without having parted by `on_the_way` of it, the run ends after the first time, in any case after the second.
+constexpr double patience = 1, most_patience = 3, on_the_way = 0.01;
+/// s until it may begin again.
+constexpr double pause = 2;
+
+}  // namespace
+
+float disturbance(const ClothModel& cloth) {
+    const double side = std::max(cloth.spacing[0] * (cloth.grid.columns() - 1), cloth.spacing[1] * (cloth.grid.rows() - 1));
+    return 1e-6f * static_cast<float>(side);
+}
+
+bool Sensitivity::begins(std::uint32_t frame, const MotionError& error) const {
+    if (runs_ || sensitive_ || !(error.share() > matters)) return false;
+    return ended_ == 0 || frame - ended_ > pause * model_.scene.time.fps;
+}
+
+void Sensitivity::begin(std::uint32_t frame) {
+    runs_ = true;
+    begun_ = frame;
+    parted_ = 0;
+}
+
+void Sensitivity::saw(std::uint32_t frame, std::span<const double> distances, const MotionError& error) {
+    parted_ = *std::ranges::max_element(distances);
+    sensitive_ = parted_ >= as_far * error.error();
+    const double lasted = (frame - begun_) / model_.scene.time.fps;
+    const bool is_vain = lasted > most_patience || (lasted > patience && parted_ < on_the_way * error.error());
+    runs_ = !sensitive_ && !is_vain;
+    if (!runs_) ended_ = frame;
+}
+
+void note_motion(const MotionError& error, const Sensitivity& sensitivity, FrameEffort& effort) {
+    effort.position_error = error.error();
+    effort.position_allowed = error.allowed();
+    effort.sensitive = sensitivity.is_sensitive();
+    if (sensitivity.parted() > 0) effort.parted = sensitivity.parted();
+}
+
+}  // namespace drape

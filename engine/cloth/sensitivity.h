@@ -1,0 +1,49 @@
+// Tells chaos from error. Where cloth crumples, two motions that differ by nothing part, however exactly each is
+// computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it a third run is begun
+// where the error first matters: the run as it is then, disturbed by a millionth of the cloth's size, with the run's own
+// substeps. If it parts as far as the estimated error says, positions have no truth there, and the error is the motion's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "cloth/motion_error.h"
+#include "drape/frame.h"
+
+namespace drape {
+
+/// Returns how far (m) the disturbed run's particles are displaced along each axis, at most.
+float disturbance(const ClothModel& cloth);
+
+class Sensitivity {
+  public:
+    explicit Sensitivity(const SimulationModel& model) : model_(model) {}
+
+    /// Returns whether the disturbed run is to begin at the end of this frame.
+    bool begins(std::uint32_t frame, const MotionError& error) const;
+    void begin(std::uint32_t frame);
+    bool runs() const { return runs_; }
+    /// Takes each cloth's distance (m) from the disturbed run at the end of a frame.
+    void saw(std::uint32_t frame, std::span<const double> distances, const MotionError& error);
+    /// Returns whether equally exact runs were found to part as far as the estimated error.
+    bool is_sensitive() const { return sensitive_; }
+    /// Returns how far apart they were, m.
+    double parted() const { return parted_; }
+
+    /// Writes or reads what it knows.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        archive(runs_, sensitive_, begun_, ended_, parted_);
+    }
+
+  private:
+    const SimulationModel& model_;
+    bool runs_ = false, sensitive_ = false;
+    std::uint32_t begun_ = 0, ended_ = 0;  ///< frames; the second is that of the last run that told nothing
+    double parted_ = 0;
+};
+
+/// Writes what is known of the motion into a frame's effort.
+void note_motion(const MotionError& error, const Sensitivity& sensitivity, FrameEffort& effort);
+
+}  // namespace drape

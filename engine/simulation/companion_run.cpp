@@ -1,0 +1,79 @@
+// Beside the run of a closed loop others are simulated after each segment that is kept, in images of their own: the
+// companion (cloth/motion_error.h), and at times the disturbed run (cloth/sensitivity.h). Nothing of them is handed out
+// but how far they are from the run.
+#include <algorithm>
+#include <cstring>
+
+#include "cloth/substep_change.h"
+#include "simulation/frame_loop.h"
+
+namespace drape {
+
+FrameLoop::Frame FrameLoop::build_beside(const SimulationModel& run, StateSet set) {
+    Frame frame;
+    solver_.declare(frame.graph, {}, run, set);
+    solver_.add_simulation(frame.graph);
+    frame.plan = graph::make_plan(frame.graph);
+    return frame;
+}
+
+void FrameLoop::submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps) {
+    const Rung& rung = this->rung(substeps, set);
+    const std::uint32_t before = beside_substeps_[static_cast<std::size_t>(set)];
+    std::vector<VkCommandBuffer> all;
+    if (model_.self_contact) all.push_back(commands(AttemptStep::keep, slot, set));
+    if (substeps != before) all.push_back(commands(AttemptStep::change_substep, slot, set));
+    all.push_back(rung.frame.recorded->commands(slot));
+    const std::vector<glsl::SubstepChange> changes = substep_changes(model_, before, substeps);
+    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
+    solver_.write_inputs(*pool_, slot, frame, *rung.model);
+    slots_.submit(slot, all);
+}
+
+bool FrameLoop::lengthen_lists_of(StateSet set, std::uint32_t slot, const Finished& finished) {
+    if (!model_.self_contact) return false;
+    slots_.wait(slot);
+    const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
+    if (solver_.self_list_use(record) <= 1 || !solver_.grow_lists(record)) return false;
+    deliver_all(finished);
+    slots_.submit(slot, {commands(AttemptStep::restore, slot, set)});
+    slots_.wait(slot);
+    rebuild_resources(solver_.download_state(*pool_));
+    return true;
+}
+
+std::vector<double> FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t substeps,
+                                      const Finished& finished) {
+    for (std::uint32_t k = 0; k < control_->segment().frame_count; ++k) {
+        std::uint32_t slot = 0;
+        do {
+            slot = take_slot(finished);
+            submit_beside(set, slot, frame + k, substeps);
+        } while (lengthen_lists_of(set, slot, finished));
+        beside_substeps_[static_cast<std::size_t>(set)] = substeps;
+    }
+    const std::uint32_t slot = take_slot(finished);
+    const bool is_companion = set == StateSet::companion;
+    slots_.submit(slot,
+                  {commands(is_companion ? AttemptStep::compare_companion : AttemptStep::compare_disturbed, slot)});
+    slots_.wait(slot);
+    return solver_.differences(*pool_, slot);
+}
+
+void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
+    const Segment& segment = control_->segment();
+    const std::uint32_t last = frame + segment.frame_count - 1;
+    const std::uint32_t substeps = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
+    position_error_.saw(last, follow(StateSet::companion, frame, substeps, finished), segment.substeps);
+    if (sensitivity_.runs())
+        sensitivity_.saw(last, follow(StateSet::disturbed, frame, segment.substeps, finished), position_error_);
+    if (sensitivity_.begins(last, position_error_)) {
+        sensitivity_.begin(last);
+        const std::uint32_t slot = take_slot(finished);
+        slots_.submit(slot, {commands(AttemptStep::disturb, slot)});
+        beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = segment.substeps;
+    }
+    control_->accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());
+}
+
+}  // namespace drape
