@@ -17,6 +17,7 @@ PUSH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/state_store.h"
 
+const int tile_width = explicit_tile_width;
 layout(local_size_x = tile_width, local_size_y = tile_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 VECTOR_OUT(1, PositionOut, position_out);

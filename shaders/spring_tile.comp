@@ -14,6 +14,7 @@ PUSH_CONSTANTS(AllSpringsPush)
 #define TOGETHER
 #include "include/state_store.h"
 
+const int tile_width = sweep_tile_width;
 layout(local_size_x = tile_width, local_size_y = tile_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;

@@ -110,8 +110,8 @@ class JoinedSteps {
 
 /// The size of the joined explicit steps of a tile, which are more where it holds the whole cloth.
 FlightSize tile_flight(const Grid& grid) {
-    const bool is_whole = tile_halo_of(grid, glsl::tile_halo) == 0;
-    return {2, static_cast<std::uint32_t>(is_whole ? glsl::tile_most_steps : glsl::tile_halo)};
+    const std::uint32_t halo = tile_of(StepKind::explicit_step, grid).halo;
+    return {2, halo == 0 ? std::uint32_t{glsl::tile_most_steps} : halo};
 }
 
 /// Explicit steps that stay alone stream too, unless wind blows or the cloth bends.
@@ -186,14 +186,17 @@ bool has_direction(const glsl::AllSpringsPush& push, int direction) {
     return lengths[direction] > 0;
 }
 
-std::uint32_t tile_halo_of(const Grid& grid, int halo) {
-    const bool is_whole = grid.columns() <= glsl::tile_width && grid.rows() <= glsl::tile_width;
-    return is_whole ? 0 : static_cast<std::uint32_t>(halo);
+Tile tile_of(StepKind kind, const Grid& grid) {
+    Tile tile{glsl::sweep_tile_width, glsl::twist_tile_halo};
+    if (kind == StepKind::explicit_step) tile = {glsl::explicit_tile_width, glsl::explicit_tile_halo};
+    if (kind == StepKind::all_springs) tile.halo = glsl::spring_tile_halo;
+    const bool is_whole = grid.columns() <= tile.width && grid.rows() <= tile.width;
+    return {tile.width, is_whole ? 0 : tile.halo};
 }
 
-std::uint32_t tile_invocations(std::uint32_t particles, std::uint32_t halo) {
-    const std::uint32_t own = glsl::tile_width - 2 * halo;
-    return (particles + own - 1) / own * glsl::tile_width;
+std::uint32_t tile_invocations(std::uint32_t particles, const Tile& tile) {
+    const std::uint32_t own = tile.width - 2 * tile.halo;
+    return (particles + own - 1) / own * tile.width;
 }
 
 std::vector<Step> kernel_steps(const SimulationModel& model, const Kernels& kernels) {

@@ -35,11 +35,15 @@ std::vector<Step> twists_together(Kernel kernel, const std::vector<Step>& steps)
 /// Whether a step of all springs has springs of that direction (cloth/directions.h).
 bool has_direction(const glsl::AllSpringsPush& push, int direction);
 
-/// How many particles a tile shares with the next one at either side, given the halo that it needs: none where one tile
-/// holds the whole cloth.
-std::uint32_t tile_halo_of(const Grid& grid, int halo);
+/// The particles along a side of a tile, and those at every side that are of no use (shared/tile_types.h).
+struct Tile {
+    std::uint32_t width, halo;
+};
+
+/// Returns the tiles in which steps of this kind take a cloth. Where one holds the whole cloth it needs no halo.
+Tile tile_of(StepKind kind, const Grid& grid);
 
 /// Invocations along a side of a cloth of so many particles, in tiles.
-std::uint32_t tile_invocations(std::uint32_t particles, std::uint32_t halo);
+std::uint32_t tile_invocations(std::uint32_t particles, const Tile& tile);
 
 }  // namespace drape

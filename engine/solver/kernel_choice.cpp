@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "cloth/cloth_state.h"
-#include "cloth/cyclic_lines.h"
 #include "cloth/kernel_steps.h"
 #include "graph/executor.h"
-#include "shared/cyclic_types.h"
 #include "shared/line_types.h"
 #include "shared/stream_types.h"
+#include "shared/tile_types.h"
 #include "vulkan/api.h"
 #include "vulkan/error.h"
 
@@ -71,15 +70,16 @@ std::string shuffle_obstacle(const vulkan::Device& device, const SimulationModel
                                   : fmt::format("the device has no subgroups of {} that shuffle", lanes);
 }
 
-/// Why no workgroup can hold a tile of a cloth or the longest line of a nested box.
-std::string large_group_obstacle(const vulkan::Device& device, const SimulationModel&) {
-    constexpr std::uint32_t most = glsl::cyclic_most_particles;
+/// Why no workgroup can hold a tile of so many particles a side.
+template <int width>
+std::string tile_obstacle(const vulkan::Device& device, const SimulationModel&) {
+    constexpr std::uint32_t particles = width * width;
+    constexpr std::uint32_t bytes = 2 * sizeof(glsl::vec4) * particles;  // two vectors each, the second padded
     const VkPhysicalDeviceLimits& limits = device.limits();
-    if (limits.maxComputeWorkGroupInvocations < most || limits.maxComputeWorkGroupSize[0] < most)
-        return fmt::format("the device has no workgroups of {} invocations", most);
-    constexpr bool bent = false;
-    if (limits.maxComputeSharedMemorySize < cyclic_shared_bytes(most, bent))
-        return fmt::format("the device's workgroups share less than {} bytes", cyclic_shared_bytes(most, bent));
+    if (limits.maxComputeWorkGroupInvocations < particles)
+        return fmt::format("the device has no workgroups of {} invocations", particles);
+    if (limits.maxComputeSharedMemorySize < bytes)
+        return fmt::format("the device's workgroups share less than {} bytes", bytes);
     return {};
 }
 
@@ -107,15 +107,15 @@ constexpr KernelRule rules[] = {
      "a CPU stores to buffers in .6 to .8 of the time that it takes to store to images"},
     {Kernel::explicit_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
      "a particle is loaded and stored once for four steps, and every spring is evaluated once"},
-    {Kernel::explicit_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+    {Kernel::explicit_tile, DeviceKind::gpu, Kernel::plain, tile_obstacle<glsl::explicit_tile_width>,
      "shared memory holds the particles for several steps"},
     {Kernel::spring_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
      "a particle is loaded and stored once instead of up to eight times"},
-    {Kernel::spring_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+    {Kernel::spring_tile, DeviceKind::gpu, Kernel::plain, tile_obstacle<glsl::sweep_tile_width>,
      "shared memory holds the particles for all eight passes"},
     {Kernel::twist_stream, DeviceKind::cpu, Kernel::buffer_store, shuffle_obstacle,
      "a particle is loaded and stored once instead of four times"},
-    {Kernel::twist_tile, DeviceKind::gpu, Kernel::plain, large_group_obstacle,
+    {Kernel::twist_tile, DeviceKind::gpu, Kernel::plain, tile_obstacle<glsl::sweep_tile_width>,
      "shared memory holds the particles for all four passes"},
     {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, no_obstacle,
      "a line waits for memory some log n times instead of 3 n times"},

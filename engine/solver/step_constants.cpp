@@ -39,7 +39,7 @@ constexpr ConstantRow constant_rows[] = {
     {"directions", direction_bits},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},
-    {"halo", [](Place p) { return tile_halo(p); }},
+    {"halo", [](Place p) { return tile_of(p.step.kind, p.cloth->model->grid).halo; }},
     {"has_bend", [](Place p) { return p.step.push<glsl::ExplicitPush>().twist > 0 ? 1u : 0u; }},
     {"has_shear", [](Place p) { return p.step.push<glsl::ExplicitPush>().relative_stiffness.z > 0 ? 1u : 0u; }},
     {"local_size_x", group_width},

@@ -7,7 +7,6 @@
 #include "cloth/nested_boxes.h"
 #include "shared/residual_types.h"
 #include "shared/stream_types.h"
-#include "shared/tile_types.h"
 
 namespace drape {
 
@@ -135,15 +134,10 @@ DispatchSize over_twist_stream(const StepPlace& place, const ComputePipeline&) {
     return over_stream(place, glsl::twist_width, glsl::twist_halo);
 }
 
-std::uint32_t tile_halo(const StepPlace& place) {
-    const bool springs = place.step.kind == StepKind::all_springs;
-    return tile_halo_of(place.cloth->model->grid, springs ? glsl::spring_tile_halo : glsl::tile_halo);
-}
-
 DispatchSize over_tiles(const StepPlace& place, const ComputePipeline&) {
-    const std::uint32_t halo = tile_halo(place);
-    return of_cloths(place, tile_invocations(whole(grid_of(place).x), halo),
-                     tile_invocations(whole(grid_of(place).y), halo));
+    const Tile tile = tile_of(place.step.kind, place.cloth->model->grid);
+    return of_cloths(place, tile_invocations(whole(grid_of(place).x), tile),
+                     tile_invocations(whole(grid_of(place).y), tile));
 }
 
 DispatchSize over_residual_strips(const StepPlace& place, const ComputePipeline&) {

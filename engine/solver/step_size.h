@@ -27,9 +27,8 @@ DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pip
 DispatchSize over_explicit_stream(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_spring_stream(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_twist_stream(const StepPlace& place, const ComputePipeline&);
-/// Tiles with the halo of the step, one invocation per particle of a tile.
+/// Tiles of the step's kind, one invocation per particle of a tile.
 DispatchSize over_tiles(const StepPlace& place, const ComputePipeline&);
-std::uint32_t tile_halo(const StepPlace& place);
 DispatchSize over_residual_strips(const StepPlace& place, const ComputePipeline&);
 
 }  // namespace drape

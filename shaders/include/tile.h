@@ -1,4 +1,5 @@
-// An invocation's particle of a tile, and of the sheet. Tiles overlap by 2 * `halo`. The includer has `push.grid`.
+// An invocation's particle of a tile, and of the sheet. Tiles overlap by 2 * `halo`. The includer has `push.grid` and
+// `tile_width`, particles a side.
 bool within(ivec2 place, ivec2 size) { return place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y; }
 
 ivec2 own_place() { return ivec2(gl_LocalInvocationID.xy); }

@@ -74,7 +74,7 @@ class Judge {
             const std::string where = shader_of(step) + " " + pair.name;
             double& most = most_[where];
             most = std::max(most, difference.units);
-            const double turned = exact_ ? 0 : bound.turned / 1000 * static_cast<double>(pair.twin_integers.size());
+            const double turned = exact_ ? 0 : bound.may_turn(pair);
             if (static_cast<double>(difference.beyond) > turned)
                 ADD_FAILURE() << fmt::format(
                     "{} in substep {}, iteration {}: {} of {} are off by more than {} units, the farthest by {}", where,

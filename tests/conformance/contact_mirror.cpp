@@ -37,6 +37,17 @@ std::array<std::uint32_t, 2> words_of(std::int64_t units, bool wide) {
 
 }  // namespace
 
+std::optional<std::uint32_t> mark_of(float w) {
+    for (const float mark : {0.0f, glsl::self_pushed, glsl::self_led_out, glsl::self_pushed_and_led})
+        if (w == mark) return static_cast<std::uint32_t>(mark);
+    return std::nullopt;
+}
+
+std::optional<std::uint32_t> goes_on(float share, float made) {
+    if (!(share >= made && share <= 1.0f)) return std::nullopt;
+    return share > made ? 1u : 0u;
+}
+
 bool ContactMirror::concerns(const Step& step, const TwinContact& twin, std::size_t place) const {
     const int owner = twin.owners[place];
     return owner >= 0 && (step.cloth == between_cloths || step.cloth == static_cast<std::size_t>(owner)) &&
@@ -90,7 +101,7 @@ void ContactMirror::put(ContactField field, std::span<const std::byte> bytes) co
     vulkan::upload_range(device_, pool_.buffer(name_of(field)), 0, bytes);
 }
 
-void ContactMirror::upload(const Step& step, const Names& used, const TwinContact& twin) const {
+void ContactMirror::upload(const Step& step, const Names& used, const TwinContact& twin) {
     const auto uses = [&](ContactField field) { return used.contains(name_of(field)); };
     if (step.kind == StepKind::self_boxes) upload_borne(twin);
     if (uses(ContactField::displacements) && step.kind != StepKind::self_gather) upload_displacements(twin);
@@ -104,6 +115,18 @@ void ContactMirror::upload(const Step& step, const Names& used, const TwinContac
     if (uses(ContactField::touching) && step.kind == StepKind::self_contact) upload_touching(twin);
     if (uses(ContactField::sums) && (step.kind == StepKind::self_contact || step.kind == StepKind::self_push))
         upload_sums(twin);
+    if (step.kind == StepKind::self_limit || step.kind == StepKind::self_return) upload_shares(step, twin);
+}
+
+/// A round begins with the shares of the one before it, and the step that ends contact takes those of the last one.
+void ContactMirror::upload_shares(const Step& step, const TwinContact& twin) {
+    const int round = step.kind == StepKind::self_limit ? step.push<glsl::SelfContactPush>().round : glsl::self_rounds;
+    shares_made_.assign(contact_.place_count(), 0);
+    if (round == 0) return;
+    shares_made_ = twin.shares;
+    const auto bytes = std::as_bytes(std::span(twin.shares));
+    vulkan::upload_range(device_, pool_.buffer(name_of(ContactField::shares)),
+                         static_cast<std::size_t>(round - 1) * bytes.size(), bytes);
 }
 
 void ContactMirror::upload_displacements(const TwinContact& twin) const {
@@ -158,14 +181,12 @@ void ContactMirror::add_fields(const Step& step, const Names& written, const Twi
                    fields);
     if (wrote(ContactField::supports)) add_supports(step, twin, fields);
     if (wrote(ContactField::boxes) && step.kind == StepKind::self_boxes) add_boxes(twin, fields);
-    if (wrote(ContactField::before))
-        add_places(step, ContactField::before, list<vec4>(ContactField::before), twin.before, twin, fields);
+    if (wrote(ContactField::before)) add_before(step, twin, fields);
     if (wrote(ContactField::velocities))
         add_places(step, ContactField::velocities, list<vec4>(ContactField::velocities), twin.velocities, twin, fields);
     if (wrote(ContactField::made_good))
         add_places(step, ContactField::made_good, list<vec4>(ContactField::made_good), twin.made_good, twin, fields);
-    if (wrote(ContactField::led_ways))
-        add_places(step, ContactField::led_ways, list<vec4>(ContactField::led_ways), twin.led_ways, twin, fields);
+    if (wrote(ContactField::led_ways)) add_led_ways(step, twin, fields);
     if (step.kind == StepKind::self_pairs) add_pairs(twin, fields);
     if (wrote(ContactField::touching) && step.kind != StepKind::self_pairs) add_touching(twin, fields);
     if (wrote(ContactField::sums) && step.kind != StepKind::self_primitives && touches) add_sums(step, twin, fields);
@@ -181,17 +202,39 @@ void ContactMirror::add_places(const Step& step, ContactField field, const std::
                                std::vector<FieldPair>& fields) const {
     TexelPairs texels("contact " + std::string(row_of(field).name), edge_);
     // Places that contact did not move have values left over from earlier substeps.
-    const bool of_moved = field == ContactField::velocities || field == ContactField::made_good,
-               of_led = field == ContactField::led_ways;
+    const bool of_moved = field == ContactField::velocities || field == ContactField::made_good;
     for (std::size_t place = 0; place < twin.size(); ++place) {
         if (!concerns(step, about, place) || (of_moved && about.before[place].w == 0.0f)) continue;
-        if (of_led && about.before[place].w < glsl::self_led_out) continue;
         if (field == ContactField::displacements)  // the device has more bits in w
             texels.add(xyz(device[place]), xyz(twin[place]));
         else
             texels.add(device[place], twin[place]);
     }
     texels.put_into(fields);
+}
+
+void ContactMirror::add_before(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
+    TexelPairs motions("contact before", edge_);
+    DecidedPairs marks("contact before.w");
+    const auto before = list<vec4>(ContactField::before);
+    for (std::size_t place = 0; place < before.size(); ++place) {
+        if (!concerns(step, twin, place)) continue;
+        const vec4 &ours = before[place], &theirs = twin.before[place];
+        motions.add(xyz(ours), xyz(theirs));
+        marks.add(mark_of(ours.w), mark_of(theirs.w).value(), ours.w, theirs.w);
+    }
+    motions.put_into(fields);
+    marks.put_into(fields);
+}
+
+/// Places that no collider led out of an overlap, on either side, have values left over from earlier substeps.
+void ContactMirror::add_led_ways(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
+    TexelPairs ways("contact led_ways", edge_);
+    const auto before = list<vec4>(ContactField::before), led_ways = list<vec4>(ContactField::led_ways);
+    for (std::size_t place = 0; place < before.size(); ++place)
+        if (concerns(step, twin, place) && std::min(before[place].w, twin.before[place].w) >= glsl::self_led_out)
+            ways.add(led_ways[place], twin.led_ways[place]);
+    ways.put_into(fields);
 }
 
 void ContactMirror::add_boxes(const TwinContact& twin, std::vector<FieldPair>& fields) const {
@@ -283,13 +326,14 @@ void ContactMirror::add_sums(const Step& step, const TwinContact& twin, std::vec
 void ContactMirror::add_shares(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
     const int round = step.push<glsl::SelfContactPush>().round;
     const auto shares = list<float>(ContactField::shares);
-    FieldPair pair{.name = "contact shares", .least_scale = 1};
+    DecidedPairs decided("contact shares", 1);
     for (std::size_t place = 0; place < twin.shares.size(); ++place) {
         if (!concerns(step, twin, place)) continue;
-        pair.device.push_back(shares[static_cast<std::size_t>(round) * contact_.place_count() + place]);
-        pair.twin.push_back(twin.shares[place]);
+        const float ours = shares[static_cast<std::size_t>(round) * contact_.place_count() + place],
+                    theirs = twin.shares[place], made = shares_made_[place];
+        decided.add(goes_on(ours, made), goes_on(theirs, made).value(), ours, theirs);
     }
-    fields.push_back(pair);
+    decided.put_into(fields);
 }
 
 void ContactMirror::add_borne(const TwinContact& twin, std::vector<FieldPair>& fields) const {

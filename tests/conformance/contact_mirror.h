@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -15,6 +16,13 @@
 
 namespace drape::test {
 
+/// Returns what says that a particle was moved (self_pushed and those beside it), nothing where a number is none of it.
+std::optional<std::uint32_t> mark_of(float w);
+
+/// Returns whether a particle of which this share of its motion was `made` goes on, nothing where it cannot make such a
+/// share.
+std::optional<std::uint32_t> goes_on(float share, float made);
+
 class ContactMirror {
   public:
     ContactMirror(const vulkan::Device& device, const SelfContact& contact, const graph::ResourcePool& pool)
@@ -24,9 +32,9 @@ class ContactMirror {
     }
 
     using Names = std::set<std::string, std::less<>>;
-    /// Gives a step the twin's state, before the twin takes it: vectors and sums by place, what touching pairs hold,
-    /// and what pairs bore. The order of lists, the boxes and the tree stay the device's.
-    void upload(const Step& step, const Names& used, const TwinContact& twin) const;
+    /// Gives a step the twin's state, before the twin takes it: vectors, sums and shares by place, what touching pairs
+    /// hold, and what pairs bore. The order of lists, the boxes and the tree stay the device's.
+    void upload(const Step& step, const Names& used, const TwinContact& twin);
     /// Adds what a step wrote, and the twin as well. Where rounding turned whether a pair is listed, what follows at
     /// its corners in the substep is left out.
     void add_fields(const Step& step, const Names& written, const TwinContact& twin, std::vector<FieldPair>& fields);
@@ -52,10 +60,13 @@ class ContactMirror {
     void upload_touching(const TwinContact& twin) const;
     void upload_sums(const TwinContact& twin) const;
     void upload_borne(const TwinContact& twin) const;
+    void upload_shares(const Step& step, const TwinContact& twin);
 
     void add_places(const Step& step, ContactField field, const std::vector<glsl::vec4>& device,
                     const std::vector<glsl::vec4>& twin, const TwinContact& about,
                     std::vector<FieldPair>& fields) const;
+    void add_before(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
+    void add_led_ways(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_boxes(const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_supports(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const;
     void add_pairs(const TwinContact& twin, std::vector<FieldPair>& fields);
@@ -69,7 +80,8 @@ class ContactMirror {
     const vulkan::Device& device_;
     const SelfContact& contact_;
     const graph::ResourcePool& pool_;
-    double edge_ = 0;  ///< the longest of any cloth, m
+    double edge_ = 0;                 ///< the longest of any cloth, m
+    std::vector<float> shares_made_;  ///< in the rounds before this one
     std::set<PairKey> turned_;
     std::set<std::size_t> turned_places_;  ///< places of their corners
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,29 @@ class TexelPairs {
 
   private:
     FieldPair xyz_, w_;
+};
+
+/// Collects numbers that each follow from a decision, which rounding may turn. A number is compared where device and
+/// twin decided alike.
+class DecidedPairs {
+  public:
+    explicit DecidedPairs(const std::string& name, double least_scale = 0)
+        : decisions_{.name = name + ", decided"}, numbers_{.name = name, .least_scale = least_scale} {}
+    /// `ours`: what the device decided; nothing where its number comes of no decision, so that it counts as a number.
+    void add(std::optional<std::uint32_t> ours, std::uint32_t theirs, float device, float twin) {
+        decisions_.device_integers.push_back(ours.value_or(theirs));
+        decisions_.twin_integers.push_back(theirs);
+        if (ours.value_or(theirs) != theirs) return;
+        numbers_.device.push_back(device);
+        numbers_.twin.push_back(twin);
+    }
+    void put_into(std::vector<FieldPair>& pairs) const {
+        pairs.push_back(decisions_);
+        pairs.push_back(numbers_);
+    }
+
+  private:
+    FieldPair decisions_, numbers_;
 };
 
 }  // namespace drape::test

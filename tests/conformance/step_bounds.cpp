@@ -29,7 +29,7 @@ const std::vector<StepBound>& step_bounds() {
         {tether, 16, fixed, 0, "a root and a division for each of two tethers"},
         {box_edges, 32, fixed, 0, "divisions of where a triangle cuts an edge; which edge is decided by them"},
         // Contact leaves what rests just as deep as its surface lets it be, so rounding says of any such particle
-        // whether the next collision finds it there: a tenth of a cloth on a ball.
+        // whether the next collision finds it there, and whether it is led out: a tenth of a cloth on a ball.
         {collide, 32, fixed, 100, "roots and divisions of distance and friction; what rests lies on a surface or not"},
         {residual, 16, fixed, 0, "a root and a division, squared"},
         {decide, 0, fixed, 0, "integers; no scene is near its tolerance"},
@@ -47,7 +47,9 @@ const std::vector<StepBound>& step_bounds() {
         {self_begin, 128, fixed, 0, "three divisions and a root of a distance that is a part of the edges"},
         {self_contact, 128, fixed, 0, "as self_begin"},
         {self_push, 16, fixed, 0, "of the sums, which are integers"},
-        {self_limit, 128, fixed, 0, "as self_begin"},
+        // A corner that moves along its plane makes all of its motion or none: where the other side takes all the room
+        // it is held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
+        {self_limit, 128, fixed, 10, "as self_begin; what moves along a plane goes towards it or not by rounding"},
         {self_return, 16, fixed, 0, "products and a division"},
     };
     return bounds;

@@ -28,6 +28,10 @@ struct StepBound {
 
     /// Its work is seen in a later step only.
     bool is_judged_later() const { return units < 0; }
+    /// Returns how many of a field's decisions rounding may turn.
+    double may_turn(const FieldPair& pair) const {
+        return turned / 1000 * static_cast<double>(pair.twin_integers.size());
+    }
     /// Returns the bound of a step of a cloth, whose longest line has so many particles.
     double units_of(const Step& step, std::uint32_t longest_line) const {
         return units * (chain == Chain::steps ? step.count : chain == Chain::lines ? longest_line : 1);
