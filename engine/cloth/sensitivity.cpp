@@ -18,7 +18,8 @@ constexpr double pause = 2;
 }  // namespace
 
 float disturbance(const ClothModel& cloth) {
-    const double side = std::max(cloth.spacing[0] * (cloth.grid.columns() - 1), cloth.spacing[1] * (cloth.grid.rows() - 1));
+    const double side =
+        std::max(cloth.spacing[0] * (cloth.grid.columns() - 1), cloth.spacing[1] * (cloth.grid.rows() - 1));
     return 1e-6f * static_cast<float>(side);
 }
 

@@ -1,7 +1,8 @@
 // Tells chaos from error. Where cloth crumples, two motions that differ by nothing part, however exactly each is
 // computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it a third run is begun
-// where the error first matters: the run as it is then, disturbed by a millionth of the cloth's size, with the run's own
-// substeps. If it parts as far as the estimated error says, positions have no truth there, and the error is the motion's.
+// where the error first matters: the run as it is then, disturbed by a millionth of the cloth's size, with the run's
+// own substeps. If it parts as far as the estimated error says, positions have no truth there, and the error is the
+// motion's.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ class Sensitivity {
     void saw(std::uint32_t frame, std::span<const double> distances, const MotionError& error);
     /// Returns whether equally exact runs were found to part as far as the estimated error.
     bool is_sensitive() const { return sensitive_; }
-    /// Returns how far apart they were, m.
+    /// Returns how far apart they were when they were last compared, m.
     double parted() const { return parted_; }
 
     /// Writes or reads what it knows.

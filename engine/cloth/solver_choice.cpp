@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cloth/method.h"
+#include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
 
@@ -69,8 +70,9 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
         0, method.trust != Method::Trust::none && std::max<double>(substeps, least) <= method.most_substeps};
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
+    const std::uint32_t with_companion = result.substeps + companion_substeps(method, result.substeps);
     for (const Cloth& cloth : scene.cloths)
-        result.predicted_ms += result.substeps * substep_ms(method, scene, cloth, device);
+        result.predicted_ms += with_companion * substep_ms(method, scene, cloth, device);
     return result;
 }
 

@@ -160,7 +160,7 @@ SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
 SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& judgement) {
     slack_ = unpredictable_slack * judgement.motion;
     succeed(judgement);
-    rung_ = std::max(began_, needed_);
+    rung_ = turned_back_ ? tried_ : std::max(began_, needed_);
     until_probe_ = 0;
     return Verdict::unpredictable;
 }

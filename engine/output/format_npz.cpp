@@ -26,7 +26,8 @@ FrameValues numbers_of(const FrameValues& values, const std::string& label) {
     FrameValues numbers;
     for (const auto& [name, value] : values) {
         if (name.starts_with(own)) numbers[name.substr(own.size())] = value;
-        for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "asleep"})
+        for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "position_error_m",
+                                              "position_allowed_m", "parted_m", "sensitive", "asleep"})
             if (name == effort) numbers[name] = value;
     }
     return numbers;

@@ -83,8 +83,7 @@ void Twin::disturb() {
         std::vector<vec4>& positions = cloths_[cloth][Field::position];
         const float amplitude = disturbance(model_->cloths[cloth]);
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            const vec3 there =
-                disturbed(xyz(positions[i]), positions[i].w, static_cast<std::uint32_t>(i), amplitude);
+            const vec3 there = disturbed(xyz(positions[i]), positions[i].w, static_cast<std::uint32_t>(i), amplitude);
             positions[i] = {there.x, there.y, there.z, positions[i].w};
         }
     }

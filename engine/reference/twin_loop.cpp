@@ -85,8 +85,7 @@ std::vector<double> TwinLoop::differences(const Twin& fine, const Twin& coarse) 
 
 /// Simulates the kept segment's frames, which begin with the next one and end with `end`, in another twin. Returns how
 /// far that ends from it, by cloth, m.
-std::vector<double> TwinLoop::follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps,
-                                     const Twin& end) {
+std::vector<double> TwinLoop::follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps, const Twin& end) {
     if (substeps != of_history) beside.change_substep(at(substeps));
     of_history = substeps;
     for (std::uint32_t k = 0; k < control_.segment().frame_count; ++k) beside.run_frame(next_ + k);

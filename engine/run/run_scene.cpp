@@ -299,7 +299,7 @@ bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, 
 /// Returns what to tell a run that did not keep what `auto` aims at.
 std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics,
                                          const RunVerdict& verdict) {
-    if (facts.limits_are_kept) return statistics.unpredictable();
+    if (facts.limits_are_kept) return statistics.inexact_motion();
     const double rms = std::max(verdict.stretch_error_rms, statistics.worst_of_run("/stretch_error_rms")).value_or(0),
                  largest =
                      std::max(verdict.stretch_error_max, statistics.worst_of_run("/stretch_error_max")).value_or(0);
@@ -447,7 +447,8 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.warnings = summary.warnings;
         manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
         describe_contact(manifest, simulation, sink.cuts());
-        if (const auto note = left_out_of_contact(manifest); note && !request.quiet) say("note: " + *note);
+        for (const auto& note : {left_out_of_contact(manifest), sink.statistics()->sensitive_motion()})
+            if (note && !request.quiet) say("note: " + *note);
         finish_files(sink, manifest, summary, failure);
     }
     summary.validation_count = earlier_validation + device.validation_count();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/motion_error.h"
+
 namespace drape {
 
 namespace {
@@ -40,6 +42,11 @@ std::optional<double> energy(const FrameValues& values) {
     return found == values.end() ? std::nullopt : std::optional(found->second);
 }
 
+double value_of(const FrameValues& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? 0 : found->second;
+}
+
 std::string penetration_text(double metres) {
     const double millimetres = 1000 * metres;
     if (millimetres == 0) return "no penetration";
@@ -55,8 +62,11 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         values["substeps"] = frame.effort.substeps;
         values["attempts"] = frame.effort.attempts;
         values["motion_error_m_s"] = frame.effort.motion_error;
-        if (!frame.effort.predictable) values["motion_unpredictable"] = 1;
     }
+    values["position_error_m"] = frame.effort.position_error;
+    values["position_allowed_m"] = frame.effort.position_allowed;
+    values["parted_m"] = frame.effort.parted;
+    if (frame.effort.sensitive) values["sensitive"] = 1;
     if (frame.effort.asleep) values["asleep"] = 1;
     double kinetic = 0, potential = 0, elastic = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
@@ -89,11 +99,10 @@ void RunStatistics::add(std::uint32_t frame, const FrameValues& values) {
         double& largest = largest_.try_emplace(name, value).first->second;
         largest = std::max(largest, value);
     }
-    if (values.contains("motion_unpredictable")) {
-        unpredictable_.first = unpredictable_.count++ == 0 ? frame : std::min(unpredictable_.first, frame);
-        if (const auto error = values.find("motion_error_m_s"); error != values.end())
-            unpredictable_.worst_error = std::max(unpredictable_.worst_error, error->second);
-    }
+    if (values.contains("sensitive") && (!sensitive_ || frame < sensitive_->frame))
+        sensitive_ = {frame, value_of(values, "parted_m"), 0};
+    if (!values.contains("sensitive") && values.contains("position_error_m") && (!exact_ || frame >= exact_->frame))
+        exact_ = {frame, value_of(values, "position_error_m"), value_of(values, "position_allowed_m")};
     if (frames_) frames_->add(frame, values);
 }
 
@@ -110,12 +119,20 @@ std::optional<double> RunStatistics::energy_drift(const FrameValues& values) con
     return now && first_ && first_->second ? std::optional(*now - *first_->second) : std::nullopt;
 }
 
-std::optional<std::string> RunStatistics::unpredictable() const {
-    if (unpredictable_.count == 0) return std::nullopt;
+std::optional<std::string> RunStatistics::inexact_motion() const {
+    if (!exact_ || !(exact_->value > exact_->allowed)) return std::nullopt;
     return fmt::format(
-        "in {} of {} frames, from frame {} on, method auto did not keep the limit of the motion's error (it came to "
-        "{:.3g} m/s): more substeps do not reduce it, as where cloth crumples; the stretch error is kept",
-        unpredictable_.count, count_, unpredictable_.first, unpredictable_.worst_error);
+        "at frame {} positions are about {:.2g} mm from the exact motion (by an estimate that is right within a factor "
+        "of {}), where solver.tolerance_motion allows {:.2g} mm; a smaller one takes more substeps",
+        exact_->frame, 1000 * exact_->value, motion_error_confidence, 1000 * exact_->allowed);
+}
+
+std::optional<std::string> RunStatistics::sensitive_motion() const {
+    if (!sensitive_) return std::nullopt;
+    return fmt::format(
+        "the motion is sensitive from frame {} on: runs that are equally exact had parted by {:.2g} mm there, as where "
+        "cloth crumples; stretch, contact and means hold",
+        sensitive_->frame, 1000 * sensitive_->value);
 }
 
 std::string RunStatistics::note(const FrameValues& values) const {
@@ -126,6 +143,8 @@ std::string RunStatistics::note(const FrameValues& values) const {
         parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
     if (const auto error = values.find("motion_error_m_s"); error != values.end())
         parts.push_back(fmt::format("motion error {:.3g} mm/s", 1000 * error->second));
+    if (const auto error = values.find("position_error_m"); error != values.end())
+        parts.push_back(fmt::format("position error {:.2g} mm", 1000 * error->second));
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (values.contains("asleep")) parts.push_back("asleep");

@@ -37,15 +37,16 @@ class RunStatistics {
     /// Returns the largest value, of any frame and cloth, of "<cloth>" + `name`.
     std::optional<double> worst_of_run(std::string_view name) const { return worst(largest_, name); }
 
-    /// Returns what to say of the frames in which method `auto` did not keep the motion's error, since more substeps do
-    /// not reduce it; nothing when there is none.
-    std::optional<std::string> unpredictable() const;
+    /// Returns what to warn of where the last frame's estimated position error is above what is allowed, and what the
+    /// scene can do about it; of frames before the motion is sensitive.
+    std::optional<std::string> inexact_motion() const;
+    /// Returns what to note where exact positions mean nothing from some frame on.
+    std::optional<std::string> sensitive_motion() const;
 
   private:
-    struct Unpredictable {
-        std::size_t count = 0;
-        std::uint32_t first = 0;  ///< frame
-        double worst_error = 0;   ///< m/s
+    struct Motion {
+        std::uint32_t frame = 0;
+        double value = 0, allowed = 0;  ///< m
     };
     static std::optional<double> worst(const FrameValues& values, std::string_view name);
     std::optional<double> energy_drift(const FrameValues& values) const;
@@ -54,7 +55,8 @@ class RunStatistics {
     std::size_t count_ = 0;
     std::optional<std::pair<std::uint32_t, std::optional<double>>> first_;  ///< frame, its energy
     FrameValues largest_;                                                   ///< largest value of every name
-    Unpredictable unpredictable_;
+    std::optional<Motion> sensitive_;  ///< the first frame that is, and how far runs had parted
+    std::optional<Motion> exact_;      ///< the last frame that is not, and its position error
 };
 
 }  // namespace drape

@@ -17,7 +17,7 @@ namespace drape {
 
 std::span<const AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     using enum AttemptStep;
-    static constexpr std::array all{change_substep, keep,    restore,          remember, compare,
+    static constexpr std::array all{change_substep,    keep,    restore,          remember, compare,
                                     compare_companion, disturb, compare_disturbed};
     static_assert(all.size() == attempt_step_count);
     // Contact alone, whose lists may be too short, needs to keep and restore.

@@ -193,8 +193,7 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     if (has.searches_cuts) solver_.write_cutters(*pool_, slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
     if (has.hands_out && raster_) raster_->write_frame(*pool_, slot, frame / fps);
     std::vector<VkCommandBuffer> commands;
-    if (has.simulates && model_.self_contact)
-        commands.push_back(this->commands(AttemptStep::keep, slot));
+    if (has.simulates && model_.self_contact) commands.push_back(this->commands(AttemptStep::keep, slot));
     commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
     slots_.submit(slot, commands);
     in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};

@@ -248,7 +248,7 @@ class FrameLoop {
     ClothRaster raster_;
     std::array<Frame, frame_contents.size()> frames_;
     std::array<std::array<Frame, attempt_step_count>, state_set_count> attempts_;  ///< by set
-    std::array<std::map<std::uint32_t, Rung>, state_set_count> rungs_;  ///< by set and substeps
+    std::array<std::map<std::uint32_t, Rung>, state_set_count> rungs_;             ///< by set and substeps
     std::optional<SubstepControl> control_;
     Watch watch_;
     Sleep sleep_;
@@ -259,16 +259,16 @@ class FrameLoop {
         attempt_self_records_;    ///< per frame of the last attempt, in order, like the statistics
     glsl::SelfRecord fullest_{};  ///< most entries of every list in the last attempt
     std::optional<SelfContactReport> self_contact_;
-    std::uint32_t state_substeps_;           ///< substeps of the state's history
-    bool in_segment_ = false;                ///< `stop` is asked within one
-    bool kept_ = false;                      ///< the device has what the segment started from
-    std::uint32_t simulated_ = 1;            ///< the frame after those that a closed loop has simulated
-    double motion_error_ = 0;                ///< the last probe's
+    std::uint32_t state_substeps_;  ///< substeps of the state's history
+    bool in_segment_ = false;       ///< `stop` is asked within one
+    bool kept_ = false;             ///< the device has what the segment started from
+    std::uint32_t simulated_ = 1;   ///< the frame after those that a closed loop has simulated
+    double motion_error_ = 0;       ///< the last probe's
     MotionError position_error_;
     Sensitivity sensitivity_;
     std::vector<std::uint32_t> beside_substeps_;  ///< by set, of the histories beside the run's
-    std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
-    std::deque<FinishedFrame> passed_over_;  ///< a closed loop's frames that are not wanted and not told of yet
+    std::deque<FrameCopy> withheld_;              ///< frames that are simulated and not handed out yet
+    std::deque<FinishedFrame> passed_over_;       ///< a closed loop's frames that are not wanted and not told of yet
     Finished withhold_ = [this](const FinishedFrame& frame) { withheld_.emplace_back().keep(frame); };
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;  ///< goes first, as it waits for what is in flight

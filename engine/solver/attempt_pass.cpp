@@ -129,7 +129,9 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptSt
                 : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
         const graph::Handle from = back ? kept : contact[row.field];
         const auto to = std::make_shared<graph::Handle>(back ? contact[row.field] : kept);
-        const std::string name = back ? "restore contact" : step == AttemptStep::keep ? "keep contact" : "disturb contact";
+        const std::string name = back                        ? "restore contact"
+                                 : step == AttemptStep::keep ? "keep contact"
+                                                             : "disturb contact";
         graph.add_pass(
             {name, "judge", live.name + ": " + name},
             [&](graph::PassSetup& setup) {

@@ -7,11 +7,11 @@
 namespace drape {
 
 enum class AttemptStep : std::uint8_t {
-    keep,            ///< reads the state, writes its copy
-    restore,         ///< the way back
-    change_substep,  ///< reads `attempt`; reads and writes displacement, end excess and history
-    remember,        ///< reads position, writes its copy
-    compare,         ///< reads both, writes a record per workgroup for the host
+    keep,               ///< reads the state, writes its copy
+    restore,            ///< the way back
+    change_substep,     ///< reads `attempt`; reads and writes displacement, end excess and history
+    remember,           ///< reads position, writes its copy
+    compare,            ///< reads both, writes a record per workgroup for the host
     compare_companion,  ///< reads position here and in the companion's set, writes likewise
     disturb,            ///< reads the state, writes that of the disturbed run
     compare_disturbed,  ///< reads position here and there, writes likewise

@@ -120,14 +120,14 @@ bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now,
 
 void ClothSolver::upload_state(const graph::ResourcePool& pool,
                                const std::map<std::string, std::vector<std::byte>>& state) const {
-    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
-                               std::span<const std::size_t> cloths) {
-        std::vector<std::byte> all;
-        for (const std::size_t cloth : cloths)
-            if (const auto own = state.find(resource_name(model_.cloths[cloth], row, set)); own != state.end())
-                all.insert(all.end(), own->second.begin(), own->second.end());
-        if (!all.empty()) vulkan::upload(pool.device(), image, all);
-    });
+    for_state_images(
+        pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
+            std::vector<std::byte> all;
+            for (const std::size_t cloth : cloths)
+                if (const auto own = state.find(resource_name(model_.cloths[cloth], row, set)); own != state.end())
+                    all.insert(all.end(), own->second.begin(), own->second.end());
+            if (!all.empty()) vulkan::upload(pool.device(), image, all);
+        });
     for (const std::string& name : names_in_sets(borne_name))
         if (const auto borne = state.find(name); borne != state.end() && pool.has(name))
             vulkan::upload_range(pool.device(), pool.buffer(name), 0, borne->second);  // lists have more room

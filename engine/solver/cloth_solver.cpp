@@ -370,9 +370,8 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         const FieldContext about = context(index);
         for (const FieldRow& row : cloth_fields())
             if (is_alone(index) || !lies_together(row))
-                for (const std::string& name : names_in_sets([&](StateSet set) {
-                         return resource_name(about.cloth, row, set);
-                     }))
+                for (const std::string& name :
+                     names_in_sets([&](StateSet set) { return resource_name(about.cloth, row, set); }))
                     upload_row(pool, name, row, about);
         const std::string name = resource_name(about.cloth, row_of(Field::iteration_sizes));
         if (!pool.has(name)) continue;

@@ -160,7 +160,7 @@ class ClothSolver {
     ContactContext contact_context() const { return {*run_->self_contact, contact_.capacity}; }
 
     const SimulationModel& model_;
-    const SimulationModel* run_;  ///< the run of the graph that is being built
+    const SimulationModel* run_;    ///< the run of the graph that is being built
     StateSet set_ = StateSet::run;  ///< the set that it works on
     Kernels kernels_;
     std::vector<KernelVerdict> verdicts_;
