@@ -7,34 +7,50 @@
 
 namespace drape {
 
-std::uint32_t companion_substeps(const Method& method, std::uint32_t substeps) {
+namespace {
+
+/// s, within which an error that is not seen any more falls to 1/e.
+constexpr double hold = 0.5;
+constexpr double least_order = 0.7, usual_order = 1.4, most_order = 2;
+
+}  // namespace
+
+Companions companions_of(const Method& method, std::uint32_t substeps) {
     const std::uint32_t more = (3 * substeps + 1) / 2;
-    if (method.trust == Method::Trust::resolves && more <= method.most_substeps) return more;
-    return substeps >= 8 ? substeps / 4 : std::max(substeps / 2, 1u);
+    if (method.trust == Method::Trust::resolves && more <= method.most_substeps) return {more, 0};
+    if (substeps < 4) return {std::max(substeps / 2, 1u), 0};
+    const std::uint32_t companion = substeps < 8 ? substeps / 2 : substeps / 4;
+    return {companion, companion / 2};
 }
 
-double error_over_distance(const Method& method, std::uint32_t substeps) {
-    constexpr double order = 1.4;
-    return 1 / std::abs(std::pow(static_cast<double>(substeps) / companion_substeps(method, substeps), order) - 1);
+double richardson_error(const Method& method, std::uint32_t substeps, double apart, double further) {
+    const Companions with = companions_of(method, substeps);
+    const auto fallen = [](double to, double p) { return std::pow(to, -p); };
+    const double n = substeps, companion = with.companion, coarser = with.coarser;
+    double order = usual_order;
+    if (with.coarser > 0) {
+        double low = least_order, high = most_order;  // the ratio of the two distances grows with the order
+        for (int k = 0; k < 30; ++k) {
+            order = 0.5 * (low + high);
+            const double ratio =
+                (fallen(coarser, order) - fallen(companion, order)) / (fallen(companion, order) - fallen(n, order));
+            (ratio * apart < further ? low : high) = order;
+        }
+    }
+    return apart * fallen(n, order) / std::abs(fallen(companion, order) - fallen(n, order));
 }
 
-MotionError::MotionError(const SimulationModel& model)
-    : model_(model), distances_(model.cloths.size()), errors_(distances_), held_(distances_) {}
+MotionError::MotionError(const SimulationModel& model) : model_(model), held_(model.cloths.size()) {}
 
-void MotionError::saw(std::uint32_t frame, std::span<const double> distances, std::uint32_t substeps) {
-    constexpr double hold = 0.5;  // s, within which it falls to 1/e
+void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart,
+                      std::span<const double> further) {
     const double passed = (frame - last_frame_) / model_.scene.time.fps, kept = std::exp(-passed / hold);
+    const Method& method = row_of(model_.scene.solver.method);
     last_frame_ = frame;
     error_ = share_ = 0;
-    for (std::size_t cloth = 0; cloth < distances.size(); ++cloth) {
-        const double grown = distances[cloth] - distances_[cloth];
-        // What was there before came about with other substeps; where the distance shrinks, all of it does alike.
-        if (grown > 0)
-            errors_[cloth] += grown * error_over_distance(row_of(model_.scene.solver.method), substeps);
-        else if (grown < 0)
-            errors_[cloth] *= distances[cloth] / distances_[cloth];
-        distances_[cloth] = distances[cloth];
-        held_[cloth] = std::max(errors_[cloth], kept * held_[cloth]);
+    for (std::size_t cloth = 0; cloth < apart.size(); ++cloth) {
+        const double error = richardson_error(method, substeps, apart[cloth], further.empty() ? 0 : further[cloth]);
+        held_[cloth] = std::max(error, kept * held_[cloth]);
         error_ = std::max(error_, held_[cloth]);
         share_ = std::max(share_, held_[cloth] / (motion_limit(model_, cloth) * frame / model_.scene.time.fps));
     }

@@ -16,21 +16,29 @@ namespace drape {
 /// The stated error is within this factor of the true one in four of five scenes (docs/accuracy.md).
 inline constexpr double motion_error_confidence = 3;
 
-/// Returns the substeps of the companion of a frame: a quarter, a half where that would be fewer than two. Explicit
-/// steps, which soften the cloth where they are fewer than `auto` takes, have half as many more.
-std::uint32_t companion_substeps(const Method& method, std::uint32_t substeps);
+/// The substeps of the runs beside one.
+struct Companions {
+    std::uint32_t companion;
+    std::uint32_t coarser;  ///< 0: there is none
+};
+/// Returns those beside a frame of so many substeps: a quarter and an eighth, where there are enough. Explicit steps,
+/// which soften the cloth where they are fewer than `auto` takes, have a companion with half as many more instead.
+Companions companions_of(const Method& method, std::uint32_t substeps);
 
-/// Returns Richardson's estimate of the error over the distance from the companion: an error that falls with the
-/// substeps n to the power p is 1 over |(n / n_companion)^p - 1| of it. p lies between 1 (contact) and 2 (free motion
-/// that many substeps resolve); measured over scenes and substeps it is 1.4.
-double error_over_distance(const Method& method, std::uint32_t substeps);
+/// Returns Richardson's estimate of the error of n substeps. An error that falls with n to the power p has
+/// `apart` = C (n_c^-p - n^-p) from the companion, and that `further` = C (n_cc^-p - n_c^-p) from the coarser one; the
+/// two tell p, which lies between 0.7 (contact, and errors that substeps so long hardly show) and 2 (free motion that
+/// they resolve). Without a coarser one p is 1.4, the mean of what scenes showed.
+double richardson_error(const Method& method, std::uint32_t substeps, double apart, double further);
 
 class MotionError {
   public:
     explicit MotionError(const SimulationModel& model);
 
-    /// Takes each cloth's RMS distance (m) from the companion's at the end of a frame of so many substeps.
-    void saw(std::uint32_t frame, std::span<const double> distances, std::uint32_t substeps);
+    /// Takes, at the end of a frame of so many substeps, each cloth's RMS distance (m) from the companion's, and that
+    /// one's from the coarser run's (empty: there is none).
+    void saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart,
+             std::span<const double> further);
     /// Returns the estimated RMS position error of the worst cloth, m; NaN where nothing was seen.
     double error() const { return error_; }
     /// Returns the estimate over what the motion's limit allows until then, of the worst cloth.
@@ -41,15 +49,13 @@ class MotionError {
     /// Writes or reads what it knows. Returns whether what was read can be.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(distances_, errors_, held_, last_frame_, error_, share_);
-        const std::size_t count = model_.cloths.size();
-        return distances_.size() == count && errors_.size() == count && held_.size() == count;
+        archive(held_, last_frame_, error_, share_);
+        return held_.size() == model_.cloths.size();
     }
 
   private:
     const SimulationModel& model_;
-    std::vector<double> distances_, errors_;  ///< by cloth, m, at the last frame
-    std::vector<double> held_;                ///< errors that hold on: the two runs of a swing meet now and then
+    std::vector<double> held_;  ///< by cloth, m: errors that hold on, since runs of a swing meet now and then
     std::uint32_t last_frame_ = 0;
     double error_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;
 };

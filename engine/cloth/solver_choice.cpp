@@ -70,9 +70,10 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
         0, method.trust != Method::Trust::none && std::max<double>(substeps, least) <= method.most_substeps};
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
-    const std::uint32_t with_companion = result.substeps + companion_substeps(method, result.substeps);
+    const Companions with = companions_of(method, result.substeps);
     for (const Cloth& cloth : scene.cloths)
-        result.predicted_ms += with_companion * substep_ms(method, scene, cloth, device);
+        result.predicted_ms +=
+            (result.substeps + with.companion + with.coarser) * substep_ms(method, scene, cloth, device);
     return result;
 }
 

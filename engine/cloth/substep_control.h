@@ -59,8 +59,9 @@ class SubstepControl {
     /// Keeps the frames although the last judgement says no.
     void keep_anyway();
     /// Tells how much of what its limit allows the motion's error has come to since the start, after a segment is kept
-    /// (cloth/motion_error.h); 0 where that is the motion's own doing. Errors that grow afterwards are not in a probe, so
-    /// where they come near the limit probes are judged more strictly, and where they are far from it there are fewer.
+    /// (cloth/motion_error.h); 0 where that is the motion's own doing. Errors that grow afterwards are not in a probe,
+    /// so where they come near the limit probes are judged more strictly, and where they are far from it there are
+    /// fewer.
     void accumulated(double share);
 
     /// Hands everything that changes, between segments, to `archive(members...)`, which writes or reads it

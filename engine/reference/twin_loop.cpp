@@ -51,11 +51,10 @@ TwinLoop::TwinLoop(const SimulationModel& model)
       sleep_(model),
       drive_(model),
       state_(model),
-      companion_(model),
-      disturbed_(model),
       state_substeps_(model.scene.solver.substeps),
-      companion_substeps_(state_substeps_),
-      disturbed_substeps_(state_substeps_),
+      companion_{state_, state_substeps_},
+      coarser_(companion_),
+      disturbed_(companion_),
       position_error_(model),
       sensitivity_(model) {}
 
@@ -83,27 +82,30 @@ std::vector<double> TwinLoop::differences(const Twin& fine, const Twin& coarse) 
     return all;
 }
 
-/// Simulates the kept segment's frames, which begin with the next one and end with `end`, in another twin. Returns how
-/// far that ends from it, by cloth, m.
-std::vector<double> TwinLoop::follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps, const Twin& end) {
-    if (substeps != of_history) beside.change_substep(at(substeps));
-    of_history = substeps;
-    for (std::uint32_t k = 0; k < control_.segment().frame_count; ++k) beside.run_frame(next_ + k);
-    return differences(end, beside);
+/// Simulates the kept segment's frames, which begin with the next one, in another twin.
+void TwinLoop::follow(Beside& beside, std::uint32_t substeps) {
+    if (substeps != beside.substeps) beside.twin.change_substep(at(substeps));
+    beside.substeps = substeps;
+    for (std::uint32_t k = 0; k < control_.segment().frame_count; ++k) beside.twin.run_frame(next_ + k);
 }
 
 void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
     const Segment& segment = control_.segment();
     const std::uint32_t last = next_ + segment.frame_count - 1;
-    const std::uint32_t coarse = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
-    position_error_.saw(last, follow(companion_, companion_substeps_, coarse, end), segment.substeps);
-    if (sensitivity_.runs())
-        sensitivity_.saw(last, follow(disturbed_, disturbed_substeps_, segment.substeps, end), position_error_);
+    const Companions with = companions_of(row_of(model_.scene.solver.method), segment.substeps);
+    follow(companion_, with.companion);
+    if (with.coarser > 0) follow(coarser_, with.coarser);
+    const std::vector<double> further =
+        with.coarser > 0 ? differences(companion_.twin, coarser_.twin) : std::vector<double>();
+    position_error_.saw(last, segment.substeps, differences(end, companion_.twin), further);
+    if (sensitivity_.runs()) {
+        follow(disturbed_, segment.substeps);
+        sensitivity_.saw(last, differences(end, disturbed_.twin), position_error_);
+    }
     if (sensitivity_.begins(last, position_error_)) {
         sensitivity_.begin(last);
-        disturbed_ = end;
-        disturbed_.disturb();
-        disturbed_substeps_ = segment.substeps;
+        disturbed_ = {end, segment.substeps};
+        disturbed_.twin.disturb();
     }
     control_.accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());
     note_motion(position_error_, sensitivity_, effort);

@@ -34,7 +34,12 @@ class TwinLoop {
     std::vector<ClothStatistics> statistics(Twin& twin, std::uint32_t frame, const SimulationModel& run) const;
     double motion(const Twin& fine, const Twin& coarse);
     std::vector<double> differences(const Twin& fine, const Twin& coarse) const;
-    std::vector<double> follow(Twin& beside, std::uint32_t& of_history, std::uint32_t substeps, const Twin& end);
+    /// A run beside the one that is handed out.
+    struct Beside {
+        Twin twin;
+        std::uint32_t substeps;  ///< of its history
+    };
+    void follow(Beside& beside, std::uint32_t substeps);
     void follow_segment(const Twin& end, FrameEffort& effort);
 
     const SimulationModel& model_;
@@ -45,8 +50,9 @@ class TwinLoop {
     Drive drive_;
     std::vector<std::vector<ClothStatistics>> attempt_statistics_;
     std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
-    Twin state_, companion_, disturbed_;
-    std::uint32_t next_ = 1, state_substeps_, companion_substeps_, disturbed_substeps_;
+    Twin state_;
+    std::uint32_t next_ = 1, state_substeps_;
+    Beside companion_, coarser_, disturbed_;
     double motion_error_ = 0;
     MotionError position_error_;
     Sensitivity sensitivity_;

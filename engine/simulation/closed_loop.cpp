@@ -17,8 +17,8 @@ namespace drape {
 
 std::span<const AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     using enum AttemptStep;
-    static constexpr std::array all{change_substep,    keep,    restore,          remember, compare,
-                                    compare_companion, disturb, compare_disturbed};
+    static constexpr std::array all{change_substep,  keep,    restore,          remember, compare, compare_companion,
+                                    compare_coarser, disturb, compare_disturbed};
     static_assert(all.size() == attempt_step_count);
     // Contact alone, whose lists may be too short, needs to keep and restore.
     const bool is_beside = set != StateSet::run, meets = model_.self_contact.has_value();

@@ -42,8 +42,7 @@ bool FrameLoop::lengthen_lists_of(StateSet set, std::uint32_t slot, const Finish
     return true;
 }
 
-std::vector<double> FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t substeps,
-                                      const Finished& finished) {
+void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished) {
     for (std::uint32_t k = 0; k < control_->segment().frame_count; ++k) {
         std::uint32_t slot = 0;
         do {
@@ -52,10 +51,11 @@ std::vector<double> FrameLoop::follow(StateSet set, std::uint32_t frame, std::ui
         } while (lengthen_lists_of(set, slot, finished));
         beside_substeps_[static_cast<std::size_t>(set)] = substeps;
     }
+}
+
+std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finished) {
     const std::uint32_t slot = take_slot(finished);
-    const bool is_companion = set == StateSet::companion;
-    slots_.submit(slot,
-                  {commands(is_companion ? AttemptStep::compare_companion : AttemptStep::compare_disturbed, slot)});
+    slots_.submit(slot, {commands(step, slot)});
     slots_.wait(slot);
     return solver_.differences(*pool_, slot);
 }
@@ -63,10 +63,17 @@ std::vector<double> FrameLoop::follow(StateSet set, std::uint32_t frame, std::ui
 void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
-    const std::uint32_t substeps = companion_substeps(row_of(model_.scene.solver.method), segment.substeps);
-    position_error_.saw(last, follow(StateSet::companion, frame, substeps, finished), segment.substeps);
-    if (sensitivity_.runs())
-        sensitivity_.saw(last, follow(StateSet::disturbed, frame, segment.substeps, finished), position_error_);
+    const Companions with = companions_of(row_of(model_.scene.solver.method), segment.substeps);
+    follow(StateSet::companion, frame, with.companion, finished);
+    if (with.coarser > 0) follow(StateSet::coarser, frame, with.coarser, finished);
+    const std::vector<double> apart = compared(AttemptStep::compare_companion, finished);
+    const std::vector<double> further =
+        with.coarser > 0 ? compared(AttemptStep::compare_coarser, finished) : std::vector<double>();
+    position_error_.saw(last, segment.substeps, apart, further);
+    if (sensitivity_.runs()) {
+        follow(StateSet::disturbed, frame, segment.substeps, finished);
+        sensitivity_.saw(last, compared(AttemptStep::compare_disturbed, finished), position_error_);
+    }
     if (sensitivity_.begins(last, position_error_)) {
         sensitivity_.begin(last);
         const std::uint32_t slot = take_slot(finished);

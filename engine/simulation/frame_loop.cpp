@@ -68,7 +68,7 @@ void FrameLoop::allocate_and_record() {
     }
     for_each_attempt([&](Frame& frame) { plans.emplace_back(&frame.graph, &frame.plan); });
     std::array<Frame, state_set_count> beside;  // their resources are those of every rung
-    for (const StateSet set : {StateSet::companion, StateSet::disturbed})
+    for (const StateSet set : {StateSet::companion, StateSet::coarser, StateSet::disturbed})
         if (Frame& frame = beside[static_cast<std::size_t>(set)]; model_.closed_loop()) {
             frame = build_beside(model_, set);
             plans.emplace_back(&frame.graph, &frame.plan);

@@ -232,8 +232,10 @@ class FrameLoop {
     Frame build_beside(const SimulationModel& run, StateSet set);
     /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
     void follow_segment(std::uint32_t frame, const Finished& finished);
-    /// Simulates them in a set. Returns how far it ends from the run, by cloth, m.
-    std::vector<double> follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished);
+    /// Simulates them in a set.
+    void follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished);
+    /// Returns what a step that compares finds, by cloth, m.
+    std::vector<double> compared(AttemptStep step, const Finished& finished);
     void submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);
     /// Whether the set's frame in the slot had lists of contact that were too short, and has longer ones now.
     bool lengthen_lists_of(StateSet set, std::uint32_t slot, const Finished& finished);

@@ -101,14 +101,16 @@ void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& s
                      {state.model->grid.columns(), state.model->grid.rows(), state.count}, {&state, nullptr, inputs});
 }
 
-void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle coarse) {
+void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle fine,
+                 graph::Handle coarse) {
     const Grid& grid = state.model->grid;
     graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
         difference_readback_name(state.name), difference_count(grid) * state.count, graph::Lifetime::host_output);
     constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
-    add_compute_pass(graph, state.pass_name("compare", "judge"), pipelines.get("difference.comp"),
-                     glsl::GridPush{grid.size()}, {grid.columns(), (grid.rows() + rows - 1) / rows, state.count},
-                     {&state, nullptr, {}, {{"coarse_position", &coarse}, {"partials", &partials}}});
+    add_compute_pass(
+        graph, state.pass_name("compare", "judge"), pipelines.get("difference.comp"), glsl::GridPush{grid.size()},
+        {grid.columns(), (grid.rows() + rows - 1) / rows, state.count},
+        {&state, nullptr, {}, {{"position", &fine}, {"coarse_position", &coarse}, {"partials", &partials}}});
 }
 
 graph::Handle position_in(graph::Graph& graph, const ClothState& state, StateSet set) {
@@ -161,13 +163,19 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case AttemptStep::remember:
             return add_remember(graph, state);
         case AttemptStep::compare:
-            return add_compare(graph, pipelines, state, copy_of(graph, state, Field::position, coarse_run));
+            return add_compare(graph, pipelines, state, state[Field::position],
+                               copy_of(graph, state, Field::position, coarse_run));
         case AttemptStep::compare_companion:
-            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion));
+            return add_compare(graph, pipelines, state, state[Field::position],
+                               position_in(graph, state, StateSet::companion));
+        case AttemptStep::compare_coarser:
+            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
+                               position_in(graph, state, StateSet::coarser));
         case AttemptStep::disturb:
             return add_disturb(graph, pipelines, state);
         case AttemptStep::compare_disturbed:
-            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::disturbed));
+            return add_compare(graph, pipelines, state, state[Field::position],
+                               position_in(graph, state, StateSet::disturbed));
     }
 }
 
