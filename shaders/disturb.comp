@@ -1,4 +1,4 @@
-// This pass displaces the particles of a run by next to nothing (include/disturb.h).
+// This pass begins a run whose particles are displaced by next to nothing (include/disturb.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/closed_loop_types.h"
@@ -10,12 +10,18 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(DisturbPush)
 #define TOGETHER
 #include "include/together.h"
-layout(set = 0, binding = 0, rgba32f) uniform image2D position;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D disturbed_position;
+
+vec3 at(ivec2 texel) { return LOAD(position, clamp(texel, ivec2(0), push.grid - 1)).xyz; }
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    vec4 at = LOAD(position, texel);
+    vec4 here = LOAD(position, texel);
+    precise vec3 along = at(texel + ivec2(1, 0)) - at(texel - ivec2(1, 0));
+    precise vec3 down = at(texel + ivec2(0, 1)) - at(texel - ivec2(0, 1));
     uint index = uint(texel.y * push.grid.x + texel.x);
-    imageStore(position, placed(texel), vec4(disturbed(at.xyz, at.w, index, push.amplitude), at.w));
+    imageStore(disturbed_position, placed(texel),
+               vec4(disturbed(here.xyz, here.w, along, down, index, push.amplitude), here.w));
 }

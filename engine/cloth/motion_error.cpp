@@ -10,7 +10,7 @@ namespace drape {
 namespace {
 
 /// s, within which an error that is not seen any more falls to 1/e.
-constexpr double hold = 0.5;
+constexpr double hold = 1.5;
 constexpr double least_order = 0.7, usual_order = 1.4, most_order = 2;
 
 }  // namespace

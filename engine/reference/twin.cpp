@@ -82,9 +82,18 @@ void Twin::disturb() {
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
         std::vector<vec4>& positions = cloths_[cloth][Field::position];
         const float amplitude = disturbance(model_->cloths[cloth]);
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            const vec3 there = disturbed(xyz(positions[i]), positions[i].w, static_cast<std::uint32_t>(i), amplitude);
-            positions[i] = {there.x, there.y, there.z, positions[i].w};
+        const std::vector<vec4> before = positions;
+        const ivec2 size = model_->cloths[cloth].grid.size();
+        const auto at = [&](int x, int y) {
+            return xyz(
+                before[static_cast<std::size_t>(std::clamp(y, 0, size.y - 1) * size.x + std::clamp(x, 0, size.x - 1))]);
+        };
+        for (int i = 0; i < size.x * size.y; ++i) {
+            vec4& own = positions[static_cast<std::size_t>(i)];
+            const int x = i % size.x, y = i / size.x;
+            const vec3 there = disturbed(xyz(own), own.w, at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1),
+                                         static_cast<std::uint32_t>(i), amplitude);
+            own = {there.x, there.y, there.z, own.w};
         }
     }
 }

@@ -81,7 +81,7 @@ void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const glsl::DisturbPush push{state.model->grid.size(), disturbance(*state.model)};
     add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp"), push,
                      {state.model->grid.columns(), state.model->grid.rows(), state.count},
-                     {&state, nullptr, {}, {{"position", &position}}});
+                     {&state, nullptr, {}, {{"disturbed_position", &position}}});
 }
 
 constexpr const char* coarse_run = " of the coarse run";

@@ -14,11 +14,15 @@ SHARED float scattered(uint seed) {
     return float(word >> 8u) * (1.0f / 8388608.0f) - 1.0f;
 }
 
-/// Returns where particle `index` is after it; one that is held, with `weight` 0, stays.
-SHARED vec3 disturbed(vec3 position, float weight, uint index, float amplitude) {
-    if (!(weight > 0.0f)) return position;
-    precise vec3 moved = amplitude * vec3(scattered(3u * index), scattered(3u * index + 1u), scattered(3u * index + 2u));
-    precise vec3 there = position + moved;
+/// Returns where particle `index` is after it; one that is held, with `weight` 0, stays. It goes across the cloth, whose
+/// lines through the particle have the directions `along` and `down`: a strain e within it would be no small
+/// disturbance, since cloth that does not stretch buckles by its root.
+SHARED vec3 disturbed(vec3 position, float weight, vec3 along, vec3 down, uint index, float amplitude) {
+    precise vec3 across = ordered_cross(along, down);
+    precise float size = abs(across.x) + abs(across.y) + abs(across.z);
+    if (!(weight > 0.0f) || !(size > 0.0f)) return position;
+    precise float way = amplitude * scattered(index) / size;
+    precise vec3 there = position + way * across;
     return there;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "cloth/frame_steps.h"
+#include "cloth/motion_error.h"
+#include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "support/sheets.h"
 
@@ -61,7 +63,8 @@ TEST(SolverChoiceTest, WindAndContactCostASubstepTheSameByEveryMethod) {
     const auto substep_ms = [](const SceneDescription& scene, SolverMethod method) {
         const SolverChoice choice = choose_solver(scene, DeviceKind::cpu);
         const SolverCandidate& candidate = of(choice, method);
-        return candidate.predicted_ms / candidate.substeps;
+        const Companions with = companions_of(row_of(method), candidate.substeps);
+        return candidate.predicted_ms / (candidate.substeps + with.companion + with.coarser);
     };
     const SceneDescription calm = automatic(20);
     SceneDescription windy = calm, met = calm, met_by_four = calm;
