@@ -11,7 +11,7 @@ namespace {
 
 /// s, within which an error that is not seen any more falls to 1/e.
 constexpr double hold = 1.5;
-constexpr double least_order = 0.7, usual_order = 1.4, most_order = 2;
+constexpr double least_order = 0.7, usual_order = 1.4, most_order = 3;
 
 }  // namespace
 

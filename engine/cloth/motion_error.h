@@ -27,8 +27,8 @@ Companions companions_of(const Method& method, std::uint32_t substeps);
 
 /// Returns Richardson's estimate of the error of n substeps. An error that falls with n to the power p has
 /// `apart` = C (n_c^-p - n^-p) from the companion, and that `further` = C (n_cc^-p - n_c^-p) from the coarser one; the
-/// two tell p, which lies between 0.7 (contact, and errors that substeps so long hardly show) and 2 (free motion that
-/// they resolve). Without a coarser one p is 1.4, the mean of what scenes showed.
+/// two tell p, taken between 0.7 (contact, and errors that substeps so long hardly show) and 3 (free motion has 2, solves
+/// that come to converge more). Without a coarser one p is 1.4, the mean of what scenes showed.
 double richardson_error(const Method& method, std::uint32_t substeps, double apart, double further);
 
 class MotionError {

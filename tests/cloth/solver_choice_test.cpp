@@ -7,7 +7,6 @@
 
 #include "cloth/frame_steps.h"
 #include "cloth/motion_error.h"
-#include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "support/sheets.h"
 

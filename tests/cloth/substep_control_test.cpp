@@ -177,6 +177,36 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_EQ(verdict, Verdict::give_up);
 }
 
+TEST(SubstepControl, AnErrorNearItsLimitMakesProbesStricter) {
+    SubstepControl loop = control(16);
+    const Judgement passes{.stretch = 0.1, .motion = 0.6, .coarse_stretch = 0.3};
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge(passes), Verdict::keep);
+    loop.accumulated(1.4);  // twice what is comfortable
+    while (!loop.begin(6, false).probes) loop.judge(passes);
+    EXPECT_EQ(loop.judge(passes), Verdict::again);
+    SubstepControl sensitive = control(16);
+    sensitive.begin(6, false);
+    EXPECT_EQ(sensitive.judge(passes), Verdict::keep);
+    sensitive.accumulated(0);
+    while (!sensitive.begin(6, false).probes) sensitive.judge(passes);
+    EXPECT_EQ(sensitive.judge(passes), Verdict::keep);
+}
+
+TEST(SubstepControl, WithoutProbesSubstepsFollowTheErrorAndComeBack) {
+    SubstepControl loop(row_of(SolverMethod::explicit_steps), 16, 2, 6);
+    const auto frame = [&](double share) {
+        EXPECT_FALSE(loop.begin(6, false).probes);
+        EXPECT_EQ(loop.judge({.stretch = 0.1}), Verdict::keep);
+        loop.accumulated(share);
+    };
+    for (int k = 1; k <= 20; ++k) frame(0.5 + 0.1 * k);
+    const std::uint32_t most = loop.segment().substeps;
+    EXPECT_EQ(most, 128u) << "six rungs above the proposal";
+    for (int k = 0; k < 20; ++k) frame(0.05);
+    EXPECT_EQ(loop.segment().substeps, 16u);
+}
+
 /// Judges frames whose only trouble is that at fewer substeps than that something drawn may pass a collider.
 std::uint32_t substeps_taken(SubstepControl& loop, double needed, std::uint32_t& attempts) {
     loop.begin(1, false);
