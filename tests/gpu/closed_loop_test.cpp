@@ -54,7 +54,8 @@ std::uint64_t count_of(const graph::Graph& graph, ContactField field) {
 bool same(const FrameEffort& a, const FrameEffort& b) {
     const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
     return a.substeps == b.substeps && a.attempts == b.attempts && a.predictable == b.predictable &&
-           a.asleep == b.asleep && equal(a.motion_error, b.motion_error) && equal(a.position_error, b.position_error);
+           a.asleep == b.asleep && equal(a.motion_error, b.motion_error) && equal(a.position_error, b.position_error) &&
+           equal(a.position_allowed, b.position_allowed) && a.sensitive == b.sensitive && equal(a.parted, b.parted);
 }
 
 Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) {
@@ -122,6 +123,22 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
     scene.solver.tolerance = 0.004;
     scene.solver.tolerance_motion = 0.5;
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
+}
+
+/// Rigid cloth let go level buckles by whatever there is.
+TEST(ClosedLoop, CrumplingClothIsSensitive) {
+    SceneDescription scene = test::sheet(17, 17, 0.3, 0.3, 1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(16, 0, 16, 0)};
+    cloth.stiffness.rigid = true;
+    cloth.areal_density = 0.03;
+    scene.time.fps = 60;
+    scene = automatic(scene, 30);
+    const Seen seen = compare_loops(scene);
+    EXPECT_FALSE(seen.efforts.front().sensitive);
+    EXPECT_TRUE(seen.efforts.back().sensitive);
+    EXPECT_GT(seen.efforts.back().parted, 0);
 }
 
 /// A sheet is thrown at a thin shelf so fast that contact is sure of nothing with the substeps that its stretch takes.
