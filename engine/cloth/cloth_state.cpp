@@ -25,7 +25,7 @@ bool gathers(Context c) { return c.cloth.scheme.spare_state; }
 bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; }
 bool second_order(Context c) { return c.cloth.scheme.second_order; }
 bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
-bool judged(Context c) { return c.needs.statistics || c.model.closed_loop(); }
+bool judged(Context c) { return c.needs.statistics || c.model.has_companions(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }

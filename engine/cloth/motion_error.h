@@ -13,7 +13,7 @@
 
 namespace drape {
 
-/// The stated error is within this factor of the true one in four of five scenes (docs/accuracy.md).
+/// The stated error is within this factor of the true one in three of four scenes (docs/accuracy.md).
 inline constexpr double motion_error_confidence = 3;
 
 /// The substeps of the runs beside one.

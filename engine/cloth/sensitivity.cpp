@@ -9,7 +9,7 @@ namespace {
 /// The disturbed run begins when the estimated error is this share of what the motion's limit allows.
 constexpr double matters = 0.5;
 /// Runs that part by this share of the estimated error are as far apart as any.
-constexpr double as_far = 0.5;
+constexpr double as_far = 0.3;
 /// s: without having parted by `on_the_way` of it, the run ends after the first time, in any case after the second.
 constexpr double patience = 1, most_patience = 3, on_the_way = 0.01;
 /// s until it may begin again.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
 #include "shared/collider_types.h"
@@ -61,7 +62,9 @@ SimulationModel::StretchLimits SimulationModel::stretch_limits() const {
 }
 
 std::uint32_t SimulationModel::most_substeps() const {
-    return closed_loop() ? substep_rungs(row_of(scene.solver.method)).back() : scene.solver.substeps;
+    const std::uint32_t own = scene.solver.substeps;
+    if (closed_loop()) return substep_rungs(row_of(scene.solver.method)).back();
+    return has_companions() ? std::max(own, companions_of(row_of(scene.solver.method), own).companion) : own;
 }
 
 bool SimulationModel::ends_iterations() const {

@@ -38,6 +38,8 @@ struct SimulationModel {
     const SolverMethodName& method() const { return named(scene.solver.method); }
     /// Returns whether frames are judged and done again with other substeps where they fail (cloth/substep_control.h).
     bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
+    /// Returns whether the position error is estimated (cloth/motion_error.h).
+    bool has_companions() const { return closed_loop() || scene.solver.estimate_error; }
     /// A closed loop keeps these largest stretch errors: the scene's, or the defaults.
     struct StretchLimits {
         double rms, worst;

@@ -180,7 +180,7 @@ void SubstepControl::accumulated(double share) {
     share_ = share;
 }
 
-/// Of a method without probes the companion alone says whether the motion takes more than its law proposed.
+/// Without probes the companion alone says whether the motion takes more than the method's law proposed.
 void SubstepControl::follow_share(double share) {
     constexpr double high = 0.5, low = 0.1;
     if (share > high && share >= share_ && rung_ < std::min(proposed_ + 6, rungs_.size() - 1))

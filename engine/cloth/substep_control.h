@@ -78,7 +78,6 @@ class SubstepControl {
 
   private:
     std::size_t rung_of(double substeps) const;
-    std::size_t below(std::size_t rung, std::size_t by) const { return rung > lowest_ + by ? rung - by : lowest_; }
     bool passes(const Judgement& judgement) const;
     bool lags(const Judgement& judgement) const;
     bool lags_alike(const Judgement& judgement) const;

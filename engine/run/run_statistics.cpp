@@ -120,7 +120,7 @@ std::optional<double> RunStatistics::energy_drift(const FrameValues& values) con
 }
 
 std::optional<std::string> RunStatistics::inexact_motion() const {
-    if (!exact_ || !(exact_->value > exact_->allowed)) return std::nullopt;
+    if (sensitive_ || !exact_ || !(exact_->value > exact_->allowed)) return std::nullopt;
     return fmt::format(
         "at frame {} positions are about {:.2g} mm from the exact motion (by an estimate that is right within a factor "
         "of {}), where solver.tolerance_motion allows {:.2g} mm; a smaller one takes more substeps",

@@ -38,7 +38,7 @@ class RunStatistics {
     std::optional<double> worst_of_run(std::string_view name) const { return worst(largest_, name); }
 
     /// Returns what to warn of where the last frame's estimated position error is above what is allowed, and what the
-    /// scene can do about it; of frames before the motion is sensitive.
+    /// scene can do about it: nothing where the motion is sensitive.
     std::optional<std::string> inexact_motion() const;
     /// Returns what to note where exact positions mean nothing from some frame on.
     std::optional<std::string> sensitive_motion() const;
@@ -56,7 +56,7 @@ class RunStatistics {
     std::optional<std::pair<std::uint32_t, std::optional<double>>> first_;  ///< frame, its energy
     FrameValues largest_;                                                   ///< largest value of every name
     std::optional<Motion> sensitive_;  ///< the first frame that is, and how far runs had parted
-    std::optional<Motion> exact_;      ///< the last frame that is not, and its position error
+    std::optional<Motion> exact_;      ///< the last frame that is not, with its position error
 };
 
 }  // namespace drape

@@ -357,6 +357,10 @@ const Object<SolverSettings> solver{
         {"tolerance_motion", &SolverSettings::tolerance_motion, number(not_negative),
          "Method auto: largest error of the motion, RMS over the cloth in metres per second of simulated time, as "
          "estimated by running some frames with half the substeps too. 0: 0.02 of the cloth's longer side a second."},
+        {"estimate_error", &SolverSettings::estimate_error, boolean(),
+         "Whether the position error of a method that is named is estimated, by companion runs with a quarter and an "
+         "eighth of the substeps (explicit: half as many more): position_error_m in the manifest. Method auto always "
+         "does."},
         {"tethers", &SolverSettings::tethers, boolean(),
          "Whether every particle is kept within the cloth's reach of the nearest particle of each of the two nearest "
          "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "

@@ -15,15 +15,17 @@
 
 namespace drape {
 
-std::span<const AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
+std::vector<AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     using enum AttemptStep;
-    static constexpr std::array all{change_substep,  keep,    restore,          remember, compare, compare_companion,
-                                    compare_coarser, disturb, compare_disturbed};
-    static_assert(all.size() == attempt_step_count);
-    // Contact alone, whose lists may be too short, needs to keep and restore.
-    const bool is_beside = set != StateSet::run, meets = model_.self_contact.has_value();
-    if (!model_.closed_loop()) return std::span(all).subspan(1, meets && !is_beside ? 2 : 0);
-    return is_beside ? std::span(all).first(meets ? 3 : 1) : all;
+    const bool closed = model_.closed_loop(), meets = model_.self_contact.has_value(), is_run = set == StateSet::run;
+    if (!is_run && !has_set(set)) return {};
+    std::vector<AttemptStep> steps;
+    if (!is_run || closed) steps.push_back(change_substep);
+    // Lists of contact may be too short.
+    if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
+    if (is_run && closed) steps.insert(steps.end(), {remember, compare, disturb, compare_disturbed});
+    if (is_run && model_.has_companions()) steps.insert(steps.end(), {compare_companion, compare_coarser});
+    return steps;
 }
 
 template <class Visit>

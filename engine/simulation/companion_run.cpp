@@ -1,5 +1,5 @@
-// Beside the run of a closed loop others are simulated after each segment that is kept, in images of their own: the
-// companion (cloth/motion_error.h), and at times the disturbed run (cloth/sensitivity.h). Nothing of them is handed out
+// Beside a run others are simulated in images of their own: companions (cloth/motion_error.h), in a closed loop after
+// each segment that is kept, and there at times the disturbed run (cloth/sensitivity.h). Nothing of them is handed out
 // but how far they are from the run.
 #include <algorithm>
 #include <cstring>
@@ -42,8 +42,9 @@ bool FrameLoop::lengthen_lists_of(StateSet set, std::uint32_t slot, const Finish
     return true;
 }
 
-void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished) {
-    for (std::uint32_t k = 0; k < control_->segment().frame_count; ++k) {
+void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                       const Finished& finished) {
+    for (std::uint32_t k = 0; k < count; ++k) {
         std::uint32_t slot = 0;
         do {
             slot = take_slot(finished);
@@ -51,6 +52,15 @@ void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t substeps
         } while (lengthen_lists_of(set, slot, finished));
         beside_substeps_[static_cast<std::size_t>(set)] = substeps;
     }
+}
+
+std::vector<double> FrameLoop::follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                                                      const Finished& finished) {
+    const Companions with = companions_of(row_of(model_.scene.solver.method), substeps);
+    follow(StateSet::companion, frame, count, with.companion, finished);
+    if (with.coarser == 0) return {};
+    follow(StateSet::coarser, frame, count, with.coarser, finished);
+    return compared(AttemptStep::compare_coarser, finished);
 }
 
 std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finished) {
@@ -63,15 +73,10 @@ std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finish
 void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
-    const Companions with = companions_of(row_of(model_.scene.solver.method), segment.substeps);
-    follow(StateSet::companion, frame, with.companion, finished);
-    if (with.coarser > 0) follow(StateSet::coarser, frame, with.coarser, finished);
-    const std::vector<double> apart = compared(AttemptStep::compare_companion, finished);
-    const std::vector<double> further =
-        with.coarser > 0 ? compared(AttemptStep::compare_coarser, finished) : std::vector<double>();
-    position_error_.saw(last, segment.substeps, apart, further);
+    const std::vector<double> further = follow_with_companions(frame, segment.frame_count, segment.substeps, finished);
+    position_error_.saw(last, segment.substeps, compared(AttemptStep::compare_companion, finished), further);
     if (sensitivity_.runs()) {
-        follow(StateSet::disturbed, frame, segment.substeps, finished);
+        follow(StateSet::disturbed, frame, segment.frame_count, segment.substeps, finished);
         sensitivity_.saw(last, compared(AttemptStep::compare_disturbed, finished), position_error_);
     }
     if (sensitivity_.begins(last, position_error_)) {

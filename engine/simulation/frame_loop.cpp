@@ -69,7 +69,7 @@ void FrameLoop::allocate_and_record() {
     for_each_attempt([&](Frame& frame) { plans.emplace_back(&frame.graph, &frame.plan); });
     std::array<Frame, state_set_count> beside;  // their resources are those of every rung
     for (const StateSet set : {StateSet::companion, StateSet::coarser, StateSet::disturbed})
-        if (Frame& frame = beside[static_cast<std::size_t>(set)]; model_.closed_loop()) {
+        if (Frame& frame = beside[static_cast<std::size_t>(set)]; has_set(set)) {
             frame = build_beside(model_, set);
             plans.emplace_back(&frame.graph, &frame.plan);
         }
@@ -195,8 +195,10 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     std::vector<VkCommandBuffer> commands;
     if (has.simulates && model_.self_contact) commands.push_back(this->commands(AttemptStep::keep, slot));
     commands.push_back(frames_[static_cast<std::size_t>(kind)].recorded->commands(slot));
+    if (has.simulates && model_.has_companions())
+        commands.push_back(this->commands(AttemptStep::compare_companion, slot));
     slots_.submit(slot, commands);
-    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
+    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt, {}};
     if (has.simulates && options_.meanwhile) options_.meanwhile();
 }
 
@@ -237,6 +239,7 @@ void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
         begin_anew();
         const InFlight again = *in_flight_[slot];
         submit(slot, again.frame, again.kind, again.output);
+        in_flight_[slot]->further = again.further;
     }
 }
 
@@ -255,6 +258,10 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     }
     for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
         result.timings.push_back({std::move(timing.name), timing.milliseconds});
+    if (contents(done.kind).simulates && model_.has_companions()) {
+        position_error_.saw(done.frame, done.substeps, solver_.differences(*pool_, slot), done.further);
+        note_motion(position_error_, sensitivity_, result.effort);
+    }
     if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_record(*pool_, slot));
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
@@ -348,8 +355,11 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
                 tell_passed_over(frame + 1);
             continue;
         }
+        std::vector<double> further;
+        if (model_.has_companions() && frame > 0) further = follow_with_companions(frame, 1, state_substeps_, finished);
         const std::uint32_t slot = take_slot(finished);
         submit(slot, frame, kind_of(frame, output, cutting), output);
+        in_flight_[slot]->further = std::move(further);
         if (model_.self_contact && frame > 0) fit_lists(slot, finished);
         if (cutting) take_cuts_of(slot, frame, finished);
     }

@@ -133,6 +133,7 @@ class FrameLoop {
         bool output = false;
         std::uint32_t substeps = 0;  ///< substeps of the state's history
         std::optional<Judged> judged;
+        std::vector<double> further;  ///< of a named method's companions (MotionError::saw)
     };
     /// A closed loop's frame at one number of substeps.
     struct Rung {
@@ -182,7 +183,10 @@ class FrameLoop {
 
     // These are in closed_loop.cpp.
     /// Returns the steps that the loop takes in a set.
-    std::span<const AttemptStep> attempt_steps(StateSet set) const;
+    std::vector<AttemptStep> attempt_steps(StateSet set) const;
+    bool has_set(StateSet set) const {
+        return set == StateSet::disturbed ? model_.closed_loop() : model_.has_companions();
+    }
     void build_attempts();
     Frame& attempt(AttemptStep step, StateSet set = StateSet::run) {
         return attempts_[static_cast<std::size_t>(set)][static_cast<std::size_t>(step)];
@@ -232,8 +236,12 @@ class FrameLoop {
     Frame build_beside(const SimulationModel& run, StateSet set);
     /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
     void follow_segment(std::uint32_t frame, const Finished& finished);
-    /// Simulates them in a set.
-    void follow(StateSet set, std::uint32_t frame, std::uint32_t substeps, const Finished& finished);
+    /// Simulates the companions of frames from `frame` on. Returns how far they are apart, by cloth, m.
+    std::vector<double> follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                                               const Finished& finished);
+    /// Simulates frames in a set.
+    void follow(StateSet set, std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                const Finished& finished);
     /// Returns what a step that compares finds, by cloth, m.
     std::vector<double> compared(AttemptStep step, const Finished& finished);
     void submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);

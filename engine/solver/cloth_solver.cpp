@@ -123,7 +123,7 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
     if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
-    if (model_.closed_loop())
+    if (model_.has_companions())
         inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer({.name = "colliders",

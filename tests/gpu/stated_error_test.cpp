@@ -1,4 +1,4 @@
-// What method `auto` states of its motion is held against runs with so many substeps that their own error is small:
+// The error that method `auto` states of its motion is held against runs with so many substeps that their own error is small:
 // scenes in which it once stated a third of the error and less, or refined until the motion was worse.
 #include <gtest/gtest.h>
 

@@ -28,9 +28,9 @@ struct FrameEffort {
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
-    /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated.
+    /// the worst cloth's mass, m, true within a factor of 3 in three of four scenes; NaN where nothing was simulated.
     double position_error = std::numeric_limits<double>::quiet_NaN();
-    /// What tolerance_motion allows until then, m.
+    /// The position error that tolerance_motion allows until then, m.
     double position_allowed = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` found that equally exact runs part as far as position_error says (cloth that crumples): positions
     /// have no truth from here on. Stretch, contact and means hold all the same.
