@@ -37,10 +37,10 @@ TEST(TethersTest, OnePinGivesOneTetherAndNoneGivesNone) {
 }
 
 TEST(TethersTest, PathsGoAroundAHoleAndAreNeverTooShort) {
-    const double square[2] = {0.1, 0.1};
+    const double cell[2] = {0.1, 0.1};
     const IndexBox hole{{3, 0}, {7, 8}};  // open at the top: the way leads below it
     const Grid grid(11, 11, std::vector<IndexBox>{hole});
-    const auto tethers = find_tethers(grid, square, {test::pin_box(0, 0, 0, 0)}, 0);
+    const auto tethers = find_tethers(grid, cell, {test::pin_box(0, 0, 0, 0)}, 0);
     const glsl::ParticleTethers& beyond = tethers[grid.particle(10, 0)];
     EXPECT_EQ(beyond.anchor_a, 0);
     // The way goes round the hole's lower corners: it is never shorter than the taut string, and at most 8.3 % longer.

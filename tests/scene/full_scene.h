@@ -38,7 +38,7 @@ inline constexpr const char* full_scene = R"json({
                  {"radius": 0.125}]},
   "overlap": "refuse",
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],
-  "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01, "tolerance_worst": 0.2, "tolerance_motion": 0.03, "strain_damping": 0.05, "tethers": true},
+  "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01, "tolerance_worst": 0.2, "tolerance_motion": 0.03, "estimate_error": true, "strain_damping": 0.05, "tethers": true},
   "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},
   "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
   "ambient": [0.1, 0.2, 0.3],

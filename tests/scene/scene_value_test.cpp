@@ -27,7 +27,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
     EXPECT_EQ(scene.overlap, Overlap::refuse);
     EXPECT_EQ(scene.solver,
-              (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, CollideWhen::substep, true, 0.05}));
+              (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, true, CollideWhen::substep, true, 0.05}));
     EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
